@@ -306,8 +306,9 @@ def hung(motion: Motion, turns: float, samples: int) -> dict[str, TransmissionEr
     composition, at = motion._unset, np.arange(samples)
     parts = [composition.at(turns * (each / (samples - 1))) for each in np.split(at, range(30_000, samples, 30_000))]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
+    angle = 2 * np.pi * np.concatenate([part[0] for part in parts])
     return {
-        tally.name: TransmissionErrorCurve(tally.name, tally.ratio, error[row], tally.mean + rate[row])
+        tally.name: TransmissionErrorCurve(tally.name, tally.ratio, angle, error[row], tally.mean + rate[row])
         for row, tally in enumerate(motion._statistics())
     }
 

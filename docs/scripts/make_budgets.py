@@ -124,7 +124,7 @@ def _write(each: Told) -> None:
         picture = _picture(each.stem, at, budget)
         lines += [f"![What each pointer's error comes from]({picture})", ""] if picture else []
         text = to_markdown([describe_budget(budget)])
-        lines += [*text.replace("\n## ", "\n### ").replace("# The", "## The", 1).splitlines(), ""]
+        lines += [*text.replace("\n## ", "\n### ").replace("# Error budget", "## Error budget", 1).splitlines(), ""]
     (FOLDER / f"{each.stem}.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 

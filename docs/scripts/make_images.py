@@ -3,15 +3,12 @@ their law, pointers in motion, power that circulates, gears on a sphere, tooth s
 
 from __future__ import annotations
 
-import io
-import re
 import subprocess
 import sys
 from fractions import Fraction
 from math import radians
 from pathlib import Path
 
-from rich.console import Console
 from stills import can_draw, gif, stills
 
 import geartrain
@@ -25,20 +22,16 @@ from geartrain.drawing import (
     triangular_figure,
 )
 from geartrain.dynamics import MotionRun, find_power_flow
-from geartrain.report import Document, collect_report, describe_train
-from geartrain.report.text import to_terminal
 from geartrain.scene import build_scene
 from geartrain.spherical import GearSphere, from_polyhedron
 
 IMAGES = Path(__file__).resolve().parents[1] / "images"
-SECTIONS = ("Fundamental circuits", "Mobility", "Against the targets")
 
 
 def main() -> None:
     """Write the pictures."""
     IMAGES.mkdir(exist_ok=True)
     turning()
-    report()
     teeth()
     pointers()
     power()
@@ -113,19 +106,6 @@ def sphere() -> None:
     found = GearSphere(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}))
     (IMAGES / "sphere.svg").write_bytes(render(sphere_figure(*found.pose()), ".svg"))
     print("wrote docs/images/sphere.svg")
-
-
-def report() -> None:
-    """Part of the report on the Antikythera train."""
-    whole = describe_train(collect_report(geartrain.load("pennestri-2002")))
-    part = Document(whole.title, whole.summary, [section for section in whole.sections if section.title in SECTIONS])
-    console = Console(record=True, width=100, highlight=False, file=io.StringIO(), force_terminal=True)
-    to_terminal([part], console)
-    title = "geartrain report trains/antikythera/pennestri-2002.yaml"
-    picture = console.export_svg(title=title, unique_id="report")
-    picture = re.sub(r"@font-face \{.*?\}\s*", "", picture, flags=re.DOTALL)  # no fonts from elsewhere
-    (IMAGES / "report.svg").write_text(picture, encoding="utf-8")
-    print("wrote docs/images/report.svg")
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ right for the one is not for the other. Millwrights gave both stones the same la
 Seen in the pictures of its steps: the fixed wheels 49, 51 and 56 stand on a fixed pipe round the Moon's arbor, from a
 plate of the frame through the tube of b; before them b goes out to its dial by an arm, which a bar beside the axis
 joins to b1, as the published design joins b0. Slots of the followers are bars that turn through the room of other
-wheels, and arbors on b1 go through wheels of others where levels are found for all; what is drawn so cannot be put
+wheels, and arbors on b1 pass through wheels of others where levels are found for all; what is drawn so cannot be put
 together.
 """,
 }

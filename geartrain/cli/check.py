@@ -24,7 +24,6 @@ def run(
 def _check(file: str, quiet: bool) -> int:
     from geartrain.analysis.gear_train import load
     from geartrain.report.soundness import find_soundness
-    from geartrain.train.trade_words import told_words
 
     try:
         found = find_soundness(load(file), file)
@@ -33,6 +32,4 @@ def _check(file: str, quiet: bool) -> int:
         return NOT_USABLE
     for line in found.lines(quiet):
         emit(line)
-    if not quiet and (words := told_words("\n".join(found.failures))):
-        emit(words)
     return GOOD if found else VERDICT

@@ -81,13 +81,9 @@ def tell(text: str) -> None:
 
 
 def complain(error: GearTrainError) -> None:
-    """Print every problem on standard error, with the names that manufacturers and historians use."""
-    from geartrain.train.trade_words import told_words
-
+    """Print every problem on standard error."""
     for problem in error.problems:
         tell(f"error: {problem}")
-    if words := told_words("\n".join(map(str, error.problems))):
-        tell(words)
 
 
 @dataclass(frozen=True)

@@ -52,11 +52,8 @@ def solve(
         emit(as_json(collect_answers(train, answers, whole=output is None)), to)
     else:
         from geartrain.report.answers import speeds_text
-        from geartrain.train.trade_words import told_words
 
-        words = told_words("\n".join(str(answer.verdict) for answer in answers if not answer))
-        tables = (speeds_text(answer, output, train.kinematics.joint_sums) for answer in answers)
-        emit("\n".join((*tables, *filter(None, [words]))), to)
+        emit("\n".join(speeds_text(answer, output, train.kinematics.joint_sums) for answer in answers), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)
 
 

@@ -255,4 +255,4 @@ def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
     if face.name and (shown := scale.told(reading.at * scale.way)):  # a plain face has ticks and no cells
         text += f", {shown}"
     way = pointer.text.removesuffix(" as read")
-    return f"{pointer.output}: {text}" + (f", {way}" if way == "stands still" else f", going {way}" if way else "")
+    return f"{pointer.output}: {text}" + (f", {way}" if way == "at rest" else f", going {way}" if way else "")

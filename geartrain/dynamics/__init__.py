@@ -1,14 +1,14 @@
-"""Torques, losses and transmission error: the effects of loads, friction and real teeth on a train.
+"""Torques, losses and transmission errors: the effects of loads, friction and real teeth on a train.
 
-In: circuits, exact speeds and loads of a state, and what is known of each gear pair. Out: torques, powers, efficiencies
-and who drives whom; every link's angle at every position, with the error of its teeth. A user calls
-`GearTrain` (`torques`, `driven`, `motion`, `strength`, `dynamics`), or one of the functions here with
-`GearTrain.mechanics`, and gets the results that are here.
+Input: circuits, exact speeds and loads of a state, and the known data of each gear pair. Output: torques, powers,
+efficiencies, the driving wheel of each pair, and the angle of every link at every position including transmission
+errors. Call the methods of `GearTrain` (`torques`, `driven`, `motion`, `strength`, `dynamics`), or one of the functions
+here with `GearTrain.mechanics`. Both return the classes of this package.
 
-Torques balance by the transpose of the Willis system, A^T x + T = 0 (docs/torques.md, equation 3), and each pair loses
-by the direction of power in its carrier's frame (5). Errors of pairs spread by the same rows,
-a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2), each error taken at the angle to which the others
-have moved its driver (3).
+Torques are balanced with the transpose of the Willis system, A^T x + T = 0 (docs/torques.md, equation 3). The loss of
+each pair follows from the direction of power in the frame of its carrier (5). Transmission errors propagate by the same
+rows, a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2). Each error is evaluated at the angle to
+which the other errors have moved its driver (3).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The wheels of a train as they are cut, without a layout: their modules, and their teeth in modules."""
+"""Modules and tooth outlines of the wheels of a train as they are cut, without a layout."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class _Place(NamedTuple):
 
 
 def find_modules(declared: Train) -> Mapping[str, float]:
-    """Transverse modules (m) of wheels that declare one with a unit, and of all that are connected with these."""
+    """Return transverse modules [m] of all wheels that declare one with a unit or are connected to such a wheel."""
     found = {
         name: wheel.transverse_module
         for name, (_, wheel) in declared.wheels.items()
@@ -43,7 +43,10 @@ def find_modules(declared: Train) -> Mapping[str, float]:
 
 
 def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
-    """The teeth (modules) of all wheels that lie in a plane, and why others have none; none where a form is faulty."""
+    """Return the teeth of all plane wheels, in modules, and why the others have none.
+
+    If a tooth form is faulty no wheel has teeth.
+    """
     places = _places(train.declaration)
     try:
         return find_train_teeth(train, places)
@@ -51,8 +54,8 @@ def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
         return TrainTeeth({}, dict.fromkeys(places, error.problems), {}, frozenset(), ())
 
 
-def find_odd_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
-    """Rule W3 of a declaration: the pairs of a wheel agree on its teeth."""
+def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
+    """Yield a note under rule W3 for every wheel whose pairs require different teeth."""
     declared = train.declaration
     for name, problem in find_disagreements(train, _places(declared)).items():
         place = declared.place("links", declared.wheels[name][0], "wheels", name)
@@ -60,7 +63,7 @@ def find_odd_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
 
 
 def not_cut(wheel: str, problem: Problem) -> Problem:
-    """Why a wheel is not cut, with its name."""
+    """Return the reason why a wheel is not cut, with the wheel's name."""
     return replace(problem, what=f"wheel '{wheel}' is not cut: {problem.what}")
 
 
@@ -69,6 +72,6 @@ def _places(declared: Train) -> Mapping[str, _Place]:
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """0 of a wheel that meets spur wheels only."""
+    """Return 0 if a wheel meshes only with spur wheels, else 1."""
     mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
     return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

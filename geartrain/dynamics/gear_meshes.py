@@ -1,8 +1,8 @@
-"""From a declared train to its real teeth: every gear pair with a tooth form, every pin whose dimensions are known.
+"""Gear meshes with real teeth and pins with declared dimensions, built from the declaration of a train.
 
-And how large they are where only their shape is declared: triangular teeth have sizes up to a scale, and a wheel with
-several mates has one size, so from the first pair of wheels that are connected the others follow (breadth first), each
-at the distance its own law asks for.
+It also finds sizes where only the shape of teeth is declared. Triangular teeth have sizes up to a scale, and a wheel
+with several mates has a single size. The sizes therefore follow from the first pair of every connected set, by
+breadth-first search, each pair at the centre distance that its transmission function requires.
 """
 
 from __future__ import annotations
@@ -26,30 +26,31 @@ if TYPE_CHECKING:
 
 
 ShaftAngle = Callable[[GearPair], float | None]
-"""The angle (rad) under which the axes of a pair meet; None where they are parallel."""
+"""Function that returns the shaft angle of a pair [rad], or None for parallel axes."""
 
 
 @dataclass(frozen=True)
 class PinMesh:
-    """A coupling whose dimensions are declared, with its law."""
+    """Coupling with declared dimensions, and its transmission function."""
 
     coupling: Coupling
     transmission: PinToSlotTransmission
 
     @property
     def reversed(self) -> SlotToPinTransmission:
-        """The law with the slot driving, which no follower can."""
+        """Transmission function with the slot driving. No follower can be driven this way all round."""
         from geartrain.teeth.pin_transmission import SlotToPinTransmission
 
         return SlotToPinTransmission(self.transmission.r, self.transmission.e, self.transmission.friction)
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
-    """Every gear pair with real teeth, by name: its first wheel drives unless `GearMesh.driven_by` says otherwise.
+    """Return every gear pair with real teeth, by name.
 
-    The teeth of a pair are made when it is first read, which raises `GearTrainError` where they cannot be built.
+    The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built when the
+    pair is first read, which raises `GearTrainError` if they cannot be built.
 
-    shaft_angle   of a pair; asked only where teeth need it
+    shaft_angle   function of a pair, called only where the teeth need the angle
     """
     forms = {gear.name: (at, gear, train.form_of(gear)) for at, gear in enumerate(train.gears)}
 
@@ -71,7 +72,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
 
 
 def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
-    """All of them. Raises `GearTrainError` with all pairs whose teeth cannot be built."""
+    """Build all meshes. Raise `GearTrainError` with all pairs whose teeth cannot be built."""
     problems: list[Problem] = []
     for name in meshes:
         try:
@@ -84,7 +85,7 @@ def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
 
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
-    """The wheels of a pair as its tooth form reads them."""
+    """Return the wheels of a pair in the form that tooth forms read."""
     first, second = (train.wheels[name][1] for name in gear.pair)
     friction = train.friction_of(gear)
     return MeshingWheels(
@@ -102,19 +103,19 @@ def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
 
 
 def _kind(wheel: Wheel) -> str:
-    """How its teeth stand; those that lean are no spur teeth."""
+    """Return the kind of a wheel: helical teeth count as a kind of their own, not as spur teeth."""
     return "helical" if wheel.is_helical else wheel.kind
 
 
 def _width(train: Train, *wheels: Wheel) -> float | None:
-    """Of the narrower wheel (m); None where nothing says it."""
+    """Return the face width of the narrowest wheel [m], or None if it is not declared."""
     declared = [wheel.thickness or train.thickness for wheel in wheels]
     given = [width.si for width in declared if width is not None]
     return min(given) if len(given) == len(wheels) else None
 
 
 def _pitch_distance(*wheels: Wheel) -> float | None:
-    """Half the modules times the teeth, summed (m); None unless all wheels declare a module with a unit."""
+    """Return the sum of the pitch radii [m], or None unless all wheels declare a module with a unit."""
     halves = [
         wheel.transverse_module * wheel.count / 2
         for wheel in wheels
@@ -124,7 +125,7 @@ def _pitch_distance(*wheels: Wheel) -> float | None:
 
 
 def find_pins(train: Train) -> tuple[PinMesh, ...]:
-    """Every coupling whose dimensions are declared."""
+    """Return every coupling with declared dimensions."""
     return tuple(
         PinMesh(coupling, coupling.transmission)
         for coupling in train.couplings
@@ -133,7 +134,7 @@ def find_pins(train: Train) -> tuple[PinMesh, ...]:
 
 
 def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
-    """The sizes of all pairs with real teeth and parallel axes, by name."""
+    """Return the sizes of all pairs with real teeth and parallel axes, by name."""
     tips: dict[str, float] = {}
     found = {}
     for mesh in _in_order(meshes):
@@ -145,7 +146,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 
 
 def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
-    """The pairs with real teeth and parallel axes as they are cut, by name."""
+    """Return the outlines of all pairs with real teeth and parallel axes as they are cut, by name."""
     from geartrain.dynamics.wheel_teeth import CHORD
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
 
@@ -158,7 +159,7 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Pairs one after another such that, where they are connected, each shares a wheel with one before it."""
+    """Yield the pairs breadth first: each shares a wheel with an earlier one if it is connected to any."""
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):
         for wheel in mesh.gear.pair:

@@ -1,7 +1,7 @@
-"""At what speed the teeth of a pair meet: what friction that depends on speed asks of a train.
+"""Pitch-line speed of a pair of gears, needed by friction that depends on speed.
 
-In the frame of its carrier the pitch line of a pair runs at V = |w_i - w_k| r_i, docs/torques.md (17a); w comes from
-the `rate` of the train, or from inputs with units, and r from the modules of both wheels.
+The pitch line of a pair runs at V = |w_i - w_k| r_i in the frame of its carrier, docs/torques.md (17a). The angular
+speed w follows from the `rate` of the train or from inputs with units, and r from the modules of both wheels.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 
 
 def radians_per_second(train: Train, case: StateCase) -> float | None:
-    """rad/s in the train's unit of speed; None where its speeds are plain numbers.
+    """Return the train's unit of speed in rad/s, or None if its speeds are plain numbers.
 
-    Speeds are real where the train has a `rate`, that of the first input that turns, or its inputs have units.
+    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
+    have units.
     """
     driving_speed = next((speed for speed in case.inputs.values() if speed), None)
     if case.rate is not None and case.rate.unit is not None and driving_speed is not None:
@@ -35,33 +36,36 @@ def radians_per_second(train: Train, case: StateCase) -> float | None:
 
 @dataclass(frozen=True)
 class PairSpeed:
-    """The speed (m/s) of a pair's pitch line, or why it is not known."""
+    """Pitch-line speed of a pair [m/s], or the reason why it is unknown."""
 
     value: float | None
     problem: Problem | None = None
 
     def known(self) -> float:
-        """The speed. Raises `GearTrainError` that says what is missing."""
+        """Return the speed. Raise `GearTrainError` with the missing data if it is unknown."""
         if self.problem is not None:
             raise GearTrainError(self.problem)
         return self.value or 0.0
 
 
 def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> PairSpeed:
-    """Of one pair in one state; None without a problem where the way it rolls is not determined."""
+    """Return the pitch-line speed of one pair in one state.
+
+    The value is None without a problem if the relative motion of the pair is not determined.
+    """
     turning = setting.relative(circuit.i, circuit.carrier)
     if turning is None:
         return PairSpeed(None)
     unit, radius = radians_per_second(setting.train, setting.case), mesh.pitch_radius
     missing = []
     if unit is None:
-        missing.append(("how fast the train turns", "`rate`, such as `rate: 1 turn/s`"))
+        missing.append(("the speed of the train", "`rate`, such as `rate: 1 turn/s`"))
     if radius is None:
-        missing.append(("how large its wheels are", "the `module` of both wheels with a unit, such as `module: 1 mm`"))
+        missing.append(("the size of its wheels", "the `module` of both wheels with a unit, such as `module: 1 mm`"))
     if missing:
-        what = f"{mesh.label}: its friction depends on speed, and none is known"
-        why = f"nothing says {' or '.join(words for words, _ in missing)}"
-        fix = f"give {', and '.join(keys for _, keys in missing)}; or friction as a number"
+        what = f"{mesh.label}: friction depends on the pitch-line speed, which is unknown"
+        why = f"the declaration does not give {' or '.join(words for words, _ in missing)}"
+        fix = f"give {', and '.join(keys for _, keys in missing)}; or `friction` as a number"
         return PairSpeed(None, Problem(what, why, fix, mesh.place))
     assert unit is not None
     assert radius is not None
@@ -73,14 +77,14 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
 
 
 def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
-    """The same teeth with their pitch line running at a speed (m/s), where their friction depends on it."""
+    """Return the mesh with a pitch-line speed [m/s], if its friction depends on speed."""
     if mesh.wheels.friction_law is None:
         return mesh
     return replace(mesh, wheels=replace(mesh.wheels, pitch_line=speed))
 
 
 def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
-    """Meshes at the speeds of one state, as far as they are known."""
+    """Return the meshes at their pitch-line speeds in one state, where these are known."""
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}

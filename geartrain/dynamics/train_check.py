@@ -1,4 +1,4 @@
-"""What of a train cannot be built: what its declaration alone tells, and what its teeth add."""
+"""Checks whether a train can be built, from its declaration and, where declared, from its teeth."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
 
 def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
-    """What of the train cannot be built, or is unwise, by the declaration alone (docs/buildability.md)."""
+    """Return everything in a declaration that cannot be built or is unwise (docs/buildability.md)."""
     cuts = _cuts_teeth(train.declaration)
     found = tuple(check_build(train.declaration, train.tree, train.circuits, lambda: _outlines(train) if cuts else {}))
     if not cuts:
         return found
-    from geartrain.dynamics.cut_teeth import find_odd_wheels
+    from geartrain.dynamics.cut_teeth import find_inconsistent_wheels
 
-    return (*found, *find_odd_wheels(train))
+    return (*found, *find_inconsistent_wheels(train))
 
 
 def _cuts_teeth(declared: Train) -> bool:
-    """True where pairs declare forms, and numpy is there: a page that answers in a browser goes without."""
+    """Return whether pairs declare tooth forms and numpy is installed."""
     return any(map(declared.form_of, declared.gears)) and find_spec("numpy") is not None
 
 
@@ -37,5 +37,5 @@ def _outlines(train: TrainMechanics) -> Mapping[str, PairOutline]:
 
     try:
         return find_outlines(train.teeth)
-    except GearTrainError:  # teeth that cannot be made are reported as such
+    except GearTrainError:  # teeth that cannot be built are reported by another rule
         return {}

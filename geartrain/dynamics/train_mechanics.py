@@ -1,7 +1,6 @@
-"""The mechanics of a train: its real teeth and pins, who drives whom, and the loads of each state.
+"""Mechanics of a train: real teeth and pins, driving wheels, and the loads of each state.
 
-Each part is found once, when it is first requested, and kept. Torques, motion, strength and motion in time are
-functions of it.
+Every part is computed on first use and cached. Torques, motion, strength and dynamic simulation are functions of it.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
-"""By pair, the ways it is driven, each with the names of its states."""
+"""Driving directions by pair, each with the names of its states."""
 
 
 @final
@@ -35,11 +34,11 @@ class TrainMechanics(Shown):
 
     See Also
     --------
-    geartrain.GearTrain.mechanics : gives it.
+    geartrain.GearTrain.mechanics : Property of a train that holds it.
     """
 
     kinematics: TrainKinematics
-    """The same train without them."""
+    """Kinematics of the same train, without teeth and loads."""
     _settings: dict[str | None, LoadCase | None] = field(default_factory=dict, init=False, repr=False)
     _drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, MeshDriver]] = field(
         default_factory=dict, init=False, repr=False
@@ -50,30 +49,30 @@ class TrainMechanics(Shown):
 
     @property
     def declaration(self) -> Train:
-        """What is declared."""
+        """Declaration of the train."""
         return self.kinematics.declaration
 
     @property
     def tree(self) -> Tree:
-        """The turning pairs as a spanning tree rooted at the frame."""
+        """Spanning tree of the turning pairs, rooted at the frame."""
         return self.kinematics.tree
 
     @property
     def circuits(self) -> tuple[Circuit, ...]:
-        """One fundamental circuit for each gear pair and coupling."""
+        """Fundamental circuits, one for each gear pair and coupling."""
         return self.kinematics.circuits
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """-1 for links whose axis points against the reference direction of its parallels."""
+        """Sign of each link: -1 if its axis points against the reference direction of its parallels."""
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """The train with each of its equal planets declared, which share loads; itself where there are none."""
-        # not kept where it is the train itself: that would hold itself
+        """Train with each of its equal planets declared, so that they share loads; this train if it has no copies."""
+        # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self
 
     @cached_property
@@ -82,7 +81,7 @@ class TrainMechanics(Shown):
 
     @property
     def planets_as_one(self) -> TrainMechanics:
-        """The train in which one planet is as heavy and as stiff as all its copies; itself where there are none."""
+        """Train in which one planet has the inertia and stiffness of all its copies; this train if it has no copies."""
         return self._as_one if has_copies(self.declaration) else self
 
     @cached_property
@@ -93,24 +92,24 @@ class TrainMechanics(Shown):
 
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
-        """The gear pairs with real teeth by name, whichever side drives, each made when it is first read."""
+        """Gear pairs with real teeth by name, regardless of the driving side. Each is built when it is first read."""
         if not any(map(self.declaration.form_of, self.declaration.gears)):
-            return {}  # a train without tooth forms imports none
+            return {}  # avoids importing tooth forms for a train without any
         from geartrain.dynamics.gear_meshes import find_meshes
         from geartrain.kinematics.circuits.fundamental import shaft_angle
 
-        # the mapping must not hold the train: the two would wait for the garbage collector
+        # the mapping must not refer to the train, because a reference cycle delays the release of memory
         train, tree, circuits = self.declaration, self.tree, {circuit.id: circuit for circuit in self.circuits}
         return find_meshes(train, lambda gear: shaft_angle(train, tree, circuits[gear.name]))
 
     @cached_property
     def teeth(self) -> tuple[GearMesh, ...]:
-        """All pairs of `undriven`, made.
+        """All pairs of `undriven`, built.
 
         Raises
         ------
         GearTrainError
-            With all pairs whose teeth cannot be built.
+            If teeth cannot be built; it lists all such pairs.
         """
         if not self.undriven:
             return ()
@@ -120,19 +119,22 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth, each driven as in the first state that tells who drives it."""
+        """Gear pairs with real teeth, each driven as in the first state in which its driver is known."""
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 
     @cached_property
     def driven_ways(self) -> DrivenWays:
-        """By pair with real teeth, the ways it is driven, each with the names of its states; open ones count both."""
+        """Driving directions of every pair with real teeth, with the names of their states.
+
+        A pair with an undetermined driver counts in both directions.
+        """
         states = self.kinematics.usable_states
         return _find_driven_ways(self.teeth, ((state, self.meshes_in(state)) for state in states))
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
+        """Everything that prevents real teeth from turning, whichever wheel of a pair drives in some state."""
         if not self.teeth:
             return ()
         from geartrain.teeth.gear_mesh import find_faults
@@ -140,12 +142,12 @@ class TrainMechanics(Shown):
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
     def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth as they are driven in one state.
+        """Return the gear pairs with real teeth as they are driven in one state.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            Name of a declared state. None is allowed only for a train without states.
         """
         if not self.teeth:
             return ()
@@ -159,7 +161,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def pins(self) -> tuple[PinMesh, ...]:
-        """The pins in slots whose dimensions are declared, each with its law."""
+        """Pin-and-slot couplings with declared dimensions, each with its transmission function."""
         if not self.declaration.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import find_pins
@@ -169,14 +171,16 @@ class TrainMechanics(Shown):
     # ------------------------------------------------------------------------------------------------ loads and motion
 
     def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, MeshDriver]:
-        """Who drives each pair and coupling in one state: declared, or by the flow of power in its carrier's frame.
+        """Return the driver of each pair and coupling in one state.
+
+        It is declared, or follows from the direction of power in the frame of the pair's carrier.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            Name of a declared state. None is allowed only for a train without states.
         without : sequence of str
-            Pairs left out.
+            Names of pairs to leave out.
         """
         from geartrain.dynamics.torques.drivers import find_drivers
 
@@ -188,12 +192,12 @@ class TrainMechanics(Shown):
         return self._drivers[key]
 
     def load_case(self, state: str | None = None) -> LoadCase | None:
-        """One state with its speeds, teeth and loads; None where its speeds are neither known nor free.
+        """Return one state with its speeds, teeth and loads; None if its speeds are neither determined nor free.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            Name of a declared state. None is allowed only for a train without states.
         """
         case = self.kinematics.case(state)
         if case.state not in self._settings:
@@ -214,9 +218,9 @@ class TrainMechanics(Shown):
 
 
 def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | None, Sequence[GearMesh]]]) -> DrivenWays:
-    """The ways in which pairs are driven; one whose driver is open counts both.
+    """Return the driving directions of all pairs. A pair with an undetermined driver counts in both.
 
-    driven   by state, the pairs as they are driven in it; None for a train without states
+    driven   by state, the pairs as they are driven in it; the state is None for a train without states
     """
     found: dict[str, list[tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: [] for mesh in teeth}
     for state, meshes in driven:
@@ -227,7 +231,7 @@ def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | No
 
 
 def _count(ways: list[tuple[GearMesh, tuple[str, ...]]], mesh: GearMesh, state: str | None) -> None:
-    """Count a state for one way in which a pair is driven; a way that is certain somewhere is so in the list."""
+    """Add a state to one driving direction of a pair. A mesh with a known driver replaces one without."""
     own = () if state is None else (state,)
     for at, (known, states) in enumerate(ways):
         if known.driver == mesh.driver:

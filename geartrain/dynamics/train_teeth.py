@@ -1,7 +1,8 @@
-"""The teeth of every wheel of a train, each cut once for all its mates: what is drawn, what turns and what is made.
+"""Teeth of every wheel of a train, each cut once for all its mates.
 
-A wheel has the teeth its pairs declare, else standard ones. Of several pairs the deepest roots count and the fillets
-that let all mates pass; pairs that ask for different teeth of one wheel leave it without.
+Drawing, simulation and manufacture use the same teeth. A wheel has the teeth that its pairs declare, otherwise standard
+teeth. If it has several pairs, the deepest roots and the fillets that clear all mates are used. If its pairs require
+different teeth, the wheel has none.
 """
 
 from __future__ import annotations
@@ -43,44 +44,44 @@ STANDARD = "standard"
 
 
 class ToothingPlace(Protocol):
-    """What matters here of where a wheel stands: its module (mm), and half the angle of its cone (rad)."""
+    """Data of a placed wheel that its teeth need: module [mm] and half cone angle [rad]."""
 
     @property
     def module(self) -> float:
-        """Pitch diameter over tooth count (mm)."""
+        """Pitch diameter over tooth count [mm]."""
 
     @property
     def cone(self) -> float:
-        """0 of a cylinder."""
+        """Half cone angle [rad], 0 for a cylinder."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairBacklash:
-    """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels."""
+    """Backlash of a pair as its wheels are cut: at the pitch line [mm], and as an angle of each wheel [rad]."""
 
     pair: str
     wheels: tuple[str, str]
     length: float
     angles: tuple[float, float]
     contact_ratio: float | None = None
-    """Of conjugate teeth that stand where they are made for; None of others."""
+    """Contact ratio of conjugate teeth at their design centre distance; None otherwise."""
     more_contact: str = ""
-    """What raises it."""
+    """Advice that raises the contact ratio."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainTeeth:
-    """The teeth of a train."""
+    """Teeth of all wheels of a train."""
 
     wheels: Mapping[str, WheelTeeth]
-    """Teeth by wheel; `problems`, why the others have none."""
+    """Teeth by wheel. `problems` has the reasons for the wheels without teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
     likenesses: Mapping[str, WheelTeeth]
-    """Of those, teeth that the first of their pairs asks for."""
+    """Approximate teeth of wheels without agreed teeth, as the first of their pairs requires them."""
     flat: frozenset[str]
-    """Wheels whose teeth stand straight in a plane."""
+    """Wheels whose teeth are straight and plane."""
     backlashes: tuple[PairBacklash, ...]
-    """Of all pairs of which both wheels have teeth."""
+    """Backlash of all pairs in which both wheels have teeth."""
 
 
 def find_train_teeth(
@@ -89,16 +90,16 @@ def find_train_teeth(
     backlash: float | None = None,
     apart: Mapping[str, float] = FrozenDict(),
 ) -> TrainTeeth:
-    """The teeth of all wheels that lie in a plane.
+    """Return the teeth of all plane wheels.
 
-    backlash    of pairs whose form is not declared (mm); default a twentieth of the module
-    apart   of pairs whose wheels do not stand where they mesh: by how much (mm) they stand too far from each other
+    backlash    of pairs without a declared form [mm]; default: a twentieth of the module
+    apart       by pair, the excess of the centre distance over its design value [mm], where the wheels are misplaced
     """
     return _Toothing(train, places, backlash, apart).all()
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """By wheel that lies in a plane, why no teeth suit all of its pairs that declare a form."""
+    """Return problems by wheel: why no teeth suit all pairs with a declared form, for plane wheels."""
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
@@ -138,23 +139,23 @@ class _Toothing:
         return self.meshes.get(gear.name)
 
     def _is_wave(self, gear: GearPair) -> bool:
-        """True of a flexible wheel in its ring."""
+        """Return whether a pair is a flexible wheel in its ring (strain wave gear)."""
         first, second = (self._wheel(name) for name in gear.pair)
         return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
 
-    def _waved(self, name: str) -> list[GearPair]:
+    def _wave_pairs(self, name: str) -> list[GearPair]:
         return [gear for gear in self.pairs[name] if gear.name in self.waves]
 
     def _is_flat(self, name: str) -> bool:
         kinds = {self._wheel(mate).kind for gear in self.pairs[name] for mate in gear.pair}
         return self._wheel(name).kind == "spur" and not self.places[name].cone and "worm" not in kinds
 
-    # -------------------------------------------------------------------------------------------- teeth nobody declares
+    # -------------------------------------------------------------------------------------------- standard teeth
 
     @cached_property
     def standard(self) -> dict[str, StandardTeeth]:
-        """Of the wheels of pairs without a form."""
-        free = (name for name in self.pairs if name not in self.shaped and not self._waved(name))
+        """Standard teeth by wheel, for the wheels of pairs without a declared form."""
+        free = (name for name in self.pairs if name not in self.shaped and not self._wave_pairs(name))
         gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
         return standard_teeth(gears, pairs)
@@ -171,14 +172,14 @@ class _Toothing:
         flat = [(gear.name, self._gear(mate), self.standard[mate]) for gear, mate in mates if mate in self.standard]
         for name_of_pair, mate, its in flat or [("", lone_mate(own), teeth)]:
             form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
-            pair = conjugate_pair_of(form, wheels)  # refuses wheels that no teeth fit, before sizes are asked
+            pair = conjugate_pair_of(form, wheels)  # raises an error for impossible wheels, before sizes are computed
             required = ToothRequirement(pair, at, CHORD, max(form.bottom_clearance(wheels, at), 0.0))
             yield PairRequirement(name_of_pair, STANDARD, teeth.words, required)
 
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
     ) -> tuple[Involute, WheelPair, int]:
-        """The form of two standard wheels, a ring second, and which of them the first is."""
+        """Return the form of two standard wheels, their pair with a ring second, and the number of the first wheel."""
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
         form = standard_form(teeth, its, self._standard_backlash(name))
         return form, WheelPair(one.z, other.z, other.internal), 2 if first[0].internal else 1
@@ -189,7 +190,7 @@ class _Toothing:
     # ------------------------------------------------------------------------------------------------ declared forms
 
     def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
-        """Pairs in one plane; a crown wheel is taken for a spur wheel only where nothing better is to be had."""
+        """Yield the requirements of declared pairs in one plane. Crown wheels count only without a spur mate."""
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
         for mesh in flat or meshes:
@@ -204,7 +205,7 @@ class _Toothing:
     # ----------------------------------------------------------------------------------------------------------- wheels
 
     def all(self) -> TrainTeeth:
-        """All wheels."""
+        """Return the teeth of all wheels."""
         found: dict[str, WheelTeeth] = {}
         problems: dict[str, tuple[Problem, ...]] = {}
         likenesses: dict[str, WheelTeeth] = {}
@@ -224,22 +225,23 @@ class _Toothing:
     def _requested(self, name: str) -> list[PairRequirement]:
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
-            kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm's wheel"
-            why = "its teeth are not straight in a plane"
-            raise GearTrainError(Problem(f"a {kind} has no flat outline", why, "take the solid for a likeness"))
+            kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
+            why = "its teeth are not straight and plane"
+            fix = "export STL or GLB, which approximate its teeth"
+            raise GearTrainError(Problem(f"a {kind} has no plane outline", why, fix))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
             check_size(self._wheel(each).count or 1)
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
-        if not self.pairs[name] and (turning := self._let_through(name)):
+        if not self.pairs[name] and (turning := self._escapement_sense(name)):
             return [PairRequirement("", ESCAPEMENT, ESCAPE_WORDS, escape_tooth(wheel.count or 1, turning))]
-        if waved := self._waved(name):
+        if wave_pairs := self._wave_pairs(name):
             tooth = wave_tooth(wheel.count or 1, self._standard_backlash(name), wheel.internal)
-            return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in waved]
+            return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in wave_pairs]
         return list(self._declared_requested(name) if name in self.shaped else self._standard_requested(name))
 
-    def _let_through(self, name: str) -> int:
-        """Which way an escapement lets a wheel turn, 1 where that is not known; 0 of other wheels."""
+    def _escapement_sense(self, name: str) -> int:
+        """Return the sense in which an escapement lets a wheel turn: 1 if unknown, 0 for other wheels."""
         link, wheel = self.declared.wheels[name]
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
             return 0
@@ -251,13 +253,13 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """By wheel with declared teeth, why its pairs do not agree on them."""
+        """Return problems by wheel with declared teeth: why its pairs require different teeth."""
         found = {}
         for name in self.pairs:
             try:
                 problem = disagreement(self._requested(name)) if name in self.shaped else None
             except GearTrainError:
-                continue  # faulty teeth, or teeth in no plane
+                continue  # faulty teeth, or teeth that are not plane
             if problem is not None:
                 found[name] = problem
         return found
@@ -274,7 +276,7 @@ class _Toothing:
         return WheelTeeth(name, z, cut.kind, first.form, first.words, cut.tip, cut.root, cut.tooth, cut.pins)
 
     def _backlashes(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairBacklash]:
-        """Of all pairs of which both wheels are cut."""
+        """Yield the backlash of all pairs whose wheels are both cut."""
         for gear in self.declared.gears:
             if not set(gear.pair) <= set(found):
                 continue
@@ -286,7 +288,7 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Contact ratio of conjugate teeth at their own distance, and what raises it; None of others."""
+        """Return the contact ratio of conjugate teeth at their design distance, or None, and advice that raises it."""
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
             return None, ""
@@ -299,7 +301,10 @@ class _Toothing:
         return conjugate_pair_of(form, wheels).path.contact_ratio, form.more_contact
 
     def _backlash(self, gear: GearPair) -> float | None:
-        """Of a pair as it stands, along the pitch circles (modules); None where it does not stand as its law has it."""
+        """Return the backlash of a pair as placed, along the pitch circles [modules].
+
+        It is None if the centre distance is not the one that the transmission function requires.
+        """
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
         if gap is not None and gear.name not in self.waves:
             return self._misplaced_backlash(gear, mesh, gap / self.places[gear.pair[0]].module)
@@ -308,7 +313,10 @@ class _Toothing:
         return mesh.verdict.backlash * (self._wheel(mesh.driven).count or 0) / 2
 
     def _misplaced_backlash(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
-        """Play of axes that stand `gap` modules too far apart; None for teeth that do not run there as at home."""
+        """Return the backlash [modules] at a centre distance `gap` modules too large.
+
+        It is None for teeth that have another transmission function there.
+        """
         if mesh is not None:
             return mesh.backlash_apart(gap)
         first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
@@ -319,7 +327,7 @@ class _Toothing:
 def _half_declared(name: str, gear: GearPair, mate: str, other: str) -> GearTrainError:
     return GearTrainError(
         Problem(
-            f"nothing says what teeth run with '{mate}'",
+            f"the teeth that mesh with '{mate}' are not declared",
             f"pair '{gear.name}' declares no form, and '{mate}' has the teeth of pair '{other}'",
             f"declare a `tooth_form` for pair '{gear.name}' too",
         )

@@ -1,4 +1,4 @@
-"""The teeth of one wheel, as they are cut for all its mates: to be drawn, turned and made."""
+"""Teeth of one wheel as cut for all its mates: input of drawings, rotation and manufacture."""
 
 from __future__ import annotations
 
@@ -10,34 +10,34 @@ from geartrain.teeth.outlines.tooth_outline import Vertex, repeated
 from geartrain.teeth.outlines.wheel_outline import lantern, pin_seats
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
-CHORD = 1e-3  # modules: how far a chord may leave a flank or a round
-_RIM = 2.0  # modules round the roots of a ring
-_PIN = 48  # points round a pin
-_SAME = 1e-9  # rad
+CHORD = 1e-3  # modules: chordal tolerance of flanks and fillets
+_RIM = 2.0  # modules: rim thickness of a ring outside the roots
+_PIN = 48  # points of the polygon of a pin
+_SAME = 1e-9  # rad: angles closer than this coincide
 
 
 @dataclass(frozen=True, slots=True)
 class WheelTeeth:
-    """The teeth of one wheel, lengths in modules."""
+    """Teeth of one wheel. Lengths are in modules."""
 
     wheel: str
     z: int
     kind: str
-    """External, ring or pins."""
+    """Kind of wheel: `external`, `ring` or `pins`."""
     form: str
-    """Name of the declared form, or `standard`; `words`, what a maker is told."""
+    """Name of the declared tooth form, or `standard`. `words` describes the form to a manufacturer."""
     words: str
     tip: float
-    """Radii."""
+    """Radius of the tips."""
     root: float
-    """Radii."""
+    """Radius of the roots."""
     tooth: tuple[Vertex, ...] = ()
-    """The first of them, about the x axis, from root to root; empty for pins."""
+    """Outline of the first tooth, symmetric about the x axis, from root to root. Empty for pins."""
     pins: LanternPins | None = None
-    """Of a lantern; of a ring whose teeth are pins, parts of their own."""
+    """Pins of a lantern, or the separate pins of a ring with pin teeth."""
 
     def contours(self, module: float) -> tuple[Contour, ...]:
-        """All of the wheel (mm), the outer contour first, then holes; the axle at (0, 0)."""
+        """Return all contours of the wheel [mm], outer contour first, then holes. The axle is at (0, 0)."""
         if self.pins is not None and self.kind == "pins":
             return tuple(lantern(self.pins, self.z, module))
         if self.pins is not None:
@@ -47,15 +47,15 @@ class WheelTeeth:
 
     @property
     def depth(self) -> float:
-        """Radius of the roots; of a ring with pins that to which these reach, if that is more."""
+        """Radius of the roots. For a ring with pins, the radius to which the pin seats reach if that is larger."""
         if self.pins is None or self.kind == "pins":
             return self.root
         return max(self.root, self.pins.circle + self.pins.radius)
 
     def section(self) -> tuple[tuple[float, float], ...]:
-        """Radius (over the pitch radius) and angle of one tooth, from mid-space to mid-space, or round a pin.
+        """Return radius over pitch radius and angle [rad] of the points of one tooth or pin.
 
-        Arcs are chords.
+        A tooth runs from mid-space to mid-space; a pin is a closed circle. Arcs are replaced by chords.
         """
         R = self.z / 2
         if self.pins is not None and self.kind == "pins":
@@ -64,6 +64,6 @@ class WheelTeeth:
             return tuple((hypot(x, y) / R, atan2(y, x)) for x, y in round_)
         points = Contour.of((*self.tooth[:-1], (*self.tooth[-1][:2], 0.0))).flattened(CHORD).tolist()
         half = pi / self.z
-        # without the points on the borders of the pitch, which stand at both ends below
+        # points on the borders of the pitch are omitted, because both ends are added below
         inside = [(hypot(x, y) / R, atan2(y, x)) for x, y in points if abs(atan2(y, x)) < half - _SAME]
         return ((self.root / R, -half), *inside, (self.root / R, half))

@@ -120,7 +120,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
         return IntervalEstimate(float(values.std(ddof=1)) if n > 1 else nan, 0.0, inf)
     off = values - values.mean()
     squares = float(off @ off)
-    if not squares:
+    if not squares or not np.ptp(values):  # the mean of equal values may be off by rounding
         return IntervalEstimate(0.0, 0.0, 0.0)
     trimmed = int(n / (2 * sqrt(n - 4)))
     about = values - np.sort(values)[trimmed : n - trimmed].mean()

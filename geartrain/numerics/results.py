@@ -258,7 +258,8 @@ class Tabular(Shown):
         """Return the text that the command prints for the result, or its first rows as a table if it has no command."""
         found = _described(self, self.TEXT or self.PAGE)
         if found is None:
-            found = picture_maker("report.document", "table_document")(repr(self), self.columns, _SHOWN)
+            table = picture_maker("report.document", "table_document")(self.columns, _SHOWN)
+            return f"{self!r}\n{_text_of(table)}"
         return found if isinstance(found, str) else _text_of(found)
 
     def _repr_html_(self) -> str:

@@ -18,7 +18,6 @@ from geartrain.numerics.exact import plural
 from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.train import Train
 from geartrain.train.outputs import looks_away
-from geartrain.train.trade_words import told_words
 
 _SECONDS = 86400  # of a day
 _EXACT = 1e-9  # ppm, or days: less is rounding
@@ -362,8 +361,7 @@ def answer_text(answer: Answer) -> str:
     """Return what `geartrain solve` prints for the answer of one state."""
     declared = answer._declaration
     oblique = frozenset() if declared is None else GearTrain(declared).kinematics.joint_sums
-    words = "" if answer else told_words(str(answer.verdict))
-    return "\n".join(filter(None, (speeds_text(answer, answer._output, oblique), words)))
+    return speeds_text(answer, answer._output, oblique)
 
 
 def answer_document(answer: Answer) -> Document | None:

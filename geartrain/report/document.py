@@ -85,12 +85,12 @@ class Table(Shown):
     """True for matrices, which a terminal shows in strips of columns and never wraps."""
 
 
-def table_document(title: str, columns: Mapping[str, Sequence[object]], most: int = MOST_ROWS) -> Document:
+def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
     """Return columns of a result as a document of one table, of which only the first rows are shown."""
     count = len(next(iter(columns.values()), ()))
     rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
     more = [f"{count - most:,} more rows."] if count > most else []
-    return Document(title, [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
+    return Document("", [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
 
 
 def _cell(value: object) -> str:

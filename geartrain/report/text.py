@@ -124,12 +124,14 @@ def to_terminal(documents: Sequence[Document], console: Console, marks: str = ""
     marks   what headings of the two levels are underlined with where colours cannot tell them
     """
     for document in documents:
-        _heading(document.title, "bold underline", console, marks[:1])
+        if document.title:
+            _heading(document.title, "bold underline", console, marks[:1])
         for paragraph in document.summary:
             console.print(_shown(paragraph))
         for section in document.sections:
             console.print()
-            _heading(section.title, "bold cyan", console, marks[1:])
+            if section.title:
+                _heading(section.title, "bold cyan", console, marks[1:])
             for paragraph in section.paragraphs:
                 console.print(_shown(paragraph))
             for branch in section.branches:

@@ -94,6 +94,7 @@ class TrainReport(TrainAnswers):
     """
 
     PAGE = "report.train_report:describe_train"
+    TEXT = "report.train_report:describe_answers"
 
     KEYS = (
         *("name", "title", "unit", "mobility", "states", "gridlock", "closure", "sources"),

@@ -31,6 +31,7 @@ from geartrain.report.document import (
     Table,
     cut,
     filled_table,
+    without_details,
 )
 from geartrain.report.formula_report import formula_section
 from geartrain.report.train_data import TrainReport
@@ -72,7 +73,7 @@ def describe_train(found: TrainReport) -> Document:
     >>> from geartrain.report import collect_report
     >>> page = describe_train(collect_report(geartrain.load("planetary-24-18-60")))
     >>> [section.title for section in page.sections][:6]
-    ['Outputs', 'Speeds', 'Formulas', 'Structure', 'Fundamental circuits', 'Mobility']
+    ['Outputs', 'All outputs', 'Speeds', 'Mobility', 'Adjacency matrix', 'Formulas']
     """
     train, answers = found.train, found.states
     declared = train.declaration
@@ -89,6 +90,11 @@ def describe_train(found: TrainReport) -> Document:
         *(replace(section, detail=True) for section in _details(found)),
     ]
     return Document(declared.title or declared.name, tuple(_summary(train, answers)), sections)
+
+
+def describe_answers(found: TrainReport) -> Document:
+    """Return the report on one train without formulas, circuits, structure, errata and sources."""
+    return without_details(describe_train(found))
 
 
 def _details(found: TrainReport) -> Iterator[Section]:

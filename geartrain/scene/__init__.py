@@ -1,30 +1,30 @@
 """Layouts, scenes and solids: the geometry of a train in space and time.
 
-In: a train, a state, a layout; sizes to make it in. Out: places of axes and wheels, all data of an animated picture,
-solids to export. Lengths are in mm and angles in rad; ratios are exact.
+The input is a train, a state, a layout and manufacturing sizes. The output is the places of axes and wheels, all data
+of an animated picture, and solids to export. Lengths are in mm and angles in rad; ratios are exact.
 
-lay_out      a `Layout`: axes and wheels in space, as declared or placed so that pitch circles touch
-build_scene  the same with its plates, pillars, arbors and dials, as they are made
-make_scene   a `Scene`: the train in one state, its angles from exact speeds and, for real teeth, equations (1) to (4)
-             of docs/motion.md
+lay_out      `Layout`: axes and wheels in space, as declared or placed so that pitch circles touch
+build_scene  `Scene` with plates, pillars, arbors and dials in manufacturing sizes
+make_scene   `Scene`: the train in one state, with angles from exact speeds and, for real teeth, from equations (1) to
+             (4) of docs/motion.md
 SolidModel   wheels, arbors and plates as closed surfaces, in the sizes of `ManufacturingSizes`
 
-context         a train, its answer in one state and its layout: what every part of a scene reads
-construction    from a train to its scene; phases of wheels; exact speeds as functions of tooth counts
-train_scene     the scene as plain data; `elements` are the records in it, `count_formulas` its formulas
-bodies          links and wheels with their teeth; thin wheels of strain waves
-joints          pairs, and pins in slots
-movement        exact speeds with the errors of teeth, as tables and steps; `pose` evaluates them
-scene_run       a simulated motion as a page plays it
-dial_scale      scales of dials and their engraving; `dial_pointers` are dials, pointers, dates and mean motions
+context         a train, its answer in one state and its layout, which every part of a scene reads
+construction    construction of the scene of a train; phases of wheels; exact speeds as functions of tooth counts
+train_scene     the scene as plain data; its records are in `elements`, its formulas in `count_formulas`
+bodies          links and wheels with their teeth; flexible wheels of strain waves
+joints          gear pairs, and pins in slots
+movement        exact speeds and transmission errors, as tables and steps; evaluated by `pose`
+scene_run       a simulated motion as a page replays it
+dial_scale      scales of dials and their engraving; dials, pointers, dates and mean motions are in `dial_pointers`
 stroke_letters  letters as strokes, outlines of hands
 palette         colours of the themes
 layout          places of axes and wheels (beam search, local search)
 solids          closed surfaces of wheels, plates and pins
 parts           parts of the frame: plates, pillars, arbors, pipes
 
-A wheel is at the pitch point of its mates: equations (2), (3), (8) of docs/theory.md for parallel axes, cones and
-worms.
+Each wheel is placed so that its pitch surface touches those of its mates at the pitch point: equations (2), (3), (8) of
+docs/theory.md for parallel axes, cones and worms.
 """
 
 from __future__ import annotations

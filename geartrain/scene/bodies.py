@@ -2,9 +2,9 @@
 
 Wheels without a flat outline (bevels, crowns, worms, and teeth that cannot be cut) get nominal teeth.
 
-A train declares the thin wheel of a strain wave on an axis that a generator carries round, as if the wheel were rigid:
-that gives its speed. Bent by the wave, it stays about the generator's own axis, and its teeth meet the ring at each
-lobe (docs/reducers.md, (8)).
+A declaration places the flexible wheel of a strain wave on an axis that the generator carries, as if the wheel were
+rigid. This gives its speed. The scene places the deformed wheel about the generator's own axis, and its teeth mesh with
+the ring at each lobe (docs/reducers.md, (8)).
 """
 
 from __future__ import annotations
@@ -35,22 +35,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """A thin wheel and its generator."""
+    """Flexible wheel of a strain wave and its generator."""
 
     wheel: str
-    """Its own, and the link whose wave bends it."""
+    """Name of the wheel."""
     link: str
-    """Its own, and the link whose wave bends it."""
+    """Link that is the wave generator."""
     axis: str
     """Label of the generator's axis."""
     offset: Vector
-    """From that to the axis on which the wheel is declared (mm): how far its wave rises, and towards where."""
+    """Vector from that axis to the axis on which the wheel is declared (mm): amplitude and direction of the wave."""
     lobes: int
-    """Of the wave: as many as the ring has teeth more."""
+    """Number of lobes of the wave, the difference of the tooth counts of ring and wheel."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
-    """All of a train as placed."""
+    """Yield all flexible wheels of a train that a generator deforms."""
     declared = train.declaration
     for gear in declared.gears:
         thin = next((name for name in gear.pair if declared.wheels[name][1].flexible), None)
@@ -69,48 +69,49 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Bodies and wheels with those that are bent about the axes of their generators, and the waves that bend them."""
-    told, moved, waves = list(bodies), list(wheels), []
+    """Move flexible wheels to the axes of their generators, and return bodies, wheels and strain waves."""
+    bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
         wheel = wheels[at]
-        told[wheel.body] = replace(bodies[wheel.body], parent=bodies[by].parent, point=bodies[by].point)
+        bent[wheel.body] = replace(bodies[wheel.body], parent=bodies[by].parent, point=bodies[by].point)
         moved[at] = replace(wheel, centre=minus(wheel.centre, each.offset))
         way, rise, thin = unit_or_z(each.offset), size(each.offset), wall(wheel.radius)
         waves.append(SceneWave(at, by, way, rise, each.lobes, wheel.root - thin / 2, thin))
-    return tuple(told), tuple(moved), tuple(waves)
+    return tuple(bent), tuple(moved), tuple(waves)
 
 
 # -------------------------------------------------------------------------------------------------------- nominal teeth
 
 
 Points = tuple[tuple[float, float], ...]
-"""Radii over the pitch radius, and angles (rad)."""
+"""Points of a flank: radius (relative to the pitch radius) and angle (rad)."""
 
 FORM = "likeness"
 _PRESSURE = pi / 9
-_BACKLASH = 0.02  # of a pitch: what each tooth is thinner
-_MINIMUM_ROOT = 0.2  # of the pitch radius: few teeth leave little
-_ROOM = 0.92  # of half a pitch: where at most a flank ends at the root
-_POINTS = 10  # on a flank
-_PASSING = 0.12  # modules for each tooth that a ring has more than its wheel
-_CROWN_BACKLASH = (
-    0.06  # of a pitch: what a crown's teeth are thinner than a mate's spaces, whose flanks no rack runs with
-)
-_STEP = pi / 18  # between points of a thread's section, of which a few go round a worm
-_LAND = 0.08  # of a pitch: least half width of a tip
+_BACKLASH = 0.02  # circumferential backlash per tooth, in pitches
+_MINIMUM_ROOT = 0.2  # minimum root radius over the pitch radius: with few teeth little is left
+_ROOM = 0.92  # maximum half width of a tooth at the root, over half a pitch
+_POINTS = 10  # points of a flank
+_PASSING = 0.12  # height (modules) per tooth of difference between ring and wheel
+_CROWN_BACKLASH = 0.06  # pitches: no rack meshes with a crown's flanks, so its teeth are thinner
+_STEP = pi / 18  # rad between points of a thread's section, as a worm has few threads
+_LAND = 0.08  # minimum half width of a tip, over half a pitch
 
 
-def spur(z: int, room: float = ADDENDUM) -> ToothProfile:
-    """A tooth of a wheel, of at most the height `room` (modules) over the pitch circle."""
-    return ToothProfile(FORM, _tooth(z, min(ADDENDUM, room)))
+def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
+    """Return a nominal tooth of a wheel, at most `height` (modules) above the pitch circle."""
+    return ToothProfile(FORM, _tooth(z, min(ADDENDUM, height)))
 
 
-def ring(z: int, room: float = ADDENDUM) -> ToothProfile:
-    """A tooth of a ring: what a wheel of as many teeth leaves between its own, within the pitch circle by `room`."""
+def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
+    """Return a nominal tooth of a ring, at most `height` (modules) within the pitch circle.
+
+    It has the shape of a tooth space of an external wheel.
+    """
     most = 1 + 2 * DEDENDUM / z
-    # the space of the ring is the tooth of a wheel, higher and a little wider
-    tip = max(1 - 2 * min(ADDENDUM, room) / z, _MINIMUM_ROOT)
+    # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
+    tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
     half = pi / z
     flank = [(r, half - _half(z, r) - 2 * _BACKLASH * pi / z) for r in _spread(tip, most)]
     return ToothProfile(
@@ -118,10 +119,10 @@ def ring(z: int, room: float = ADDENDUM) -> ToothProfile:
     )
 
 
-def room(z: int, mate: int, within: bool) -> float:
-    """How tall (modules) a tooth may be for a mate: down to the roots of one of few teeth.
+def tooth_height(z: int, mate: int, within: bool) -> float:
+    """Return the maximum height (modules) of a tooth that does not touch the roots of a mate with few teeth.
 
-    within   one of them is a ring: then so that tips pass each other where the teeth are long out of mesh
+    within   one of them is a ring; tips then also pass each other outside of the mesh
     """
     if within:
         return _PASSING * abs(z - mate)
@@ -133,27 +134,28 @@ def _root(z: float) -> float:
 
 
 def bevel(z: int, cone: float) -> ToothProfile:
-    """A tooth of a bevel wheel at its wide end: that of the wheel into which its back cone unrolls.
+    """Return a nominal tooth of a bevel wheel at its wide end, from the virtual spur wheel of its back cone (Tredgold).
 
-    The radius counts heights over the pitch cone along the back cone; cone is the half angle of the pitch cone (rad).
+    Its radii contain heights above the pitch cone along the back cone; cone is the half angle of the pitch cone (rad).
     """
-    # the back cone of a crown wheel never closes: its teeth are nearly those of a rack
+    # the back cone of a crown wheel is a cylinder: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
+    # tooth count of the virtual spur wheel (Tredgold)
     virtual = z / narrow
     points = _tooth(virtual)
     return ToothProfile(FORM, tuple((1 + (r - 1) / narrow, angle / narrow) for r, angle in points))
 
 
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
-    """A tooth of a crown wheel whose spaces are a little wider than the teeth of its mate, of which one is given.
+    """Return a tooth of a crown wheel whose tooth spaces are slightly wider than the given teeth of its mate.
 
-    section   of that tooth: radius over its pitch radius, and angle (rad), in order of angle
+    section   one tooth of the mate: radius relative to its pitch radius and angle (rad), by increasing angle
     """
     import numpy as np
 
     r, angle = np.array([point for point in section if point[1] >= 0]).T
     heights, halves = (1 - r) * mate / 2, 0.5 - angle * mate / (2 * pi) - _CROWN_BACKLASH
-    # short of the roots of its mate; the tips of that come as far short of its own
+    # the same bottom clearance at the roots of its mate and at its own
     low, high = heights[0] - (DEDENDUM - ADDENDUM), heights[-1] - (DEDENDUM - ADDENDUM)
     at = [low, *heights[heights < high], high]
     widths = np.clip(np.interp(at, heights, halves), _LAND / 2, _ROOM / 2)
@@ -161,7 +163,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """A thread: its section along the axle, wound round it; height over the pitch radius."""
+    """Return the axial section of a worm's thread, wound round its axis; height is relative to the pitch radius."""
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -176,7 +178,7 @@ def worm(starts: int, height: float) -> ToothProfile:
 def _tooth(z: float, addendum: float = ADDENDUM) -> Points:
     root = _root(z)
     tip = 1 + 2 * addendum / z
-    # a pointed tooth ends where its flanks are near to meeting
+    # a pointed tooth is shortened until its tip has a minimum width
     while _half(z, tip) < _LAND * pi / z and tip > 1:
         tip = 1 + 0.9 * (tip - 1)
     flank = [(r, min(_half(z, r), _ROOM * pi / z)) for r in _spread(root, tip)]
@@ -188,8 +190,10 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Half the angle (rad) of a tooth of a wheel at radius r: involute, straight towards the axle under its base, and
-    undercut as much as a rack does it."""
+    """Return half the angle (rad) of a tooth at relative radius r.
+
+    The flank is an involute, radial below the base circle, with the undercut of a rack.
+    """
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
@@ -197,10 +201,11 @@ def _half(z: float, r: float) -> float:
 
 
 def _swept(z: float, r: float) -> float:
-    """Half the angle (rad) of a space that the tips of a rack sweep at radius r, from the middle of their own tooth.
+    """Return half the angle (rad) of the tooth space that the tips of a rack cut out at relative radius r.
 
-    A corner of the rack, `b` from that middle and at the height `c` over the axle, is u aside when the wheel has turned
-    by u - b: it then stands atan(u / c) - (u - b) from the middle of the space.
+    The rack's tip corner is at the distance `b` from the middle of its tooth and at the height `c` above the axis.
+    After a rotation of the wheel by u - b it is displaced by u, and then at the angle atan(u / c) - (u - b) from the
+    middle of the space.
     """
     c = 1 - 2 * ADDENDUM / z
     b = pi / 2 / z - (1 - c) * tan(_PRESSURE)
@@ -209,7 +214,7 @@ def _swept(z: float, r: float) -> float:
 
 
 def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
-    """From the middle of a space to the middle of the next; the flank runs from root to tip."""
+    """Return a whole tooth from the middle of a space to the middle of the next; the flank runs from root to tip."""
     root = flank[0][0]
     before = [(r, -angle) for r, angle in flank]
     return ((root, -pi / z), *before, *reversed(flank), (root, pi / z))
@@ -219,7 +224,7 @@ def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
 
 
 def find_bodies(stage: SceneContext) -> tuple[SceneBody, ...]:
-    """All links in the order declared."""
+    """Return the bodies of all links, in the order declared."""
     return tuple(_body(stage, link) for link in stage.train.declaration.links)
 
 
@@ -227,7 +232,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
     tree, train = stage.train.kinematics.tree, stage.train
     label = tree.axis(link) or ""
     place = stage.layout.axes.get(label)
-    # coaxial links are parts of the link that bears their axis, however their joints were declared
+    # coaxial links are carried by the link that carries their axis, whatever joints were declared
     bearer = tree.top.get(link)
     speed = stage.speed(link)
     return SceneBody(
@@ -255,7 +260,7 @@ def _role(stage: SceneContext, link: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ToothProfiles:
-    """Teeth by wheel, names of forms by pair, and what could not be drawn."""
+    """Tooth profiles by wheel, names of tooth forms by pair, and notices on wheels that could not be drawn."""
 
     profiles: Mapping[str, ToothProfile]
     forms: Mapping[str, str]
@@ -263,7 +268,10 @@ class ToothProfiles:
 
 
 def find_profiles(stage: SceneContext) -> ToothProfiles:
-    """The tooth of every wheel, as it is cut where nothing is said of play; of others a"""
+    """Return the tooth profile of every wheel, as cut with the declared backlash.
+
+    Wheels that cannot be cut get nominal teeth.
+    """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     profiles = {wheel: _profile(stage, toothed, wheel) for wheel in stage.train.declaration.wheels}
     return ToothProfiles(profiles, {mesh.name: mesh.form for mesh in stage.meshes}, tuple(_notices(stage, toothed)))
@@ -279,22 +287,22 @@ def _section(toothing: WheelTeeth) -> ToothProfile:
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Why wheels that lie in a plane are drawn otherwise than they could be cut, each reason once."""
-    told: dict[tuple[str, str, str, bool], list[str]] = {}
+    """Yield the reasons why planar wheels are drawn differently from how they could be cut, each reason once."""
+    by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
             first = problems[0]
-            told.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
-    for (what, why, fix, of_first), wheels in told.items():
+            by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
+    for (what, why, fix, of_first), wheels in by_reason.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
-        drawn = "drawn as their first pairs have them" if of_first else "drawn as a likeness"
+        drawn = "drawn as for their first pairs" if of_first else "drawn approximately"
         yield Problem(f"the teeth of {names} are {drawn}: {what}", why, fix)
     bent = {each.wheel for each in bent_wheels(stage.train, stage.layout)}
     for name, (_, own) in stage.train.declaration.wheels.items():
         if own.flexible and name not in bent:
-            why = "no link carries its axis round within a ring of more teeth, and so no wave bends it"
-            fix = "declare it as trains/engineering/strain-wave.yaml does"
-            yield Problem(f"'{name}' is flexible, and drawn round", why, fix)
+            why = "no generator carries its axis within a ring of more teeth, so that no wave deforms it"
+            fix = "declare it as in trains/engineering/strain-wave.yaml"
+            yield Problem(f"flexible wheel '{name}' is drawn undeformed", why, fix)
 
 
 def _likeness(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfile:
@@ -308,8 +316,8 @@ def _likeness(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfi
     if place.cone:
         return bevel(z, place.cone)
     mates = [stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)]
-    rooms = [room(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
-    return (ring if wheel.internal else spur)(z, *([min(rooms)] if rooms else []))
+    heights = [tooth_height(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
+    return (ring if wheel.internal else spur)(z, *([min(heights)] if heights else []))
 
 
 def _mate_module(stage: SceneContext, name: str) -> float:
@@ -317,7 +325,7 @@ def _mate_module(stage: SceneContext, name: str) -> float:
 
 
 def _mates(stage: SceneContext, name: str) -> Iterator[str]:
-    """Wheels that a wheel meshes with."""
+    """Yield the wheels with which a wheel meshes."""
     for circuit in stage.train.circuits:
         if name in circuit.wheels:
             yield circuit.wheels[1 - circuit.wheels.index(name)]
@@ -326,9 +334,10 @@ def _mates(stage: SceneContext, name: str) -> Iterator[str]:
 def find_wheels(
     stage: SceneContext, profiles: Mapping[str, ToothProfile], turns: Mapping[str, float]
 ) -> tuple[tuple[SceneWheel, ...], tuple[ToothProfile, ...]]:
-    """All wheels in the order declared, and the tooth forms they share.
+    """Return all wheels in the order declared, and the tooth forms that they share.
 
-    profiles   tooth by wheel; turns, angle (rad) of its first tooth about the direction of its body
+    profiles   tooth by wheel
+    turns      angle (rad) of the first tooth of each wheel about the direction of its body
     """
     shared: dict[ToothProfile, int] = {}
     circuits: dict[str, list[str]] = {}
@@ -392,7 +401,7 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Angle (rad) of its teeth from its axis, of a right hand above 0; of a worm's thread too."""
+    """Return the helix angle (rad) of its teeth or its thread from the axis, positive for a right hand."""
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
     lead = pi * place.module * (wheel.count or 1)
@@ -400,18 +409,18 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """-1 where the declared axis of a wheel points against the reference direction of its parallels."""
+    """Return -1 if the declared axis of a wheel points against the reference direction of its parallels, else 1."""
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
 def as_placed(stage: SceneContext, wheel: str) -> float:
-    """The turn of a wheel as the layout has it, about the reference direction."""
+    """Return the angle (rad) of a wheel's first tooth in the layout, about the reference direction."""
     place = stage.layout.wheels[wheel]
     return place.turn * flip(stage, place)
 
 
 def _doubt(wheel: Declared) -> str:
-    """What the evidence allows, in words; nothing for a sure count."""
+    """Return the tooth counts that the evidence allows, as text; empty for a certain count."""
     doubt = wheel.doubt
     if doubt is None:
         return ""
@@ -421,7 +430,7 @@ def _doubt(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Part of the power put in that is lost at each wheel's meshes, half of a pair's at either wheel."""
+    """Return the fraction of the input power lost at each wheel's meshes, half of a pair's loss at each wheel."""
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

@@ -1,11 +1,12 @@
-"""From a train to its scene: places, outlines and motion of all its elements.
+"""Construction of the scene of a train: places, outlines and motion of all its elements.
 
-Wheels are turned on their bodies so that teeth are in contact as their transmission function requires in the zero
-pose. The function of a pair gives the position of both wheels at its driver's angle, so that going from wheel to wheel
-leaves no choice. Of a wheel with several mates one pair is exact; in the others the driven wheel is turned until its
-driver nowhere interferes with it.
+The rotation of each wheel on its body brings teeth into contact as their transmission function requires in the zero
+pose. The transmission function of a pair gives the angles of both wheels at the angle of its driver, so that a
+traversal from wheel to wheel determines them all. For a wheel with several mates one pair is exact; in the others the
+driven wheel is rotated until its driver does not interfere with it at any position.
 
-With speeds as exact functions of tooth counts, for pages on which counts are changed; equal planets have one count.
+Speeds are available as exact functions of tooth counts, for pages on which counts are changed; equal planets share one
+count.
 """
 
 from __future__ import annotations
@@ -48,21 +49,21 @@ if TYPE_CHECKING:
 # ----------------------------------------------------------------------------------------------------- phases of wheels
 
 
-_NONE = 1e-9  # mm, or of a unit vector
+_NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are rounding errors
 
 
 @dataclass(frozen=True, slots=True)
 class MeshDirections:
-    """The two wheels of a pair."""
+    """Directions of contact of the two wheels of a pair."""
 
     contact: tuple[Vector, Vector]
-    """Unit vectors from their centres, across their axes, to where they touch."""
+    """Unit vectors from their centres to the point of contact, perpendicular to their axes."""
     same: int
-    """1 where both turn about their own direction with teeth going one way at the contact, else -1."""
+    """1 if positive rotations of both wheels about their directions move the teeth in contact the same way, else -1."""
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:
-    """How the wheels of a pair meet; None for skew axes, and for wheels about one axis."""
+    """Return the directions of contact of a pair; None for skew axes, and for coaxial wheels."""
     wheels = [stage.train.declaration.wheels[name][1] for name in circuit.wheels]
     if "worm" in (wheels[0].kind, wheels[1].kind):
         return None
@@ -70,13 +71,13 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | N
     axes = stage.reference(first.axis), stage.reference(second.axis)
     if size(cross(*axes)) >= _NONE and any(wheel.is_helical for wheel in wheels):
         return None
-    if size(cross(*axes)) < _NONE:  # they are parallel
+    if size(cross(*axes)) < _NONE:  # parallel axes
         between = across(minus(second.centre, first.centre), axes[0])
         if size(between) < _NONE:
             return None
         n = unit_or_z(between)
         back = scaled(n, -1.0)
-        # a ring is touched from within, on the far side of its mate
+        # contact with a ring is inside it, on the far side of its mate
         contact = (back, back) if wheels[1].internal else (n, n) if wheels[0].internal else (n, back)
     else:
         contact = _towards(stage, first, second, axes[0]), _towards(stage, second, first, axes[1])
@@ -85,12 +86,12 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | N
 
 
 def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vector) -> Vector:
-    """Across the axis of a bevel wheel towards its mate, which lies off the apex on the side it faces."""
+    """Return the unit vector across the axis of a bevel wheel towards its mate, on the facing side of the apex."""
     lies = scaled(stage.along(mate.axis), float(mate.facing)) if mate.facing else minus(mate.centre, own.centre)
     return unit_or_z(across(lies, axis))
 
 
-_NEAR = 1e-6  # of a pitch: teeth that stand as their law has them
+_NEAR = 1e-6  # pitches: smaller phase differences are rounding errors
 _ROUNDS = 4
 
 
@@ -103,7 +104,7 @@ class WheelPhases:
 
 
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> WheelPhases:
-    """The turn of every wheel: so that it meshes with its mates, else as the layout has it."""
+    """Return the angle of every wheel at which it meshes with its mates; without mates, as in the layout."""
     found = _Mounting(stage, moved)
     for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
         found.spread(circuit)
@@ -131,11 +132,11 @@ class _Mounting:
 
     @property
     def pairs(self) -> list[Circuit]:
-        """The pairs whose wheels can be set against each other."""
+        """Pairs whose wheels can be aligned with each other."""
         return [circuit for circuit in self.stage.train.circuits if circuit.id in self.meetings]
 
     def spread(self, first: Circuit) -> None:
-        """Mount all wheels that mesh with those of a pair, near or far, unless they are."""
+        """Place all wheels connected with a pair by meshes, by breadth-first search, unless they are placed already."""
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -157,35 +158,37 @@ class _Mounting:
                     queue.append(mate)
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
-        """Mount the mate of a wheel that is mounted."""
-        stands = self._stands(circuit, own)
+        """Place the mate of a wheel that is placed already."""
+        position = self._position(circuit, own)
         if own == self._driver(circuit):
-            self._set(circuit, 1 - own, stands + self._ahead(circuit, stands))
-            self._note_phase(circuit, stands)
+            self._set(circuit, 1 - own, position + self._ahead(circuit, position))
+            self._note_phase(circuit, position)
             return
-        at = stands - self._ahead(circuit)
-        for _ in range(_ROUNDS):  # how far ahead depends on where the driver stands, and that on how far ahead
-            at = stands - self._ahead(circuit, at)
+        at = position - self._ahead(circuit)
+        for _ in range(_ROUNDS):  # fixed-point iteration: position and advance depend on each other
+            at = position - self._ahead(circuit, at)
         self._set(circuit, 1 - own, at)
         self._note_phase(circuit, at)
 
-    def _shift(self, circuit: Circuit, stands: float) -> float:
-        """Pitches by which a driver's tooth stands before where its law has it, less whole ones: teeth are alike."""
+    def _shift(self, circuit: Circuit, position: float) -> float:
+        """Return by how much (pitches, -1/2 to 1/2) a driver's tooth is ahead of the phase of its transmission
+        function.
+        """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
-        shift = (stands - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
+        shift = (position - setting.S / self._pitch(circuit.wheels[self._driver(circuit)]) + 0.5) % 1 - 0.5
         return shift if abs(shift) > _NEAR else 0.0
 
-    def _note_phase(self, circuit: Circuit, stands: float) -> None:
-        if self._shift(circuit, stands):
+    def _note_phase(self, circuit: Circuit, position: float) -> None:
+        if self._shift(circuit, position):
             self.off.append(circuit.id)
 
-    def _ahead(self, circuit: Circuit, stands: float | None = None) -> float:
-        """How far (pitches, along the way of turning) the driven wheel's tooth stands before the driver's.
+    def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
+        """Return how far (pitches, in the sense of rotation) the driven wheel's tooth is ahead of the driver's.
 
-        stands   where the driver's tooth stands: off the phase of its law, the driven one is set on so far that the
-                 driver nowhere cuts into it
+        position   position of the driver's tooth (pitches); off the phase of its transmission function, the driven
+                   tooth is advanced until the driver does not interfere with it at any position
         """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
@@ -195,41 +198,41 @@ class _Mounting:
             return mesh.stands or 0.5
         driver = self._driver(circuit)
         if any(self.stage.layout.wheels[wheel].cone for wheel in circuit.wheels):
-            # no law knows the likeness of a crown: its teeth stand in the middle of spaces, in the mean
+            # approximate teeth of a crown have no transmission function: they are centred in spaces, on average
             middle = sum(setting.transmission.error_range()) / 2
             return 0.5 + (setting.error - middle) / self._pitch(circuit.wheels[1 - driver])
-        shift = 0.0 if stands is None else self._shift(circuit, stands)
+        shift = 0.0 if position is None else self._shift(circuit, position)
         error = setting.error_past(shift * self._pitch(circuit.wheels[driver])) if shift else setting.error
         return mesh.stands + error / self._pitch(circuit.wheels[1 - driver])
 
     def _driver(self, circuit: Circuit) -> int:
-        """0 or 1: which wheel drives."""
+        """Return the index of the driving wheel, 0 or 1."""
         setting = self.moved.driving.get(circuit.id)
         if setting is not None:
             return int(setting.driver != circuit.i)
         mesh = self.meshes.get(circuit.id)
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
-    def _stands(self, circuit: Circuit, at: int) -> float:
-        """Where the first tooth of a mounted wheel stands at the beginning, in pitches from the contact, forwards."""
+    def _position(self, circuit: Circuit, at: int) -> float:
+        """Return the initial position of the first tooth of a placed wheel, in pitches past the contact, forwards."""
         wheel = circuit.wheels[at]
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
-    def _set(self, circuit: Circuit, at: int, stands: float) -> None:
-        """Mount a wheel so that a tooth of it stands there."""
+    def _set(self, circuit: Circuit, at: int, position: float) -> None:
+        """Place a wheel with a tooth at a given position (pitches)."""
         wheel = circuit.wheels[at]
         pitch = self._pitch(wheel)
-        self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (stands % 1) * pitch) % (2 * pi)
+        self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (position % 1) * pitch) % (2 * pi)
 
     def _zero(self, circuit: Circuit, at: int) -> float:
-        """The turn that puts the first tooth of a wheel on the line of centres at the beginning."""
+        """Return the angle at which the first tooth of a wheel is initially on the line of centres."""
         place = self.stage.layout.wheels[circuit.wheels[at]]
         axis = self.stage.reference(place.axis)
         rest = self.moved.rest[(circuit.i, circuit.j)[at]] - self.moved.rest[circuit.carrier]
         return azimuth(self.meetings[circuit.id].contact[at], axis, place.reference) - rest
 
     def _way(self, circuit: Circuit, at: int) -> int:
-        """1 where a wheel turns forwards about its body's direction, else -1."""
+        """Return 1 if a wheel turns in the positive sense about its body's direction, else -1."""
         driver = self._driver(circuit)
         setting = self.moved.driving.get(circuit.id)
         forward = self._forward((circuit.i, circuit.j)[driver], circuit.carrier) if setting is None else setting.forward
@@ -243,12 +246,13 @@ class _Mounting:
         return 2 * pi / (self.stage.train.declaration.wheels[wheel][1].count or 1)
 
     def notices(self) -> Iterator[Problem]:
-        """What the drawn teeth cannot show."""
+        """Yield notices on teeth that are drawn out of phase."""
         if self.off:
             yield Problem(
-                f"the teeth of {', '.join(self.off)} are drawn off the phase of their law",
-                "their driver meshes with several wheels, and stands as the first of them has it; the motion is exact, "
-                "and the driven teeth are set on until nothing cuts into them, so that they touch but once a pitch",
+                f"the teeth of {', '.join(self.off)} are drawn out of phase",
+                "their driver meshes with several wheels, and its angle follows from the first of them; the motion is "
+                "exact, and the driven teeth are advanced until nothing cuts into them, so that they touch only once "
+                "per pitch",
                 "",
             )
 
@@ -256,7 +260,7 @@ class _Mounting:
 # -------------------------------------------------------------------------------------------------------- formula table
 
 
-_MOST_WHEELS = 300  # functions of the links of a long chain are long themselves
+_MOST_WHEELS = 300  # the length of formulas grows with the chain
 
 
 def find_count_formulas(
@@ -266,9 +270,9 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """The functions of a train as declared, for the parts of its scene; None where there are none to be had.
+    """Return the speeds of a train as functions of tooth counts, for the parts of its scene; None if they do not exist.
 
-    A train without inputs has none, nor has one that is too coupled or too large for them.
+    A train without inputs has none, nor has one that is too strongly coupled or too large.
     """
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
@@ -282,7 +286,7 @@ def find_count_formulas(
     own = originals(declared)
     counted = {wheel.id: _original(wheel.id, own, bodies[wheel.body].id) for wheel in wheels}
     try:
-        train_requested = _asking(unfolded.declaration, state, [*requested, *filter(None, links)])
+        train_requested = _with_outputs(unfolded.declaration, state, [*requested, *filter(None, links)])
         found = find_formulas(train_requested, state, {name: free[of] for name, of in counted.items() if of in free})
     except GearTrainError:
         return None
@@ -305,8 +309,8 @@ def _name(requested: tuple[str, str]) -> str:
     return " seen from ".join(requested)
 
 
-def _asking(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
-    """The train with other outputs: links as they are seen from links."""
+def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
+    """Return the train with other outputs: speeds of links relative to links."""
     outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in requested})
     states = {
         name: each.changed(outputs=FrozenDict({})) if name == state else each for name, each in train.states.items()
@@ -315,13 +319,13 @@ def _asking(train: Train, state: str | None, requested: Sequence[tuple[str, str]
 
 
 def _original(wheel: str, own: dict[str, str], link: str) -> str:
-    """The declared wheel of a copy's wheel, whose name ends as that of its link does."""
+    """Return the declared wheel of a copied wheel, whose name has the same suffix as that of its link."""
     end = link.removeprefix(own[link])
     return wheel.removesuffix(end) if end else wheel
 
 
 def _parent(train: Train) -> str:
-    """What would extend it: a shipped train by name, else the file that it was read from."""
+    """Return the name that an extending declaration would use: of a shipped train, else of the file that was read."""
     from geartrain.train.declaration_files import shipped
 
     file = train.place("name").rpartition(":")[0]
@@ -332,10 +336,10 @@ def _parent(train: Train) -> str:
 
 
 class _Table:
-    """Functions by index, each once."""
+    """Indexed formulas without duplicates."""
 
     def __init__(self, place: Mapping[str, int]) -> None:
-        self.place = place  # of each wheel, that of its count
+        self.place = place  # index of the count of each wheel
         self.formulas: dict[CountFormula, int] = {}
 
     def index(self, found: Formulas, requested: tuple[str, str] | None) -> int | None:
@@ -371,30 +375,30 @@ def make_scene(
     run: TimeRun | None = None,
     formulas: bool = False,
 ) -> Scene:
-    """The scene of a train in one state: where all stands, what it looks like and how it moves, as plain data.
+    """Return the scene of a train in one state: places, shapes and motion of all its elements, as plain data.
 
     Parameters
     ----------
     train : GearTrain
-        Loaded or declared. One that cannot turn has a scene too, with the verdict.
+        Loaded or declared train. One that cannot turn has a scene too, with the verdict.
     state : str, optional
-        One of its states; by default the first, or that of the run.
+        State of the train; by default the first, or that of the run.
     layout : Layout, optional
-        Where it stands; by default `lay_out(train)`.
+        Places of axes and wheels; by default `lay_out(train)`.
     run : geartrain.simulation.TimeRun, optional
-        What `train.dynamics(...)` gave in that state: then this is what moves.
+        Result of `train.dynamics(...)` in that state, which is then the motion of the scene.
     formulas : bool
-        True: with speeds as functions of tooth counts, which a page needs on which counts are changed.
+        True to include speeds as functions of tooth counts, which are needed by a page on which counts are changed.
 
     Returns
     -------
     Scene
-        Lengths in mm, angles in rad, ratios exact. Its `notices` tell what could not be placed or followed.
+        Lengths in mm, angles in rad, ratios exact. Its `notices` report what could not be placed or followed.
 
     Raises
     ------
     GearTrainError
-        If there is no such state, or the run is of another train or state.
+        If the state does not exist, or the run is of another train or state.
 
     Examples
     --------
@@ -407,7 +411,7 @@ def make_scene(
     >>> scene.movement.kind
     'exact'
     """
-    moves = originals(train.declaration)  # what was simulated moves equal planets as one
+    moves = originals(train.declaration)  # the simulation has equal planets as one link
     folded, train = train, train.unfolded
     declared = train.declaration
     state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
@@ -477,5 +481,5 @@ def _sources(train: GearTrain) -> dict[str, dict[str, str]]:
 
 
 def _plain(notice: Problem) -> dict[str, str]:
-    place = re.sub(r"^.*[\\/]", "", notice.place)  # a page is shown where nobody has the writer's folders
+    place = re.sub(r"^.*[\\/]", "", notice.place)  # a page is shown on other machines: no folders
     return {"what": notice.what, "why": notice.why, "fix": notice.fix, "place": place}

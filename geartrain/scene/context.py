@@ -1,4 +1,4 @@
-"""What every part of a scene asks for: the train in one state, where it stands, and its bodies by number."""
+"""Context of a scene: a train in one state, its layout, and the indices of its bodies and wheels."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from geartrain.train import Output, StateCase
 
 _Z: Vector = (0.0, 0.0, 1.0)
-_MOST_LINKS = 100  # that stand for outputs
+_MOST_LINKS = 100  # maximum number of links used as outputs
 
 
 @dataclass(frozen=True)
 class SceneContext:
-    """A train in one state, and its layout."""
+    """A train in one state, with its layout."""
 
     train: GearTrain
     answer: Answer
@@ -35,12 +35,12 @@ class SceneContext:
 
     @cached_property
     def case(self) -> StateCase:
-        """What is prescribed in this state."""
+        """Prescribed inputs and outputs of this state."""
         return self.train.declaration.case(self.answer.state)
 
     @cached_property
     def outputs(self) -> Mapping[str, Output]:
-        """What is asked for in this state; of a train that asks for nothing, the first of its links."""
+        """Outputs declared in this state; for a train without outputs, its first 100 links."""
         from geartrain.train import Output
 
         declared = self.train.declaration
@@ -49,71 +49,75 @@ class SceneContext:
 
     @cached_property
     def body(self) -> Mapping[str, int]:
-        """Number of the body of each link."""
+        """Index of the body of each link."""
         return {link: at for at, link in enumerate(self.train.declaration.links)}
 
     @cached_property
     def wheel(self) -> Mapping[str, int]:
-        """Number of each wheel."""
+        """Index of each wheel."""
         return {wheel: at for at, wheel in enumerate(self.train.declaration.wheels)}
 
     @cached_property
     def driving_link(self) -> str | None:
-        """The input whose turns are given; None where nothing is driven."""
+        """First input with a speed other than 0, whose turns are prescribed; None if nothing is driven."""
         return next((link for link, speed in self.case.inputs.items() if speed), None)
 
     @cached_property
     def crank(self) -> str | None:
-        """The link at which a hand would turn the train."""
+        """Link at which the train would be cranked by hand."""
         return self.train.declaration.crank or self.driving_link
 
     def speed(self, link: str) -> Fraction | None:
-        """Exact speed at the declared inputs; None where it is not determined."""
+        """Return the exact speed of a link at the declared inputs; None if it is not determined."""
         found = self.answer.speeds.get(link)
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Exact speed over the lead's; None where it is not determined, or nothing is driven."""
+        """Return the exact speed of a link relative to the driving link.
+
+        It is None if the speed is not determined, or nothing is driven.
+        """
         found = self.speed(link)
         if found is None or self.driving_link is None:
             return None
         return found / self.case.inputs[self.driving_link]
 
     def shown(self, speed: Fraction | None) -> str | None:
-        """A speed as text: exact where the case is."""
+        """Return a speed as text, exact if the inputs are exact."""
         return None if speed is None else self.case.shown(speed)
 
     def sense(self, link: str) -> int:
-        """-1 where a link's axis points against the reference direction of its parallels."""
+        """Return -1 if a link's axis points against the reference direction of its parallels, else 1."""
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Declared starting angle (rad)."""
+        """Return the declared starting angle of a link (rad)."""
         angle = self.train.declaration.links[link].angle
         return 0.0 if angle is None else angle.si
 
     def declared(self, link: str) -> Vector:
-        """Unit vector about which a link's declared speed is positive."""
+        """Return the unit vector about which a link's declared speed is positive."""
         return self.along(self.train.kinematics.tree.axis(link))
 
     def along(self, axis: str | None) -> Vector:
-        """Direction of an axis as declared; z of the frame."""
+        """Return the declared direction of an axis; z for the frame."""
         place = self.layout.axes.get(axis or "")
         return _Z if place is None else unit_or_z(place.direction)
 
     def reference(self, axis: str | None) -> Vector:
-        """Direction of an axis, turned round where it points against the first declared one parallel to it."""
+        """Return the direction of an axis, reversed if it points against the first declared axis parallel to it."""
         own = self.along(axis)
+        # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):
             first = self.along(label)
-            # directions are floats by now: their cosine is 1 but for rounding
+            # the cosine of parallel directions is 1 except for rounding errors
             if abs(dot(first, own)) > 1 - 1e-9:
                 return own if dot(first, own) > 0 else (-own[0], -own[1], -own[2])
         return own
 
     @cached_property
     def step(self) -> Fraction:
-        """Turns of the lead in one unit of time of the input: of `100 rpm`, in a minute. 1 where nothing is driven."""
+        """Turns of the driving link in one time unit of the input, for `100 rpm` per minute; 1 if nothing is driven."""
         if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration
@@ -122,12 +126,12 @@ class SceneContext:
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """The pairs with real teeth; none where they cannot be built (`unbuilt` says why)."""
+        """Gear pairs with real teeth; empty if they cannot be built (`unbuilt` gives the reasons)."""
         return self._built[0]
 
     @property
     def unbuilt(self) -> tuple[Problem, ...]:
-        """Why real teeth cannot be built."""
+        """Reasons why real teeth cannot be built."""
         return self._built[1]
 
     @cached_property
@@ -139,15 +143,15 @@ class SceneContext:
 
     @cached_property
     def near(self) -> Vector:
-        """Unit vector towards the reader."""
+        """Unit vector towards the viewer."""
         return (0.0, 0.0, float(self.layout.front))
 
 
 def exact(value: Fraction | None) -> str | None:
-    """A ratio as text."""
+    """Return a ratio as exact text; None for None."""
     return None if value is None else fraction_text(value)
 
 
 def rounded(value: Fraction | None) -> str:
-    """A ratio in decimal; nothing where there is none."""
+    """Return a ratio as decimal text; empty for None."""
     return "" if value is None else decimal(value)

@@ -1,4 +1,4 @@
-"""Speeds of a scene as exact functions of tooth counts: quotients of sums of products, and what must hold for them."""
+"""Speeds of a scene as exact rational functions of tooth counts, and the conditions under which they are valid."""
 
 from __future__ import annotations
 
@@ -10,38 +10,41 @@ from geartrain.numerics.results import Shown
 
 @dataclass(frozen=True, slots=True)
 class CountFormula(Shown):
-    """A quotient of two sums of products of counts; coefficients are whole.
+    """A quotient of two polynomials in the tooth counts, with integer coefficients.
 
     See Also
     --------
-    SceneFormulas : holds them
+    SceneFormulas : contains them.
     """
 
     wheels: Sequence[int]
-    """The counts it depends on, as indices of `SceneFormulas.wheels`; one twice where equal planets have it."""
+    """Counts on which it depends, as indices of `SceneFormulas.wheels`.
+
+    An index is repeated if equal planets share a count.
+    """
     numerator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the numerator: a coefficient as text, and powers parallel to `wheels`, all 0 or more."""
+    """Terms of the numerator: a coefficient as text, and exponents parallel to `wheels`, all 0 or more."""
     denominator: Sequence[tuple[str, Sequence[int]]]
-    """Terms of the denominator, likewise."""
+    """Terms of the denominator, in the same form."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCondition(Shown):
-    """What counts must not break for the formulas to hold.
+    """A condition on tooth counts under which the formulas are valid.
 
     See Also
     --------
-    SceneFormulas : holds them
+    SceneFormulas : contains them.
     """
 
     formula: CountFormula
-    """A function of the counts."""
+    """Function of the counts."""
     zero: bool
-    """True where it must be 0, False where it must not."""
+    """True if the function must be 0, False if it must not be 0."""
     text: str
-    """What it states."""
+    """Statement of the condition."""
     carrier: int | None = None
-    """Of a loop, the body from which its wheels are seen."""
+    """Index of the body relative to which the wheels of a loop are observed; None for other conditions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,24 +53,24 @@ class SceneFormulas(Shown):
 
     See Also
     --------
-    make_scene : gives it, in `Scene.formulas`.
+    make_scene : returns it in `Scene.formulas`.
     """
 
     wheels: Sequence[str]
-    """Names of the declared wheels whose counts may change."""
+    """Names of the declared wheels whose counts may be changed."""
     count: Sequence[int | None]
-    """For each wheel of the scene the index of its count in `wheels`; None where it has none."""
+    """Index in `wheels` of the count of each wheel of the scene; None if it has none."""
     formulas: Sequence[CountFormula]
-    """Functions, each once."""
+    """Functions, without duplicates."""
     bodies: Sequence[int | None]
-    """Index of the function of each body of the scene; None where nothing determines it."""
+    """Index of the function of each body of the scene; None if its speed is not determined."""
     pointers: Sequence[int | None]
-    """Index of the function of each pointer of the scene; None where nothing determines it."""
+    """Index of the function of each pointer of the scene; None if its speed is not determined."""
     conditions: Sequence[CountCondition]
-    """Where one is broken, the train does not turn by these functions."""
+    """Conditions of validity. If one is violated, these functions do not describe the motion."""
     input: str
-    """Speed of the lead, exact."""
+    """Exact speed of the driving link."""
     exact: bool
-    """False where speeds are told in decimal."""
+    """False if speeds are displayed as decimals."""
     parent: str
-    """What a declaration of the changed train extends: the name of a shipped train, or of a file."""
+    """Name of the shipped train, or of the file, that a declaration of the changed train extends."""

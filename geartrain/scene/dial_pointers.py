@@ -1,11 +1,11 @@
-"""Dials, with the place and direction of their scales; pointers, with what they show and on which pairs they depend.
+"""Dials with the place and direction of their scales; pointers with their readings and the pairs they depend on.
 
-Dependence of an output: the pairs whose error would move it, exactly. An error in one pair is a right-hand side in its
-row. Its effect on an output is the weight of that row in the one combination of rows that gives the output, so that one
-elimination of the transposed system answers for all outputs. The mean speed of a follower does not depend on the speed
-of its pin, but its position does: the pairs that turn the pin count too.
+An output depends on the pairs whose errors would change it; this is computed exactly. An error in one pair is a
+right-hand side in its row. Its effect on an output is the weight of that row in the only combination of rows that gives
+the output, so that one elimination of the transposed system answers for all outputs. The mean speed of a follower does
+not depend on the speed of its pin, but its position does: the pairs that turn the pin are included too.
 
-Dates of the driving link's turns, and the mean motion that pointers should show.
+The module also gives dates of the driving link's turns, and the mean motions that pointers should show.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ if TYPE_CHECKING:
 # ---------------------------------------------------------------------------------------------------- output dependence
 
 
-_BUDGET = 4_000_000  # operations
+_BUDGET = 4_000_000  # maximum number of operations of the elimination
 
 
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
-    """Names of pairs and couplings by output, in order from the input; nothing for a train that does not move.
+    """Return names of pairs and couplings by output, in order from the input; empty for a train that does not move.
 
-    Of meshes in parallel, such as several planets between two wheels, all count.
+    All meshes in parallel, such as several planets between two wheels, are included.
     """
     if not stage.answer.verdict:
         return {}
@@ -66,7 +66,7 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Also what turns the pins of the followers that are used."""
+    """Return the used pairs together with the pairs that turn the pins of used followers."""
     found, left = set(used), set(swings)
     while met := found & left:
         left -= met
@@ -75,19 +75,19 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
 
 
 def _ends(stage: SceneContext, name: str) -> dict[str, int]:
-    """An output as a sum of declared speeds."""
+    """Return an output as a linear combination of declared speeds."""
     return _seen(stage, *stage.outputs[name].links(name, stage.train.declaration.frame))
 
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
-    """A link seen from another, as a sum of declared speeds."""
+    """Return the speed of a link relative to another as a linear combination of declared speeds."""
     found = {of: 1}
     found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.kinematics.signs)
     return found
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """For each output the labels of the rows that have a weight in it; redundant rows have none."""
+    """Return for each output the labels of the rows that have a weight in it; redundant rows have none."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -96,6 +96,7 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
         for link, factor in output.items():
             if factor:
                 columns[link][-1 - number] = Fraction(-factor)
+    # rows of the transposed system; negative columns are outputs, as right-hand sides
     forms = eliminate(columns.values(), _BUDGET).forms(_BUDGET)
     found: list[set[str]] = [set() for _ in outputs]
     for at, form in forms.items():
@@ -106,7 +107,7 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
 
 
 def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterable[str]) -> tuple[str, ...]:
-    """Pairs in the order in which one meets them, walking from the inputs."""
+    """Return pairs in the order of a breadth-first search from the inputs."""
     left = dict.fromkeys(name for name in circuits if name in set(used))
     for loop in stage.train.mobility.loops:
         if any(pair in left for pair in loop.pairs):
@@ -134,23 +135,23 @@ def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterabl
 
 
 Key = tuple[str, str, str]
-"""A dial, the link it stands on, the axis of the pointer that is read on it."""
+"""Key of a dial: its name, the link on which it is mounted, the axis of the pointer that is read on it."""
 
-_APART = 0.96  # of the distance of two neighbours: what their radii may fill together
-_SPIRAL = 1.8  # radius of a spiral over that of a circle beside it
+_APART = 0.96  # maximum sum of the radii of two neighbours, over their distance
+_SPIRAL = 1.8  # radius of a spiral over that of a circle next to it
 _NESTED = 0.74  # radius over that of the dial around it
-_OUT, _BALL = 0.5, 0.07  # over the radius of its dial: where in a pointer a ball stands, and its own radius
-_LOWEST, _STEP = 0.02, 0.018  # over the radius of its dial: how high hands stand where no pipe bears them
-_PARTS = 4000  # of a radius, in which an engraving is told
-_MINIMUM = 0.3  # of the train's width, that a dial on a narrow side takes for the width of this side
-_GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
+_OUT, _BALL = 0.5, 0.07  # distance of a ball from the axis, and its radius, over the radius of its dial
+_LOWEST, _STEP = 0.02, 0.018  # heights of hands without pipes over the radius of the dial
+_PARTS = 4000  # integer units of an engraving in a radius
+_MINIMUM = 0.3  # minimum width of a side for the size of its dials, over the train's width
+_GAP = 0.04  # gap between wheels and dials, and between dials, over the train's width
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
-    """Every declared dial on which an output is read, once for each body and axis."""
+    """Return every declared dial on which an output is read, once for each body and axis."""
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
-    width = _width(stage)
+    width = _train_width(stage)
     for name, output in stage.outputs.items():
         dial = declared.dials.get(output.dial or "")
         key = dial_key(stage, name)
@@ -162,26 +163,26 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             id=key[0],
             body=stage.body[key[1]],
             face=dial.face or "",
-            centre=_beyond(stage, key[2], normal, _GAP * width),
+            centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
-            radius=0.4 * min(width, _side(stage, normal)),
+            radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
             look=dial.look,
             note=dial.note or "",
-            engraving=_told(scale) if dial.look == "scale" else (),
+            engraving=_engraving(scale) if dial.look == "scale" else (),
         )
     scales = _fitted({key: face for key, face in faces.items() if face.look == "scale"}, _GAP * width)
     return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
 
 
 @lru_cache(maxsize=64)
-def _told(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """What is engraved, from point to point, in whole parts of the radius."""
-    return tuple((each.kind, round(each.width, 4), tuple(map(_steps, each.lines))) for each in engrave(scale))
+def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
+    """Return the engraving as differences from point to point, in integer fractions of the radius."""
+    return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
 
 
-def _steps(line: Stroke) -> tuple[int, ...]:
+def _differences(line: Stroke) -> tuple[int, ...]:
     x = y = 0
     found: list[int] = []
     for point in line:
@@ -192,14 +193,14 @@ def _steps(line: Stroke) -> tuple[int, ...]:
 
 
 def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
-    """A ball on its own axis, until the pointer that bears it is known."""
+    """Return the dial as a ball on its own axis, until the pointer that carries it is known."""
     place = stage.layout.axes.get(key[2])
     foot = (0.0, 0.0, 0.0) if place is None else place.point
     return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """The dials, balls put in the middle of the pointers of the links that bear them, if these have pointers."""
+    """Return the dials with balls moved into the pointers of the links that carry them, if there are such pointers."""
     return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
 
 
@@ -213,7 +214,7 @@ def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Po
 
 
 def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """The dials, those that stand about several axes told apart by what is read on them."""
+    """Return the dials with titles; those that exist about several axes are distinguished by their outputs."""
     often = Counter(face.id for face in dials)
     read = [", ".join(each.output for each in pointers if each.dial == at) for at in range(len(dials))]
     return tuple(
@@ -223,7 +224,7 @@ def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
 
 
 def dial_key(stage: SceneContext, name: str) -> Key | None:
-    """The dial of an output; None where it names none."""
+    """Return the key of the dial of an output; None if it names none."""
     output = stage.outputs[name]
     if output.dial is None:
         return None
@@ -232,39 +233,39 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
 
 
 def facing(stage: SceneContext, name: str) -> Vector:
-    """Unit vector towards one who reads an output: along its axis, on the side its dial looks to."""
+    """Return the unit vector towards the reader of an output, along its axis on the side that its dial faces."""
     declared = stage.train.declaration
     output = stage.outputs[name]
     along = stage.along(stage.train.kinematics.tree.axis(output.of or name))
     side = dot(along, stage.near)
-    # an axis across the view looks neither way but for rounding: it keeps its own
+    # rounding errors must not decide for an axis perpendicular to the view: it keeps its direction
     normal = along if side > 0 or abs(side) < 1e-9 else scaled(along, -1.0)
     dial = declared.dials.get(output.dial or "")
     away = dial is not None and looks_away(dial.face, declared.view.from_)
     return scaled(normal, -1.0) if away else normal
 
 
-def _width(stage: SceneContext) -> float:
-    """How far the train reaches across, mm."""
+def _train_width(stage: SceneContext) -> float:
+    """Return the extent of the train perpendicular to the view (mm)."""
     places = stage.layout.wheels.values()
     if not places:
         return 1.0
     low = min(place.centre[at] - place.radius for place in places for at in (0, 1))
     high = max(place.centre[at] + place.radius for place in places for at in (0, 1))
-    # not 0, for dials are parts of it
+    # not 0, because sizes of dials are relative to it
     return max(high - low, 1e-6)
 
 
-def _side(stage: SceneContext, normal: Vector) -> float:
-    """How wide the side on which a dial stands is, mm; without bound for those that look to the reader or away."""
+def _side_width(stage: SceneContext, normal: Vector) -> float:
+    """Return the width of the side on which a dial is mounted (mm); infinite for dials that face the reader or away."""
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
     ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
-    return max(min((_reach(stage, way) for way in ways), default=inf), _MINIMUM * _width(stage))
+    return max(min((_extent(stage, way) for way in ways), default=inf), _MINIMUM * _train_width(stage))
 
 
-def _reach(stage: SceneContext, way: Vector) -> float:
-    """How far all wheels reach along a direction, mm."""
+def _extent(stage: SceneContext, way: Vector) -> float:
+    """Return the extent of all wheels along a direction (mm)."""
     ends = []
     for wheel in stage.layout.wheels.values():
         along = dot(stage.layout.axes[wheel.axis].direction, way)
@@ -274,8 +275,8 @@ def _reach(stage: SceneContext, way: Vector) -> float:
     return max(ends) - min(ends) if ends else inf
 
 
-def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
-    """The point of an axis that lies beyond all wheels on one side."""
+def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
+    """Return the point of an axis beyond all wheels on one side."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point
     wheels = stage.layout.wheels.values()
@@ -284,14 +285,14 @@ def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vecto
 
 
 def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, float]:
-    """Between which places along a direction the middles of a wheel's faces lie, mm."""
+    """Return the lower and upper position of the faces' centres of a wheel along a direction (mm)."""
     along = dot(stage.layout.axes[wheel.axis].direction, way)
     low, high = sorted(dot(wheel.centre, way) + at * along for at in wheel.span)
     return low, high
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """The dials made small enough to cover none of their neighbours; those about one axis stand in each other."""
+    """Return the dials reduced so that they do not overlap; dials about one axis are nested."""
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -313,11 +314,14 @@ def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
 
 
 def _rounded(u: Vector) -> Vector:
-    return round(u[0], 6), round(u[1], 6), round(u[2], 6)  # equal but for rounding is equal
+    return round(u[0], 6), round(u[1], 6), round(u[2], 6)  # removes rounding errors, for use as a key
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """A pointer for every output of the state, in the order declared; hands of one dial stand over each other."""
+    """Return a pointer for every output of the state, in the order declared.
+
+    Hands of one dial are at increasing heights.
+    """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found = []
     for name in stage.outputs:
@@ -337,7 +341,7 @@ def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequen
     of, base = output.links(name, stage.train.declaration.frame)
     signs = stage.train.kinematics.signs
     speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
-    # seen from the side to which its axis points, a positive angle is counter-clockwise
+    # viewed against its axis, a positive angle is counter-clockwise
     sense = -1 if dot(stage.declared(of), facing(stage, name)) > 0 else 1
     key = dial_key(stage, name)
     circuits = [circuit for circuit in stage.train.circuits if circuit.id in set(pairs)]
@@ -369,15 +373,15 @@ def _exact(speed: SpeedValue | None) -> Fraction | None:
 
 def _as_read(sense: int, speed: Fraction | None) -> str:
     if not speed:
-        return "stands still" if speed is not None else ""
+        return "at rest" if speed is not None else ""
     return f"{'clockwise' if (speed > 0) == (sense > 0) else 'counter-clockwise'} as read"
 
 
-# ---- the sky: dates of turns of the lead, and what pointers should show in mean motion
+# ---- the sky: dates of turns of the driving link, and mean motions that pointers should show
 
 
 def find_epoch(stage: SceneContext) -> SceneEpoch | None:
-    """The declared date as turns of the lead; None where none is declared, or nothing is driven."""
+    """Return the declared date in turns of the driving link; None if none is declared, or nothing is driven."""
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
     if epoch is None or unit is None or stage.driving_link is None:
@@ -393,9 +397,9 @@ def find_epoch(stage: SceneContext) -> SceneEpoch | None:
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """What an output should show for each turn of the lead.
+    """Return the speeds that an output should have relative to the driving link.
 
-    speed   its own, in the train's unit; a target without a sense is met by either, and takes that of the output
+    speed   speed of the output in the train's unit; a target without a sense takes that of the output
     """
     if stage.driving_link is None or speed is None:
         return ()

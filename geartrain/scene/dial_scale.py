@@ -1,7 +1,8 @@
-"""The scale of a dial: cells along a circle or a spiral, their names, the reading of a pointer, and the engraving.
+"""Scale of a dial: cells along a circle or a spiral, their names, readings of a pointer, and the engraving.
 
-Turns count from the zero mark along the scale, in its own direction. Engraved are rims, borders of cells, names,
-numerals and glyphs, as lines over the radius of the dial; the zero mark is above, x to the right and y upwards.
+Turns are counted from the zero mark along the scale, in its own direction. Rims, borders of cells, names, numerals and
+glyphs are engraved as lines, with lengths relative to the radius of the dial. The zero mark is at the top, x to the
+right and y upwards.
 """
 
 from __future__ import annotations
@@ -20,25 +21,25 @@ if TYPE_CHECKING:
 Point = tuple[float, float]
 
 INNER = 0.55
-"""Innermost turn of a spiral over the outermost."""
+"""Radius of the innermost turn of a spiral relative to the outermost."""
 RING = 0.17
-"""What a scale around another takes of the radius."""
+"""Width of a scale around another one, relative to the radius."""
 
 _CELL = "cell"
-_NUMERALS, _HOURS = 12, 24  # numbers to a circle: counted from 0, declared
+_NUMERALS, _HOURS = 12, 24  # maximum count of numerals: default, declared
 _ROUND_STEPS = (1, 2, 5, 10, 15, 20, 30, 50, 60, 100, 200, 500)
 _ROMAN = {1000: "M", 900: "CM", 500: "D", 400: "CD", 100: "C", 90: "XC", 50: "L", 40: "XL", 10: "X", 9: "IX", 5: "V"}
 _ROMAN |= {4: "IV", 1: "I"}
 
 
 def clock_point(radius: float, turn: float | Fraction) -> Point:
-    """The point at some turns past the mark above, clockwise."""
+    """Return the point of a circle at an angle in turns from the top, clockwise."""
     angle = 2 * pi * float(turn)
     return radius * sin(angle), radius * cos(angle)
 
 
 def roman(number: int) -> str:
-    """A number in Roman figures.
+    """Return a number in Roman numerals.
 
     >>> [roman(each) for each in (4, 9, 12, 60)]
     ['IV', 'IX', 'XII', 'LX']
@@ -52,7 +53,10 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """What a pointer shows: turn of the spiral and cell, from 1; name, empty without one, and the cell in that."""
+    """Reading of a pointer: turn of the spiral and cell, both from 1; name of the part, and cell within it.
+
+    The name is empty on a scale without names.
+    """
 
     turn: int
     cell: int
@@ -65,40 +69,40 @@ class DialScale:
     """Cells along a circle, or along a spiral from its inner end outwards."""
 
     turns: int
-    """Turns of its spiral, and cells along all of them."""
+    """Turns of the spiral; 1 for a circle."""
     divisions: int
-    """Turns of its spiral, and cells along all of them."""
+    """Number of cells along all turns."""
     inner: float = 1.0
-    """Radius of its inner end over that of its dial; and of its outer one. Equal for a circle."""
+    """Radius of the inner end relative to that of the dial."""
     outer: float = 1.0
-    """Radius of its inner end over that of its dial; and of its outer one. Equal for a circle."""
+    """Radius of the outer end relative to that of the dial; equal to `inner` for a circle."""
     way: int = 1
     """1 if it is counted clockwise as read, -1 if counter-clockwise."""
     cell: str = _CELL
-    """What one division is."""
+    """Name of one division, such as `cell` or `degree`."""
     names: tuple[tuple[str, Fraction, Fraction], ...] = ()
-    """Name of divisions in a row, how many are before them, and how many they are."""
+    """Names of runs of divisions: name, number of divisions before the run, and number in the run."""
     numerals: tuple[tuple[str, int], ...] = ()
-    """What is written at lines, and how many divisions lie before each."""
+    """Numerals at lines, each with the number of divisions before its line."""
     glyphs: tuple[tuple[int, str], ...] = ()
-    """What is written in cells, by their numbers from 1."""
+    """Glyphs in cells, by cell number from 1."""
     around: DialScale | None = None
-    """Another scale around it."""
+    """Another scale around this one."""
     radial: bool = False
-    """Whether all numerals stand with their feet to the middle, as Roman ones do, which know no 0."""
+    """True if the feet of all numerals point to the centre, as with Roman numerals, which have no 0."""
     counted: int = 0
-    """Where numerals are declared, the line at which they begin again; else 0: cells are counted, from 1."""
+    """Line at which declared numerals start again; 0 without declared numerals, when cells are counted from 1."""
 
     def radius(self, turned: float) -> float:
-        """After some turns from the inner end; of a circle, always the outer one."""
+        """Return the relative radius after a number of turns from the inner end; for a circle always the outer one."""
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
-        """Turns after some divisions, exact."""
+        """Return the turns after a number of divisions, exact."""
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """What a pointer shows after some turns; one on a line stands in the cell after it."""
+        """Return the reading of a pointer after a number of turns; a pointer on a line is in the cell after it."""
         along = turned % self.turns
         done = along / self.turns * self.divisions
         for name, first, span in self.names:
@@ -107,15 +111,15 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """What a cell is called: its number, or with numerals that of the line before it, as on clocks."""
+        """Return the number by which a cell is read: its own, or with numerals that of the line before it."""
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def told(self, turned: Fraction) -> str:
-        """The same in words, such as `Leo, degree 14`, and what is engraved in that cell; empty without divisions.
+        """Return the reading as text, such as `Leo, degree 14`, with the glyph in that cell; empty without divisions.
 
-        Which pointer is read on what is around it, no train says.
+        The scale around this one is not read, because no declaration specifies which pointer is read on it.
         """
         read, parts = self.read(turned), []
         if self.turns > 1:
@@ -131,7 +135,7 @@ class DialScale:
 
 
 def scale_of(dial: Dial) -> DialScale:
-    """The scale of a declared dial."""
+    """Return the scale of a declared dial."""
     way = 1 if dial.counted == "clockwise" else -1
     outer = 1.0 if dial.around is None else 1.0 - RING
     inner = outer * INNER if dial.turns > 1 else outer
@@ -158,12 +162,12 @@ def _scale(
 
 
 def plain_circle() -> DialScale:
-    """That of an output without a dial: twelve lines."""
+    """Return the scale of an output without a dial, with twelve lines."""
     return DialScale(1, 12)
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Declared ones; without, unless it has names, about twelve to a circle from 0; of a spiral, none."""
+    """Return the declared numerals, else about twelve to a circle from 0; none for a spiral or a scale with names."""
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -184,33 +188,33 @@ def _step(count: int, most: int) -> int:
 # ------------------------------------------------------------------------------------------------------------ engraving
 
 
-_CHORDS = 90  # of a turn
-_MARKS = 400  # divisions of a turn that are still drawn singly
-_SHORT, _LONG = 0.032, 0.05  # borders of cells; of those at numerals
-_TALL, _MINIMUM = 0.068, 0.03  # of letters
-_BAND = 0.1  # from a rim to the middle of what is written along it
-_FULL = 0.86  # of its part that a name may fill
-_APART = 0.5  # of their height between numerals
+_CHORDS = 90  # chords per turn
+_MARKS = 400  # maximum number of divisions per turn of which each is drawn
+_SHORT, _LONG = 0.032, 0.05  # lengths of borders, and of those at numerals
+_TALL, _MINIMUM = 0.068, 0.03  # normal and minimum height of letters
+_BAND = 0.1  # from a rim to the middle of the text along it
+_FULL = 0.86  # maximum length of a name over that of its divisions
+_APART = 0.5  # gap between numerals over their height
 
 Kind = Literal["rim", "fine", "bold", "letters"]
 _WIDTHS: dict[Kind, float] = {"rim": 0.005, "fine": 0.003, "bold": 0.007}
-_PEN = 0.12  # over the height of letters
+_PEN = 0.12  # line width over the height of letters
 
 
 @dataclass(frozen=True, slots=True)
 class Engraving:
-    """Lines of one width."""
+    """Engraved lines of one width."""
 
     kind: Kind
-    """What they are."""
+    """Kind of lines."""
     width: float
-    """Over the radius of the dial."""
+    """Width relative to the radius of the dial."""
     lines: Sequence[Stroke]
-    """Their points."""
+    """Points of the lines, relative to the radius of the dial."""
 
 
 def engrave(scale: DialScale) -> list[Engraving]:
-    """All lines of a scale, and of that around it."""
+    """Return all lines of a scale and of the one around it."""
     found = [*(_spiral(scale) if scale.turns > 1 else _circle(scale))]
     if scale.around is not None:
         found += engrave(scale.around)
@@ -234,7 +238,7 @@ def _border(scale: DialScale, radius: float, depth: float, turn: Fraction) -> St
 
 
 def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> Stroke:
-    """Along the scale, some way inside it."""
+    """Return a line along the scale, offset inwards."""
     steps = max(1, round(_CHORDS * turns))
     turned = (turns * each / steps for each in range(steps + 1))
     return tuple(_point(scale, scale.radius(each) - off, each) for each in turned)
@@ -244,7 +248,7 @@ def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> St
 
 
 def _circle(scale: DialScale) -> Iterator[Engraving]:
-    """Rim, borders inwards, and inside of these what is written."""
+    """Yield the rim, borders that extend inwards, and the text inside of these."""
     at = {line for _, line in scale.numerals}
     starts = {first for _, first, _ in scale.names}
     every = -(-scale.divisions // _MARKS)
@@ -261,18 +265,22 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _depth(scale: DialScale, cell: int) -> float:
-    """Every fifth border of many is longer."""
+    """Return the length of a border: on a scale of 30 divisions or more every fifth is longer."""
     return _LONG if scale.divisions >= 30 and cell % 5 == 0 else _SHORT
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Each in the middle of its divisions; where the smallest letters do not fit, every second, third..., or none."""
+    """Yield names, each in the middle of its divisions.
+
+    If the smallest letters do not fit, only every second, third, ... name is engraved, or none.
+    """
     radius = scale.outer - _BAND
     named = [part for part in scale.names if part[0]]
+    # fewer names leave more space for each
     for every in range(1, 7):
         heights = {part: _fitting(scale, radius, part, every) for part in named[::every]}
         kept = {part: height for part, height in heights.items() if height >= _MINIMUM}
-        if len(kept) >= 0.8 * len(heights):  # five days at the year's end have no room for their name
+        if len(kept) >= 0.8 * len(heights):  # five days at the year's end are too few for their name
             break
     height = min([_TALL, *kept.values()])
     if kept:
@@ -280,7 +288,7 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _fitting(scale: DialScale, radius: float, part: tuple[str, Fraction, Fraction], every: int) -> float:
-    """How high its letters may be."""
+    """Return the maximum height of the letters of a name."""
     name, _, span = part
     room = _FULL * 2 * pi * radius * float(scale.turn_of(span)) * (1 if every == 1 else 0.9 * every)
     return room / max(text_length(name), 0.5)
@@ -294,13 +302,13 @@ def _name(scale: DialScale, radius: float, part: tuple[str, Fraction, Fraction],
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Along a circle; below the middle it may be turned round, to be read."""
+    """Yield the strokes of a text along a circle; below the centre it may be inverted, to be readable."""
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, CurvedLine(radius, angle, turned and cos(angle) < -0.01))
 
 
 def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
-    """At their lines, inside of the borders; inside of names too, if there are any."""
+    """Yield numerals at their lines, inside of the borders and of any names."""
     if not scale.numerals:
         return
     inside = 0.5 * _TALL + 0.075 if scale.names else 0.0
@@ -317,7 +325,7 @@ def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
-    """In their cells, as large as the narrowest allows."""
+    """Yield glyphs in their cells, in a common size that fits all."""
     if not scale.glyphs:
         return
     room = _FULL * 2 * pi * radius * float(scale.turn_of(1))
@@ -330,7 +338,10 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
 
 
 def _spiral(scale: DialScale) -> Iterator[Engraving]:
-    """The groove, and inside of it cells, as deep as a turn is wide; the first whole cell of a turn has its number."""
+    """Yield the groove and the cells inside of it, which are as deep as the spacing of turns.
+
+    The first whole cell of a turn has its number.
+    """
     pitch = (scale.outer - scale.inner) / scale.turns
     every = -(-scale.divisions // (scale.turns * _MARKS))
     starts = {first for _, first, _ in scale.names}
@@ -355,7 +366,7 @@ def _spiral(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _spiral_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
-    """Along the spiral, where they do not meet a number: that is at the start of a turn."""
+    """Yield names along the spiral, if they are large enough to be read."""
     for name, first, span in scale.names:
         middle = scale.turn_of(first + span / 2)
         radius = scale.radius(float(middle)) - pitch / 2

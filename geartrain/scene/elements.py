@@ -1,7 +1,7 @@
-"""What is in a scene: links, wheels with their teeth, pairs, pins in slots; as built, supporting parts and hangers.
+"""Records of a scene: links, wheels with their teeth, gear pairs, pins in slots, structural parts and hanging parts.
 
-Lengths are in mm, angles in rad. Ratios are exact, as text (`-254/19`). Bodies, wheels and tooth forms are named by
-their index in the scene.
+Lengths are in mm, angles in rad. Ratios are exact, as text (`-254/19`). Bodies, wheels and tooth forms are referenced
+by their index in the scene.
 """
 
 from __future__ import annotations
@@ -19,11 +19,13 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 @dataclass(frozen=True, slots=True)
 class ScenePart(Shown):
-    """What holds wheels, as it is made: a turned part, or a flat one; about its own z, its middle at `place`.
+    """A structural part as manufactured, turned or flat.
+
+    Its own z axis passes through `place`, which is at mid-height of a flat part.
 
     See Also
     --------
-    build_scene : gives it, in `Scene.parts`.
+    build_scene : returns it in `Scene.parts`.
     """
 
     body: int
@@ -31,52 +33,56 @@ class ScenePart(Shown):
     name: str
     """Name in the list of parts."""
     kind: str
-    """Of a part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate; frame
-    for a plate of the frame, carrier for one that turns with a carrier or a ring, dial for one of dials."""
+    """Kind in the part list: arbor, pipe, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin, plate. A
+    plate of the frame is `frame`, one that turns with a carrier or a ring is `carrier`, one of dials is `dial`.
+    """
     place: Vector
-    """Where it stands in the zero pose [mm]."""
+    """Position of its origin in the zero pose [mm]."""
     direction: Vector
     """Unit vector of its z axis."""
     across: Vector
     """Unit vector of its x axis."""
     bands: Sequence[tuple[float, float, float, float]] = ()
-    """Of a turned part, from below: from and to along z, outside and inside radius [mm]."""
+    """Bands of a turned part, from the lowest: start and end along z, outside and inside radius [mm]."""
     outlines: Sequence[Sequence[float]] = ()
-    """Of a flat part: its edge, then its holes, as x and y in turn [mm]."""
+    """Outlines of a flat part, first its edge, then its holes, each as alternating x and y [mm]."""
     height: float = 0.0
-    """Thickness of a flat part, half of it to either side [mm]."""
+    """Thickness of a flat part [mm], which is centred on z = 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneHanger(Shown):
-    """What hangs on a train: a pendulum, the line of a weight, or the weight.
+    """A part that hangs on a train: a pendulum, the line of a weight, or the weight.
 
     See Also
     --------
-    build_scene : gives it, in `Scene.hangers`.
+    build_scene : returns it in `Scene.hangers`.
     """
 
     kind: Literal["pendulum", "line", "weight"]
-    """A pendulum swings as its escape wheel lets it; a weight falls and its line grows as their barrel turns."""
+    """Kind of part.
+
+    A pendulum swings in step with its escape wheel. A weight falls, and its line lengthens, as the barrel turns.
+    """
     body: int
-    """Index of the body by whose angle it moves."""
+    """Index of the body whose angle moves it."""
     point: Vector
-    """Where it hangs [mm]."""
+    """Point of suspension [mm]."""
     direction: Vector
-    """Unit vector along the axis about which it swings or turns."""
+    """Unit vector along the axis about which it swings or its barrel turns."""
     down: Vector
-    """Unit vector downwards, across that axis."""
+    """Unit vector downwards, perpendicular to that axis."""
     length: float
-    """From where it hangs to the middle of the bob, or to the weight in the zero pose [mm]."""
+    """Distance from the point of suspension to the middle of the bob, or to the weight in the zero pose [mm]."""
     rate: float
-    """Of a pendulum swings to and fro in a turn of its body; else how far a weight falls for each radian [mm]."""
+    """Full swings of a pendulum per turn of its body; for a weight, its descent per radian [mm]."""
     wide: float
     """Radius of the bob, the weight or the line [mm]."""
     parts: Sequence[ScenePart] = ()
-    """What is turned for it, where it hangs in the zero pose: rod and bob, or the weight."""
+    """Turned parts of it, in their places in the zero pose: rod and bob, or the weight."""
 
 
-# Not in every train: `SceneCoupling.slot_turn` (starting angles), heights in place of radii in the profiles of bevel
+# Not in every train: `SceneCoupling.slot_turn` (starting angles), heights instead of radii in the profiles of bevel
 # and contrate wheels.
 
 
@@ -89,23 +95,23 @@ class SceneBody(Shown):
 
     See Also
     --------
-    make_scene : gives it, in `Scene.bodies`.
+    make_scene : returns it in `Scene.bodies`.
     """
 
     id: str
     """Name of the link."""
     parent: int | None
-    """Index of the body that bears its axis; None for the frame."""
+    """Index of the body that carries its axis; None for the frame."""
     axis: str
     """Label of its axis."""
     point: Vector
-    """A point of the axis [mm]."""
+    """Point of the axis [mm]."""
     direction: Vector
-    """Reference direction of the parallels of its axis, a unit vector."""
+    """Reference direction of all axes parallel to its own, a unit vector."""
     sense: int
-    """-1 where the declared axis points against `direction`: its declared speed is about the other way; else 1."""
+    """-1 if the declared axis points against `direction`, so that its speed changes sign about it; else 1."""
     speed: str | None
-    """Over the lead's, about its declared axis, exact; None where it is not determined."""
+    """Speed relative to that of the driving link, about its declared axis, exact; None if it is not determined."""
     shown: str | None
     """Exact speed at the declared inputs, in the train's unit."""
     decimal: str
@@ -113,29 +119,36 @@ class SceneBody(Shown):
     start: float
     """Declared starting angle [rad]."""
     role: str
-    """A carrier bears a moving axis."""
+    """Role of the link: frame, carrier (it carries a moving axis) or arbor."""
     bookkeeping: bool = False
-    """True where its speed is a sum over non-parallel joints, and no rotation."""
+    """True if its speed is a sum over joints whose axes are not parallel, and so not a rotation."""
     note: str = ""
-    """As declared."""
+    """Note as declared."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothProfile(Shown):
-    """One tooth of a wheel, from the middle of a space to the middle of the next, the tooth's middle at angle 0.
+    """One tooth of a wheel, from the middle of a tooth space to the middle of the next.
+
+    The middle of the tooth is at angle 0.
 
     See Also
     --------
-    make_scene : gives it, in `Scene.profiles`.
+    make_scene : returns it in `Scene.profiles`.
     """
 
     form: str
-    """Triangular, involute, cycloidal, ...; `standard` where none is declared, `likeness` without a flat outline."""
+    """Tooth form: triangular, involute, cycloidal, ...
+
+    It is `standard` if none is declared, and `likeness` for nominal teeth of a wheel without a flat outline.
+    """
     points: Sequence[tuple[float, float]]
-    """Radius (over the pitch radius) and angle [rad], in order of angle from -pi/z to pi/z, both ends there; of a
-    bevel or contrate wheel the radius is 1 and the height over the pitch cone, along the back cone."""
+    """Radius relative to the pitch radius, and angle [rad], of each point, from -pi/z to pi/z by increasing angle.
+
+    For a bevel or contrate wheel the radius is 1 plus the height above the pitch cone, along the back cone.
+    """
     hole: bool = False
-    """True for a lantern's pin or another closed curve, whose points then go round it."""
+    """True for the pin of a lantern or another closed curve; its points then go round it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,70 +157,71 @@ class SceneWheel(Shown):
 
     See Also
     --------
-    make_scene : gives it, in `Scene.wheels`.
+    make_scene : returns it in `Scene.wheels`.
     """
 
     id: str
-    """Its name."""
+    """Name of the wheel."""
     body: int
     """Index of its body."""
     teeth: int
-    """Tooth count; 1 where it is not known."""
+    """Tooth count; 1 if it is not known."""
     kind: str
-    """Kind of wheel; `pins` is a lantern."""
+    """Kind of wheel; `pins` is a lantern pinion."""
     centre: Vector
-    """Of its pitch circle, on its axis [mm]."""
+    """Centre of its pitch circle, on its axis [mm]."""
     direction: Vector
-    """Unit vector along the axis, that of its body."""
+    """Unit vector along the axis, equal to that of its body."""
     reference: Vector
-    """Unit vector across the axis, from which `turn` is counted."""
+    """Unit vector perpendicular to the axis, from which `turn` is measured."""
     turn: float
     """Angle of its first tooth about `direction` [rad]."""
     radius: float
     """Pitch radius [mm]."""
     tip: float
-    """Tip radius [mm]; of a ring less than the root radius."""
+    """Tip radius [mm]; for a ring smaller than the root radius."""
     root: float
     """Root radius [mm]."""
     module: float
-    """Pitch diameter over tooth count [mm]."""
+    """Pitch diameter divided by the tooth count [mm]."""
     thickness: float
-    """Of its rim along the axis [mm]."""
+    """Thickness of its rim along the axis [mm]."""
     cone: float
-    """Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel."""
+    """Half angle of its pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int
-    """Side of the axis to which the cone opens: 1 or -1; 0 of a cylinder."""
+    """Side of the axis to which the cone opens: 1 or -1; 0 for a cylinder."""
     profile: int
-    """Index of the tooth's form."""
+    """Index of its tooth form."""
     layer: int | None
-    """Level in the stack; None off it."""
+    """Level in the stack; None if it is not in the stack."""
     status: str
-    """Surviving, reconstructed, hypothetical, or empty where nothing is said."""
+    """Surviving, reconstructed or hypothetical; empty if none is declared."""
     source: str
     """Source as declared."""
     note: str
     """Note as declared."""
     doubt: str
-    """Counts that the evidence allows, in words; empty for a sure count."""
+    """Tooth counts that the evidence allows, in words; empty for a certain count."""
     circuits: Sequence[str]
     """Names of the gear pairs it belongs to."""
     loss: float | None = None
-    """Part of the power put in that is lost at its meshes, where loads and friction are declared."""
+    """Fraction of the input power that is lost at its meshes; None unless loads and friction are declared."""
     helix: float = 0.0
-    """Angle of its teeth, of a worm of its thread, from the axis [rad], of a right hand above 0."""
+    """Helix angle of its teeth, or of the thread of a worm, from the axis [rad]; positive for a right hand."""
     holes: Sequence[Sequence[float]] = ()
-    """As it is built, outlines of what is cut out of it for pins that move in it, or for an eccentric in which it
-    turns, as x and y in turn from its middle, x through its first tooth [mm]."""
+    """Outlines of holes in the wheel as built, for pins that move in it or for an eccentric in which it turns. Each has
+    alternating x and y from the wheel's middle [mm], with x through its first tooth.
+    """
 
     @property
     def span(self) -> tuple[float, float]:
-        """Between which places its body stands, from its centre along its direction [mm]."""
+        """Lower and upper end of its body along its direction, from its centre [mm]."""
         depths = self.root - self.radius, self.tip - self.radius
         return span(self.facing, *reach(self.cone, self.radius, self.thickness, *depths))
 
     @property
     def web(self) -> tuple[float, float]:
-        """The same of the disc within its teeth."""
+        """Lower and upper end along its direction of the disc within its teeth, from its centre [mm]."""
         return span(self.facing, *web(self.cone, self.radius, self.thickness, self.root - self.radius))
 
 
@@ -217,25 +231,25 @@ class ScenePair(Shown):
 
     See Also
     --------
-    make_scene : gives it, in `Scene.pairs`.
+    make_scene : returns it in `Scene.pairs`.
     """
 
     id: str
-    """Its name."""
+    """Name of the gear pair."""
     wheels: tuple[int, int]
     """Indices of its wheels."""
     carrier: int
     """Index of the body that carries both axes."""
     ratio: str
-    """Of its fundamental circuit, exact: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
+    """Ratio of its fundamental circuit, exact: (w_i - w_k) / (w_j - w_k), equation (4) of docs/theory.md."""
     form: str
-    """Tooth form; empty where none is declared."""
+    """Tooth form; empty if none is declared."""
     text: str
-    """The circuit in words."""
+    """Equation of the fundamental circuit as text."""
     broken: bool = False
-    """True if it belongs to a loop that does not close, or lets the train not turn."""
+    """True if it belongs to a loop that does not close, or prevents the train from turning."""
     fault: str = ""
-    """The loop in words."""
+    """Description of that loop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,13 +258,13 @@ class SceneCoupling(Shown):
 
     See Also
     --------
-    make_scene : gives it, in `Scene.couplings`.
+    make_scene : returns it in `Scene.couplings`.
     """
 
     id: str
-    """Its name."""
+    """Name of the coupling."""
     kind: str
-    """Its kind."""
+    """Kind of coupling."""
     pin: int
     """Index of the body of the pin."""
     slot: int
@@ -264,22 +278,23 @@ class SceneCoupling(Shown):
     pin_radius: float
     """Distance of the pin from its axis [mm]."""
     offset: float
-    """Distance of the two axes [mm]."""
+    """Distance between the two axes [mm]."""
     drawn: bool
-    """False where dimensions are not declared: sizes are then chosen for the picture."""
+    """False if dimensions are not declared; sizes are then chosen for the picture."""
     text: str
-    """The circuit in words."""
+    """Equation of the fundamental circuit as text."""
     slot_turn: float = 0.0
-    """Angle about the slot's direction by which the slot, in the zero pose, runs aside from the line from `slot_at`
-    to `pin_at` [rad]: 0 unless starting angles are declared."""
+    """Angle about the slot's direction from the line through `slot_at` and `pin_at` to the slot, in the zero pose
+    [rad]; 0 unless starting angles are declared.
+    """
     pins_at: Sequence[Vector] = ()
-    """Middles of all pins in round holes in the zero pose [mm]; none of a pin in a slot."""
+    """Centres of all pins in round holes in the zero pose [mm]; empty for a pin in a slot."""
     holes_at: Sequence[Vector] = ()
-    """Middles of these holes in the zero pose [mm]; none of a pin in a slot."""
+    """Centres of these holes in the zero pose [mm]; empty for a pin in a slot."""
     pin_diameter: float = 0.0
-    """Diameter of such a pin [mm]; 0 of a pin in a slot."""
+    """Diameter of a pin in a round hole [mm]; 0 for a pin in a slot."""
     hole: float = 0.0
-    """Diameter of such a hole [mm]; 0 of a pin in a slot."""
+    """Diameter of a round hole [mm]; 0 for a pin in a slot."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,41 +303,41 @@ class SceneShiftElement:
 
     See Also
     --------
-    make_scene : gives it, in `Scene.elements`.
+    make_scene : returns it in `Scene.elements`.
     """
 
     id: str
-    """Its name, and brake or clutch."""
+    """Name of the brake or clutch."""
     kind: Literal["brake", "clutch"]
-    """Its name, and brake or clutch."""
+    """Brake or clutch."""
     bodies: Sequence[int]
-    """Indices of what it holds to the frame, or of the two that it joins."""
+    """Index of the body that a brake fixes to the frame, or indices of the two that a clutch connects."""
     closed: bool
-    """Whether it is closed in this state."""
+    """True if it is engaged in this state."""
     text: str
-    """What it is and does, such as `B brakes ring`."""
+    """Description, such as `B brakes ring`."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneWave(Shown):
-    """What bends a thin wheel into its ring as it goes round; wheel and wall of its cup stand about one axis with it.
+    """Strain wave that bends a flexible wheel into its ring. Wheel, cup wall and wave generator are coaxial.
 
     See Also
     --------
-    make_scene : gives it, in `Scene.waves`.
+    make_scene : returns it in `Scene.waves`.
     """
 
     wheel: int
-    """Index of the wheel."""
+    """Index of the flexible wheel."""
     by: int
-    """Index of the body whose angle is that of the wave."""
+    """Index of the body that is the wave generator."""
     towards: Vector
-    """Unit vector across the axis: to the first lobe in the zero pose."""
+    """Unit vector perpendicular to the axis, towards the first lobe in the zero pose."""
     rise: float
-    """How far the middle line of the wheel's wall goes out at a lobe, and in between lobes [mm]."""
+    """Radial deflection of the middle line of the wheel's wall, outwards at a lobe and inwards between lobes [mm]."""
     lobes: int
-    """How many of them."""
+    """Number of lobes."""
     middle: float
-    """Radius of the middle line of the wall in the round wheel [mm]."""
+    """Radius of the middle line of the wall in the undeformed wheel [mm]."""
     wall: float
     """Thickness of the wall [mm]."""

@@ -1,4 +1,4 @@
-"""Joints of a scene: gear pairs in words, which of them keep the train from turning, and pins in slots."""
+"""Joints of a scene: equations of gear pairs, pairs that prevent the train from turning, and pins in slots."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ if TYPE_CHECKING:
 
 
 def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """All gear pairs in the order declared.
+    """Return all gear pairs in the order declared.
 
-    forms    name of the drawn tooth form by pair; faults, what is wrong, by pair
+    forms    name of the drawn tooth form by pair
+    faults   description of the fault by pair
     """
     return tuple(
         ScenePair(
@@ -40,7 +41,7 @@ def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[st
 
 
 def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
-    """A circuit as one reads it: `64 (b - frame) + 38 (c - frame) = 0`; names stand for declared speeds."""
+    """Return the equation of a circuit as text: `64 (b - frame) + 38 (c - frame) = 0`; names are declared speeds."""
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
@@ -55,14 +56,15 @@ def _term(factor: int, what: str, sign: str) -> str:
 
 
 def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
-    """The verdict as plain data with its loops, and what is wrong with each pair, by name."""
+    """Return the verdict as plain data with its loops, and the fault of each pair by name."""
     verdict = stage.answer.verdict
     faults: dict[str, str] = {}
-    loops = {loop.pairs: _said(loop) for loop in verdict.loops}
+    loops = {loop.pairs: _loop_data(loop) for loop in verdict.loops}
+    # a determined train may still have parts that are locked
     if verdict.kind != "determined" or stage.train.mobility.locked:
         for jam in stage.train.kinematics.gridlock.jams:
-            loops.setdefault(jam.loop.pairs, {**_said(jam.loop), "text": str(jam)})
-    for loop in (*loops.values(), *_unfit(stage)):
+            loops.setdefault(jam.loop.pairs, {**_loop_data(jam.loop), "text": str(jam)})
+    for loop in (*loops.values(), *_unusable_pairs(stage)):
         loops.setdefault(tuple(loop["pairs"]), loop)
         for pair in loop["pairs"]:
             faults.setdefault(pair, loop["text"])
@@ -76,12 +78,12 @@ def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
     }, faults
 
 
-def _said(loop: Loop) -> dict[str, Any]:
+def _loop_data(loop: Loop) -> dict[str, Any]:
     return {"pairs": list(loop.pairs), "links": list(loop.links), "text": f"{loop} does not close"}
 
 
-def _unfit(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Pairs whose real teeth cannot run, each named like a loop, with why and what would mend it."""
+def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
+    """Yield pairs whose real teeth cannot run, in the form of loops, with the reason and a remedy."""
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
@@ -90,7 +92,7 @@ def _unfit(stage: SceneContext) -> Iterator[dict[str, Any]]:
 
 
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
-    """Brakes and clutches in the order declared, and which are closed in a state."""
+    """Return the brakes and clutches in the order declared, with their condition in a state."""
     declared = stage.train.declaration
     closed = stage.train.kinematics.cases[state].engaged
     found = []
@@ -103,15 +105,15 @@ def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftEle
     return tuple(found)
 
 
-# offset over pin radius, where none is declared
+# default ratio of offset to pin radius
 _LIKE = {"pin_and_slot": 0.15, "pin_follower": 3.0, "pins_in_holes": 0.1}
-_PART = 0.65  # of the distance of two pins: a hole, where no pin is declared
-_REACH = 10.0  # mm, of a pin where neither sizes nor places give one
-_NONE = 1e-9  # mm
+_PART = 0.65  # default diameter of a hole over the distance of two pins
+_REACH = 10.0  # default pin radius (mm)
+_NONE = 1e-9  # mm: smaller distances are rounding errors
 
 
 def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoupling, ...]:
-    """All couplings by pins in the order declared."""
+    """Return all couplings by pins in the order declared."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     drawn = (each for each in stage.train.declaration.couplings if not isinstance(each, Parallel))
     return tuple(_coupling(stage, moved, circuits[each.name], each) for each in drawn)
@@ -139,7 +141,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
         offset=offset,
         drawn=declared.pin_radius is not None and declared.offset is not None,
         text=in_words(circuit, stage.train.kinematics.signs),
-        slot_turn=_aside(stage, moved, circuit),
+        slot_turn=_slot_angle(stage, moved, circuit),
         pins_at=_around(declared, pin_axis, towards, radius, axis),
         holes_at=_around(declared, slot_axis, towards, radius, axis),
         pin_diameter=pin,
@@ -148,11 +150,11 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """The direction of the first pin: of pins in holes midway between axes that their link carries, if it does."""
+    """Return the direction of the first pin; pins in holes are midway between axes that their link carries, if any."""
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.couplings if isinstance(each, PinsInHoles))
-        first = next(each for each in same if each.pin == declared.pin)  # whose pins go through all discs
+        first = next(each for each in same if each.pin == declared.pin)  # its pins pass through all discs
         between = across(minus(_point(stage, tree.axis(first.slot)), middle), axis)
         towards = unit_or_z(between) if size(between) > _NONE else towards
         for place in stage.layout.axes.values():
@@ -163,13 +165,13 @@ def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, a
 
 
 def _around(declared: Declared, middle: Vector, towards: Vector, radius: float, axis: Vector) -> tuple[Vector, ...]:
-    """Places on a circle, the first of them in a direction; none of a pin in a slot."""
+    """Return equally spaced places on a circle, the first in a direction; empty for a pin in a slot."""
     number = declared.pins if isinstance(declared, PinsInHoles) else 0
     return tuple(plus(middle, turned(towards, axis, 2 * pi * at / number), radius) for at in range(number))
 
 
 def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[float, float]:
-    """Diameters of pins and of their holes (mm); 0 of a pin in a slot."""
+    """Return the diameters of pins and of their holes (mm); 0 for a pin in a slot."""
     if not isinstance(declared, PinsInHoles):
         return 0.0, 0.0
     apart = 2 * radius * sin(pi / declared.pins)
@@ -180,10 +182,10 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
     return pin, pin + 2 * offset
 
 
-def _aside(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """How far (rad) the slot in the zero pose is turned aside from its pin.
+def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
+    """Return the angle (rad) by which the slot in the zero pose deviates from the direction of its pin.
 
-    With both at their zero a law has slot and pin in line; declared starting angles may be any others.
+    A transmission function has slot and pin in line if both angles are 0. Declared starting angles may differ.
     """
     setting = moved.driving.get(circuit.id)
     if setting is None:
@@ -193,7 +195,7 @@ def _aside(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Pin radius and offset (mm): as declared; else by the axes as placed; else a likeness."""
+    """Return pin radius and offset (mm), as declared, else from the axes as placed, else from typical proportions."""
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
@@ -212,7 +214,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Along the axis, midway between the nearest wheels of the two links; that of the axis where they have none."""
+    """Return the height midway between the nearest wheels of the two links; without wheels that of the pin's axis."""
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

@@ -1,7 +1,7 @@
 """Motion of a scene: exact speeds, and the errors of teeth and pins as tables and steps that a page can carry.
 
-Angles differ from their exact means by transmission errors: tables of the functions of teeth and pins, and the steps of
-their sum.
+Angles differ from their exact mean values by transmission errors. These are given as tables of the errors of gear pairs
+and pins, and as the steps that compose them.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ErrorTable(Result):
-    """The periodic error of a gear pair or a pin in a slot, as polynomials between breaks.
+    """Periodic error of a gear pair or a pin in a slot, as piecewise polynomials.
 
     See Also
     --------
-    Movement : holds it.
+    Movement : contains it.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
@@ -47,119 +47,125 @@ class ErrorTable(Result):
     )
 
     pair: str
-    """The pair, the first of those that share the law."""
+    """Name of the pair, the first of those that share the transmission function."""
     period: float
-    """Of the driver's angle [rad]."""
+    """Period in the driver's angle [rad]."""
     breaks: Floats
-    """Of the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
+    """Breakpoints in the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
-    """Of the driven side's error [rad], in powers of the driver's angle less the middle of its cell. Shape (n,
-    degree + 1)."""
+    """Coefficients of the driven side's error [rad]. Shape (n, degree + 1).
+
+    They multiply powers of the driver's angle minus the middle of its cell.
+    """
     uncertainty: float
-    """Greatest error of the table [rad]."""
+    """Maximum error of the table [rad]."""
 
     @property
     def packed_breaks(self) -> str:
-        """The breaks as a page carries them."""
+        """Breakpoints as base64 text."""
         return packed(self.breaks)
 
     @property
     def packed_coefficients(self) -> str:
-        """The coefficients as a page carries them, row by row."""
+        """Coefficients as base64 text, row by row."""
         return packed(self.coefficients)
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorSource(Shown):
-    """A pair whose law adds to the errors of a scene.
+    """A pair whose transmission error contributes to the errors of a scene.
 
-    After t turns of the lead the driver's forward angle is
+    After t turns of the driving link the driver's forward angle is
 
         S = start + period frac(cycles t) + forward (driver_sense error[driver] - carrier_sense error[carrier])
 
-    and the pair adds sense law(S) to what it drives.
+    and the error of the driven body includes sense delta(S), with delta from the error table.
 
     See Also
     --------
-    Movement : holds it.
+    Movement : contains it.
     """
 
     pair: str
     """Name of the gear pair or coupling."""
     transmission: int
-    """Index of its law in the movement."""
+    """Index of its error table in the movement."""
     driver: int
     """Index of the driving body."""
     carrier: int
     """Index of the body that carries the pair."""
     driver_sense: int
-    """1 or -1: how the error of the driver counts in the pair's own sense."""
+    """1 or -1: sign of the driver's error in the pair's own sense."""
     carrier_sense: int
-    """1 or -1: how the error of the carrier counts in the pair's own sense."""
+    """1 or -1: sign of the carrier's error in the pair's own sense."""
     cycles: str
-    """Periods of the law in a turn of the lead, exact."""
+    """Periods of the transmission error per turn of the driving link, exact."""
     start: float
-    """S at the start [rad]."""
+    """Initial value of S [rad]."""
     forward: int
     """1 or -1: the sense in which the driver turns."""
     sense: int
-    """1 or -1: the sign with which the law counts."""
+    """1 or -1: sign of the transmission error."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Errors of some bodies from those known: error[bodies] = from_known error[known] + from_sources delta[sources].
+    """Errors of some bodies from known ones: error[bodies] = from_known error[known] + from_sources delta[sources].
 
     See Also
     --------
-    Movement : holds it.
+    Movement : contains it.
     """
 
     bodies: Sequence[int]
-    """Indices of the bodies found in this step."""
+    """Indices of the bodies whose errors this step gives."""
     known: Sequence[int]
-    """Indices of the bodies from steps before that it takes."""
+    """Indices of the bodies from earlier steps on which it depends."""
     from_known: Sequence[Sequence[float]]
-    """Coefficients of the known bodies, a row for each body found."""
+    """Coefficients of the known bodies, one row per body in `bodies`."""
     sources: Sequence[int]
     """Indices of sources."""
     from_sources: Sequence[Sequence[float]]
-    """Coefficients of the sources, a row for each body found."""
+    """Coefficients of the sources, one row per body in `bodies`."""
     coupled: bool
-    """True where sources depend on the bodies found: they are found together, by iteration."""
+    """True if sources depend on the bodies of this step; it is then solved by iteration."""
 
 
 @dataclass(frozen=True, slots=True)
 class Movement(Shown):
-    """How errors of angles follow from the turns of the lead: the steps in order, then constant offsets.
+    """Errors of angles as functions of the turns of the driving link: the steps in order, then constant offsets.
 
     See Also
     --------
-    make_scene : gives it, in `Scene.movement`.
+    make_scene : returns it in `Scene.movement`.
     """
 
     kind: str
-    """Nothing ripples; teeth or pins ripple; they would, but cannot be followed; no speed is determined."""
+    """Kind of motion.
+
+    `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: these errors cannot be
+    followed. `still`: no speed is determined.
+    """
     why: str = ""
-    """Why it is mean or still."""
+    """Reason for `mean` or `still`."""
     period: str | None = None
-    """Turns of the lead after which all stands as before, exact; None where nothing repeats."""
+    """Turns of the driving link after which the pose repeats, exact; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
-    """Laws, those of pairs alike once."""
+    """Error tables, each once for equal pairs."""
     sources: Sequence[ErrorSource] = ()
-    """The pairs that have them."""
+    """Pairs with transmission errors."""
     steps: Sequence[ErrorStep] = ()
-    """In the order in which they can be taken."""
+    """Steps in the order of their evaluation."""
     offsets: Mapping[str, float] = field(default_factory=dict)
-    """Constant errors by the index of the body [rad]."""
+    """Constant errors by link [rad]."""
 
 
-TOLERANCE = 1e-11  # of a driven pitch
-_DEGREES = (7, 9, 11, 14)  # tried in turn: the smallest table wins
+TOLERANCE = 1e-11  # maximum error of a table in driven pitches
+_DEGREES = (7, 9, 11, 14)  # degrees of polynomials, of which the smallest table is used
 
 
 def step_of(step: Composed) -> ErrorStep:
-    """A step of a composition in plain numbers."""
+    """Return a step of a composition as plain numbers."""
     return ErrorStep(
         bodies=step.links,
         known=step.known,
@@ -170,19 +176,20 @@ def step_of(step: Composed) -> ErrorStep:
     )
 
 
-def laws_and_sources(
+def tables_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
-    """Every source with its law; pairs alike share one.
+    """Return the error tables and the sources that refer to them; equal pairs share a table.
 
-    way   -1 where the lead turns backwards: a composition counts in the lead's sense, a scene about declared axes
+    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, a scene
+          about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     numbers: dict[tuple[float, bytes, bytes], int] = {}
     sources = []
     for source in composition.sources:
         transmission = tabulated(source.id, source.transmission)
-        # bit by bit: laws that differ only by rounding come from pairs that are not alike
+        # compared bit by bit: functions that differ by rounding errors come from different pairs
         key = transmission.period, transmission.breaks.tobytes(), transmission.coefficients.tobytes()
         transmissions.setdefault(key, transmission)
         joint = composition.spread.joints[source.pair]
@@ -204,19 +211,19 @@ def laws_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """The error of a law as polynomials within `TOLERANCE` of a driven pitch, in the fewest numbers."""
+    """Return the transmission error as polynomials within `TOLERANCE` of a driven pitch, in the smallest table."""
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
     tables = (TabulatedTransmission(transmission, TOLERANCE, degree).error_table for degree in _DEGREES)
     pitch = (float(transmission.ratio) or 1.0) * transmission.period
-    # where rounding keeps all tables from the tolerance, the nearest one
+    # if rounding errors keep all tables above the tolerance, the most accurate one is used
     table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
-    # corners, where the error has a kink, part cells: no polynomial runs across one
+    # cells are split at kinks, because a polynomial must not cross one
     breaks = np.sort(np.concatenate((np.arange(table.cells + 1) * (transmission.period / table.cells), table.kinks)))
-    breaks[-1] = transmission.period  # not cells times a quotient, which rounds
-    wide = np.diff(breaks) > 0  # a corner on the border of a cell leaves none between
+    breaks[-1] = transmission.period  # exact, unlike cells times a quotient
+    wide = np.diff(breaks) > 0  # a kink on the border of a cell gives an empty cell
     return ErrorTable(
         pair,
         transmission.period,
@@ -229,29 +236,29 @@ def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
 # --------------------------------------------------------------------------------------------------------- from a train
 
 
-_TRIED_ERRORS = 720  # angles of a driver at which a law is compared with itself
-_TRIED = 257  # positions at which pairs that depend on each other are tried
+_TRIED_ERRORS = 720  # angles of a driver at which a transmission error is compared with its shifted copy
+_TRIED = 257  # positions at which coupled pairs are tested
 
 
 @dataclass(frozen=True, slots=True)
 class InitialPosition:
-    """How a pair that ripples stands at the beginning."""
+    """Initial position of a pair with a transmission error."""
 
     driver: str
-    """Its link; `forward` 1, or -1 where it turns against its body's direction."""
+    """Driving link. `forward` is 1, or -1 if it turns against its body's direction."""
     forward: int
     S: float
-    """Its forward angle, and the error of the driven side there (rad)."""
+    """Forward angle of the driver (rad)."""
     error: float
-    """Its forward angle, and the error of the driven side there (rad)."""
+    """Error of the driven side at S (rad)."""
     transmission: ToothTransmission
-    """Of the pair."""
+    """Transmission function of the pair."""
 
     def error_past(self, shift: float) -> float:
-        """The least error (rad) with which a driven tooth that moves by this law is never cut by its driver's, where
-        these stand `shift` (rad) before it.
+        """Return the minimum error (rad) of the driven side at which a driver out of phase does not cut into it.
 
-        The driven side then keeps e(S) + c, its mate asks for e(S + shift), and c is the most by which that is more.
+        The driver's teeth are `shift` (rad) ahead of their phase. The driven side follows e(S) + c and its mate
+        requires e(S + shift), so c is the maximum of their difference.
         """
         import numpy as np
 
@@ -261,50 +268,50 @@ class InitialPosition:
 
 @dataclass(frozen=True, slots=True)
 class MovementStart:
-    """The movement, and the pose at its beginning."""
+    """The movement, and the pose at its start."""
 
     movement: Movement
     rest: Mapping[str, float]
-    """Angle A of each link about its body's direction after no turn (rad)."""
+    """Initial angle A of each link about its body's direction (rad)."""
     driving: Mapping[str, InitialPosition] = field(default_factory=dict)
-    """By pair or coupling that ripples."""
+    """Initial positions, by pair or coupling with a transmission error."""
     motion: Motion | None = None
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
-    """The movement against the declared sense of the lead, on the other flanks; None where it is the same."""
+    """Movement against the declared sense of the driving link, on the other flanks; None if it is the same."""
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """The movement of a train in its state; never an error: what cannot be followed moves in the mean, and says why."""
+    """Return the movement of a train in its state: the mean motion, with the reason, if errors cannot be followed."""
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
-        return MovementStart(Movement("still", why, period=None), _started(stage))
+        return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
     if stage.unbuilt:
-        return _in_the_mean(stage, stage.unbuilt)
+        return _mean_movement(stage, stage.unbuilt)
     if not stage.meshes and not stage.train.mechanics.pins:
-        return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _started(stage))
+        return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _starting_angles(stage))
     try:
         motion = stage.train.motion(stage.answer.state, tuple(stage.train.declaration.links))
         return _followed(stage, motion)
     except GearTrainError as error:
-        return _in_the_mean(stage, error.problems)
+        return _mean_movement(stage, error.problems)
 
 
-def _started(stage: SceneContext) -> dict[str, float]:
+def _starting_angles(stage: SceneContext) -> dict[str, float]:
     return {link: stage.sense(link) * stage.start(link) for link in stage.train.declaration.links}
 
 
-def _in_the_mean(stage: SceneContext, problems: Sequence[Problem]) -> MovementStart:
+def _mean_movement(stage: SceneContext, problems: Sequence[Problem]) -> MovementStart:
     first = problems[0]
     movement = Movement("mean", f"{first.what}: {first.why}" if first.why else first.what, _text(_period(stage, ())))
-    return MovementStart(movement, _started(stage), notices=tuple(problems))
+    return MovementStart(movement, _starting_angles(stage), notices=tuple(problems))
 
 
 def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
     import numpy as np
 
     composition = motion._forward
-    _try(composition, float(motion.period or 1))
+    _check_positions(composition, float(motion.period or 1))
     error, way = composition.at(np.zeros(1)).error[:, 0], motion._problem.way
     links = tuple(stage.train.declaration.links)
     rest = {
@@ -312,34 +319,34 @@ def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
         for link, each in zip(links, error, strict=True)
     }
     driving = dict(_settings(composition, way))
-    movement = _written(stage, composition, way)
+    movement = _movement(stage, composition, way)
     back, notices = _backward(stage, motion, movement)
     return MovementStart(movement, rest, driving, motion, notices, back)
 
 
-def _try(composition: ErrorComposition, turns: float) -> None:
-    """Raises `GearTrainError` where pairs that depend on each other have no common position."""
+def _check_positions(composition: ErrorComposition, turns: float) -> None:
+    """Raise `GearTrainError` if pairs that depend on each other have no common position."""
     import numpy as np
 
     if any(step.coupled for step in composition.steps):
-        composition.at(np.linspace(0, turns, _TRIED))  # past a dead centre this raises
+        composition.at(np.linspace(0, turns, _TRIED))  # this raises an error beyond a dead centre
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """How errors follow where the lead turns back, if otherwise than ahead; and why they cannot be followed."""
+    """Return the movement in reverse if it differs from that ahead, and notices on why it cannot be followed."""
     try:
         composition = motion._backward
-        _try(composition, -float(motion.period or 1))
-        back = _written(stage, composition, motion._problem.way)
+        _check_positions(composition, -float(motion.period or 1))
+        back = _movement(stage, composition, motion._problem.way)
     except GearTrainError as error:
-        mean = _in_the_mean(stage, error.problems)
+        mean = _mean_movement(stage, error.problems)
         return mean.movement, mean.notices
     return (None if plain(back) == plain(ahead) else back), ()
 
 
-def _written(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Exact where nothing ripples: teeth that keep their ratio may still have play, and then their offsets stand."""
-    transmissions, sources = laws_and_sources(composition, way)
+def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
+    """Return the movement of a composition, `exact` if ratios are constant. Backlash may still give offsets."""
+    transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
         "real" if sources else "exact",
@@ -362,11 +369,12 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Turns of the lead after which all bodies and laws stand as before; None where nothing moves."""
+    """Return the turns of the driving link after which all angles and errors repeat; None if nothing moves."""
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:
         return None
+    # the least common multiple of the periods 1/rate, exact
     return Fraction(lcm(*(rate.denominator for rate in rates)), gcd(*(rate.numerator for rate in rates)))
 
 

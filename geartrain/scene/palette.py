@@ -1,10 +1,11 @@
-"""The one palette: of drawings and plots, of reports, and of the page that turns; light, dark and for print.
+"""Palette of drawings, plots, reports and pages, in a light, a dark and a print theme.
 
-Series are told apart by colour, and by dashes too, so that the two never repeat together; areas in print by greys and
-hatches; values by a scale from what is like paper to what is not. Any two of the ten colours, and each from the ink,
-stay apart for readers who see no red or no green (tests/scene/test_palette.py measures it by CIEDE2000 under the
-simulation of Machado, Oliveira and Fernandes 2009, A physiologically-based model for simulation of color vision
-deficiency, IEEE Trans. Vis. Comput. Graph. 15:1291); all can be read as words on their paper.
+Series differ in colour and in dashes, and no combination of the two repeats early. In print, areas differ in grey and
+hatch. Values are mapped to a scale of colours whose low end is close to the paper. Any two of the ten colours, and each
+from the ink, remain distinguishable for readers with protanopia or deuteranopia (tests/scene/test_palette.py measures
+the CIEDE2000 difference under the simulation of Machado, Oliveira and Fernandes 2009, A physiologically-based model for
+simulation of color vision deficiency, IEEE Trans. Vis. Comput. Graph. 15:1291). All have enough contrast to be read as
+text on their paper.
 """
 
 from __future__ import annotations
@@ -28,36 +29,36 @@ _DASHES: tuple[Dash, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """Colours as #rrggbb by what they are for."""
+    """Colours as #rrggbb by purpose."""
 
     desk: str
-    """Behind papers: the ground of a page."""
+    """Background of a page, behind cards."""
     paper: str
-    """What is drawn and written on."""
+    """Background of drawings and text."""
     ink: str
-    """Lines and words."""
+    """Lines and text."""
     quiet: str
-    """Words that step back."""
+    """Secondary text."""
     line: str
-    """Lines that step back: grids, borders."""
+    """Secondary lines: grids, borders."""
     accent: str
     """Headings and links of a page."""
     fault: str
-    """What is wrong."""
+    """Errors."""
     fill: str
-    """Faces of what a picture is of; `shade` where they turn away; `band`, of what flows or is marked."""
+    """Faces of the object in a picture. `shade` is for faces turned away, `band` for flows and marks."""
     shade: str
     band: str
     scale: tuple[str, str, str]
-    """Of values, from the least to the greatest; what lies between is mixed."""
+    """Colours of the minimum, middle and maximum of a value; values in between are interpolated."""
     series: tuple[str, ...]
-    """Ten, in order."""
+    """Ten colours of series, in order."""
     areas: tuple[tuple[str, str], ...] = ()
-    """Colour and matplotlib's hatch of areas of the series, where that is not plainly their colour."""
+    """Colour and matplotlib hatch of areas of the series, if they are not filled with the colour of the series."""
 
     @property
     def css(self) -> str:
-        """Custom properties of pages, `hand-N` for the series."""
+        """CSS custom properties of pages; `hand-N` is the colour of series N."""
         named = {
             "ink": self.ink,
             "quiet": self.quiet,
@@ -118,7 +119,7 @@ THEMES: dict[ThemeName, Theme] = {
         shade="#b8b8b8",
         band="#d8d8d8",
         scale=("#f6f6f6", "#b4b4b4", "#6e6e6e"),
-        series=("#000000", "#737373") * 5,  # the other grey where dashes come again
+        series=("#000000", "#737373") * 5,  # two greys: dashes repeat with the other one
         areas=(
             ("#555555", ""), ("#bbbbbb", ""), ("#ffffff", "/////"), ("#e4e4e4", ""), ("#ffffff", "xxxxx"),
             ("#ffffff", "-----"), ("#bbbbbb", "....."), ("#ffffff", "|||||"), ("#bbbbbb", "\\\\\\\\\\"),
@@ -129,11 +130,14 @@ THEMES: dict[ThemeName, Theme] = {
 
 
 def series_colour(at: int, theme: ThemeName = "light") -> str:
-    """The colour of the series at a place from 0 on."""
+    """Return the colour of the series with an index, from 0."""
     series = THEMES[theme].series
     return series[at % len(series)]
 
 
 def series_dash(at: int) -> Dash:
-    """Its dashes [line widths]: with the colour they repeat after seventy; in print, of two greys, after ten."""
+    """Return the dashes of a series [line widths].
+
+    Combinations with the colour repeat after seventy series, in print after ten.
+    """
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

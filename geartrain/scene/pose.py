@@ -1,4 +1,4 @@
-"""Where the bodies of a scene stand after some turns of the lead."""
+"""Poses of the bodies of a scene after a number of turns of the driving link."""
 
 from __future__ import annotations
 
@@ -18,36 +18,41 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_ROUNDS, _CONVERGED = 500, 1e-14  # of fixed-point iteration, for pairs that depend on each other; rad
+_ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, and tolerance (rad)
 
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Angles A of all bodies about their directions (rad, whole turns left out), and where that brings them."""
+    """Angles A of all bodies about their directions (rad, modulo a turn), and the rigid motions of the bodies."""
 
     angles: Floats
     turned: Floats
-    """(bodies, 3, 3) rotations; moved (bodies, 3), mm: a point p of the zero pose goes to turned p + moved."""
+    """Rotation matrices of the bodies. Shape (bodies, 3, 3).
+
+    With their displacements `moved`, shape (bodies, 3) in mm, a point p of the zero pose moves to turned p + moved.
+    """
     moved: Floats
 
     def point(self, body: int, point: object) -> Floats:
-        """Points (..., 3) of a body, given in the zero pose."""
+        """Return the positions of points (..., 3) of a body that are given in the zero pose."""
         return np.asarray(np.asarray(point, dtype=float) @ self.turned[body].T + self.moved[body])
 
     def way(self, body: int, way: object) -> Floats:
-        """Directions (..., 3) of a body, given in the zero pose."""
+        """Return the rotated directions (..., 3) of a body that are given in the zero pose."""
         return np.asarray(np.asarray(way, dtype=float) @ self.turned[body].T)
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """What a speed over the lead's makes of `turns` of the lead, exact; 0 where it is not determined."""
+    """Return the exact turns of a body after `turns` of the driving link, from its relative speed; 0 for None."""
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
-    """The pose after `turns` of the lead: mean angles exact, errors of teeth and pins from the scene's tables.
+    """Return the pose after `turns` of the driving link.
 
-    Raises `RangeError` where pairs that depend on each other do not settle.
+    Mean angles are exact, and errors of teeth and pins are from the scene's tables.
+
+    Raise `RangeError` if the iteration of pairs that depend on each other does not converge.
     """
     error = body_errors(scene, turns)
     angles = np.array(
@@ -65,8 +70,11 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
 
 
 def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: set[int], at: int) -> None:
-    """A body after its parents: each turns in its parent about its own axis, which the parent carries along."""
-    line, here = [], at  # up to a body that is placed: a chain may be longer than Python's stack is deep
+    """Place a body after its parents.
+
+    Each body turns relative to its parent about its own axis, which moves with the parent.
+    """
+    line, here = [], at  # a loop, because a chain may exceed Python's recursion limit
     while here not in done:
         line.append(here)
         done.add(here)
@@ -86,7 +94,7 @@ def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: se
 
 
 def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
-    """Right-handed about a unit vector (Rodrigues)."""
+    """Return the right-handed rotation about a unit vector (Rodrigues' formula)."""
     x, y, z = axis
     skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew)
@@ -96,23 +104,24 @@ def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
 
 
 def body_errors(scene: Scene, turns: Fraction) -> Floats:
-    """Error of each body (rad) against its mean motion; zero where nothing ripples."""
+    """Return the error of each body (rad) from its mean motion; zero for constant ratios."""
     movement = scene.movement
     error = np.zeros(len(scene.bodies))
     deltas: dict[int, float] = {}
     for step in movement.steps:
-        _take(scene, step, turns, error, deltas)
+        _evaluate_step(scene, step, turns, error, deltas)
     index = {body.id: at for at, body in enumerate(scene.bodies)}
     for link, offset in movement.offsets.items():
         error[index[link]] += offset
     return error
 
 
-def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas: dict[int, float]) -> None:
-    """One step: at once where all sources are driven by what is known, else repeated until nothing moves."""
+def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas: dict[int, float]) -> None:
+    """Evaluate one step: directly if all drivers of its sources are known, else by fixed-point iteration."""
     bodies, known = list(step.bodies), list(step.known)
     base = _matrix(step.from_known, len(bodies), len(known)) @ error[known]
     gains = _matrix(step.from_sources, len(bodies), len(step.sources))
+    # fixed-point iteration, which converges if transmission errors vary slowly with the angle
     for _ in range(_ROUNDS):
         for source in step.sources:
             deltas[source] = _delta(scene, scene.movement.sources[source], turns, error)
@@ -122,9 +131,9 @@ def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas:
             return
     raise RangeError(
         Problem(
-            f"'{scene.name}' has pairs that depend on each other and do not settle",
-            "repeated substitution runs away from a pose",
-            "ask for the motion in place of the picture, or for another number of turns",
+            f"the pose of '{scene.name}' does not converge",
+            "fixed-point iteration diverges for pairs that depend on each other",
+            "request the motion instead of the picture, or another number of turns",
         )
     )
 
@@ -134,7 +143,7 @@ def _matrix(rows: object, height: int, width: int) -> Floats:
 
 
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) -> float:
-    """What a pair that ripples adds to the body it drives."""
+    """Return the transmission error that a pair adds to the body it drives (rad)."""
     transmission = scene.movement.transmissions[source.transmission]
     swing = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier]
     mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)
@@ -142,9 +151,9 @@ def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) ->
 
 
 def _value(transmission: ErrorTable, S: float) -> float:
-    """The error law at a driver's angle."""
+    """Return the tabulated transmission error at a driver's angle (rad)."""
     s = S % transmission.period
-    # clamped: rounding may put s on the period itself
+    # clamped, because rounding may make s equal to the period
     cell = min(max(int(np.searchsorted(transmission.breaks, s, side="right")) - 1, 0), len(transmission.breaks) - 2)
     x = s - (transmission.breaks[cell] + transmission.breaks[cell + 1]) / 2
     return float(np.polynomial.polynomial.polyval(x, transmission.coefficients[cell]))

@@ -1,10 +1,10 @@
-"""A train's simulated motion as a page carries it: angles at few samples, contacts, and impacts.
+"""Simulated motion of a train as a page carries it: angles at few samples, contacts, and impacts.
 
-Sample n is `step n` seconds after the start of the part shown. Between the samples that are kept, a link's angle is
+Sample n is `step n` seconds after the start of the replayed part. The angle of a link is
 
     turned(t) = rate t + line(t)
 
-with `line` straight from each to the next, within `tolerance` of every sample that the simulation gave.
+where `line` interpolates linearly between the kept samples and is within `tolerance` of every sample of the simulation.
 """
 
 from __future__ import annotations
@@ -31,45 +31,45 @@ if TYPE_CHECKING:
     from geartrain.scene.movement import Movement
 
 TimeRun: TypeAlias = Any
-"""A `geartrain.simulation.TimeRun`; scenes do not import that wing, not even for types."""
+"""A `geartrain.simulation.TimeRun`; scenes do not import that package, not even for types."""
 
 
 @dataclass(frozen=True, slots=True)
 class LinkCourse(Result):
-    """The angle of a link through time.
+    """Angle of a link as a function of time.
 
     See Also
     --------
-    SceneRun : holds one for each body.
+    SceneRun : contains one for each body.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = ("rate", Key("samples", "packed_samples"), Key("angles", "packed_angles"))
 
     rate: float
-    """Its mean speed about its declared axis [rad/s]."""
+    """Mean speed about its declared axis [rad/s]."""
     samples: Ints
-    """Numbers of the samples that are kept. Shape (n,)."""
+    """Indices of the samples that are kept. Shape (n,)."""
     angles: Floats
-    """By how much it has turned since the start, less `rate` times the time [rad]. Shape (n,)."""
+    """Angle turned since the start, minus `rate` times the time [rad]. Shape (n,)."""
 
     @property
     def packed_samples(self) -> str:
-        """The samples as a page carries them: base64 of little-endian uint32."""
+        """Sample indices as base64 of little-endian uint32."""
         return packed(self.samples, "<u4")
 
     @property
     def packed_angles(self) -> str:
-        """The angles as a page carries them: base64 of little-endian float32."""
+        """Angles as base64 of little-endian float32."""
         return packed(self.angles, "<f4")
 
 
 @dataclass(frozen=True, slots=True)
 class SceneContact(Result):
-    """What teeth, a pin or an escapement do through time.
+    """Contact of a gear pair, a pin or an escapement as a function of time.
 
     See Also
     --------
-    SceneRun : holds these.
+    SceneRun : contains these.
     """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
@@ -88,97 +88,97 @@ class SceneContact(Result):
     )
 
     name: str
-    """The pair or coupling; of an escapement its link."""
+    """Name of the pair or coupling; for an escapement that of its link."""
     kind: str
-    """What it is."""
+    """Kind of contact: pair, pin or escapement."""
     body: int
-    """Index of the body with which the place of its contact moves."""
+    """Index of the body with which the contact point moves."""
     at: Vector
-    """That place in the zero pose [mm]."""
+    """Contact point in the zero pose [mm]."""
     apart: float
-    """Share of time in which no flank touches."""
+    """Fraction of time in which no flank is in contact."""
     coast: float
-    """Share of time on the coast flank."""
+    """Fraction of time on the coast flank."""
     impact_rate: float
-    """Impacts a second [1/s]."""
+    """Impacts per second [1/s]."""
     hardest: float
-    """Greatest closing speed of one, of the driven side [rad/s]."""
+    """Maximum closing speed of an impact, of the driven side [rad/s]."""
     changes: Ints
-    """Samples from which `states` hold. Shape (n,)."""
+    """Samples at which the contact changes to the corresponding one of `states`. Shape (n,)."""
     states: str
-    """One letter each: `d` on the drive flank, `c` on the coast flank, `a` apart; empty where that is not known."""
+    """One letter per change: `d` drive flank, `c` coast flank, `a` apart; empty if it is not known."""
     impact_times: Floats
-    """Times of impacts since the start of what is shown [s]. Shape (m,)."""
+    """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
     """Closing speeds of the driven side at impacts [rad/s]. Shape (m,)."""
 
     @property
     def packed_changes(self) -> str:
-        """The samples as a page carries them: base64 of little-endian uint32."""
+        """Samples as base64 of little-endian uint32."""
         return packed(self.changes, "<u4")
 
     @property
     def packed_times(self) -> str:
-        """The times as a page carries them: base64 of little-endian float64."""
+        """Times as base64 of little-endian float64."""
         return packed(self.impact_times)
 
     @property
     def packed_speeds(self) -> str:
-        """The speeds as a page carries them: base64 of little-endian float32."""
+        """Speeds as base64 of little-endian float32."""
         return packed(self.impact_speeds, "<f4")
 
 
 @dataclass(frozen=True, slots=True)
 class SceneRun(Result):
-    """A train in time, ready to be played; angles in rad, times in s.
+    """Simulated motion of a train, ready to be replayed; angles in rad, times in s.
 
     See Also
     --------
-    make_scene : gives it, in `Scene.run`.
+    make_scene : returns it in `Scene.run`.
     """
 
     driven: str
-    """What drives it."""
+    """Drive of the train: what supplies its power."""
     link: str
-    """Where power enters."""
+    """Link at which power enters."""
     rate: float
-    """Mean speed of the lead [rad/s]."""
+    """Mean speed of the driving link [rad/s]."""
     period: float
-    """In which the lead would turn once at that speed [s]."""
+    """Time of one turn of the driving link at that speed [s]."""
     skip: float
-    """Time before what is shown [s]."""
+    """Simulated time before the replayed part [s]."""
     duration: float
-    """Time that is shown [s]."""
+    """Duration of the replayed part [s]."""
     step: float
-    """From one sample of the simulation to the next [s]."""
+    """Time between samples of the simulation [s]."""
     tolerance: float
-    """Within which angles are those of the simulation [rad]."""
+    """Maximum deviation of angles from those of the simulation [rad]."""
     torque: float
-    """Mean torque where power enters [N m]."""
+    """Mean torque at the link where power enters [N m]."""
     complete: bool
     """False if the simulation was stopped before its end."""
     links: Sequence[LinkCourse]
     """Angles, in the order of bodies."""
     contacts: Sequence[SceneContact]
-    """Teeth, pins and the escapement."""
+    """Contacts of teeth, pins and the escapement."""
     deviations: Sequence[Annotated[Any, WingResult("simulation", "OutputDeviation")]]
-    """How far outputs are ahead of `motion` and behind."""
+    """Deviations of outputs from `motion`, ahead and behind."""
     notes: Sequence[str]
-    """What is left out, and what is drawn as one."""
+    """Simplifications: omitted effects, and links drawn as one."""
 
 
 # ------------------------------------------------------------------------------------------------- from a simulated run
 
 
 TOLERANCE = 1e-4
-"""Within which angles of a page are those of the simulation (rad)."""
-_TOUCHES = 1e-9  # rad: gaps that are rounding of angles
-_FLAT = 1e6  # of times over angles: what is off a line is then off upwards
+"""Maximum deviation of angles on a page from those of the simulation (rad)."""
+_TOUCHES = 1e-9  # rad: smaller gaps are rounding errors of angles
+_FLAT = 1e6  # ratio of the scales of time and angle, so that deviations from a line are measured along the angle
 
 
 @dataclass(frozen=True)
 class ShownSamples:
-    """The samples of the counted part of a run, with the one at time 0, which a run does not keep."""
+    """Samples of the counted part of a run, including the one at time 0, which a run does not keep."""
 
     run: TimeRun
 
@@ -187,27 +187,27 @@ class ShownSamples:
         return np.asarray(self.run.time > self.run.skip - self.run.step / 2)
 
     def of(self, values: Floats, first: float = 0.0) -> Floats:
-        """Those of these values; `first` at time 0."""
+        """Return the values at the replayed samples; `first` at time 0."""
         picked = values[self._picked]
         return np.concatenate(([first], picked)) if self.run.skip == 0 else picked
 
     @cached_property
     def start(self) -> float:
-        """Time of the first (s)."""
+        """Time of the first sample (s)."""
         return float(self.of(self.run.time)[0])
 
     @cached_property
     def time(self) -> Floats:
-        """Since the first (s)."""
+        """Times since the first sample (s)."""
         return self.of(self.run.time) - self.start
 
     @property
     def step(self) -> float:
-        """From one to the next (s)."""
+        """Time between samples (s)."""
         return float(self.time[-1]) / (len(self.time) - 1)
 
     def link(self, turned: Floats, tolerance: float) -> LinkCourse:
-        """The course of a link that has turned by these angles, to within a tolerance (rad)."""
+        """Return the course of a link with these angles (rad), simplified within a tolerance (rad)."""
         shown = self.of(turned)
         rate = float(shown[-1] - shown[0]) / float(self.time[-1])
         line = shown - rate * self.time
@@ -215,17 +215,24 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Samples from which a flank touches or none does, and which; none of what has no flanks."""
+        """Return the samples at which contact changes, and the new states as letters.
+
+        Both are empty for contacts without flanks.
+        """
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
-        on_front = (front <= back) | (front <= _TOUCHES)  # without play a pair is on both
+        on_front = (front <= back) | (front <= _TOUCHES)  # without backlash a pair is on both
+        # index of a letter of "dca"
         code = np.where(np.minimum(front, back) > _TOUCHES, 2, np.where(on_front, 0, 1))
         changes = np.concatenate(([0], 1 + np.flatnonzero(np.diff(code))))
         return changes, "".join("dca"[each] for each in code[changes])
 
     def impacts(self, contact: str) -> tuple[Floats, Floats]:
-        """Times and closing speeds of a contact's blows; of those within one sample the first time, the most speed."""
+        """Return times and closing speeds of a contact's impacts.
+
+        Impacts within one sample are merged into one with the first time and the maximum speed.
+        """
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]
         if not len(times):
@@ -243,14 +250,16 @@ def find_run(
     pairs: Sequence[ScenePair],
     couplings: Sequence[SceneCoupling],
 ) -> SceneRun:
-    """What a page plays of a run: its counted part. Raises `QuestionError` if it is of another train or state.
+    """Return the counted part of a run for replay on a page.
 
-    moves   link -> the link of the run that moves as it does
+    Raise `QuestionError` if the run is of another train or state.
+
+    moves   link -> the link of the run that has the same motion
     """
     if (run.train, run.state) != (stage.train.name, stage.answer.state):
-        what = f"a run of {run.train}{f', state {run.state}' if run.state else ''}"
+        what = f"the run is of {run.train}{f', state {run.state}' if run.state else ''}"
         why = f"the scene is of {stage.train.name}{f', state {stage.answer.state}' if stage.answer.state else ''}"
-        raise QuestionError(Problem(what, why, "give the run of the same train in the same state"))
+        raise QuestionError(Problem(what, why, "pass the run of the same train in the same state"))
     samples = ShownSamples(run)
     places = dict(_places(stage, wheels, pairs, couplings))
     contacts = tuple(
@@ -282,27 +291,30 @@ def find_run(
         links=tuple(samples.link(_turned(stage, run, moves[link]), _tolerance(stage, link)) for link in links),
         contacts=contacts,
         deviations=run.deviations,
-        notes=(*run.notes, *_left_out(run, movement)),
+        notes=(*run.notes, *_omissions(run, movement)),
     )
 
 
 def _turned(stage: SceneContext, run: TimeRun, link: str) -> Floats:
-    """By how much a link has turned from where it is declared to start (rad)."""
+    """Return the angles of a link in the run relative to its declared starting angle (rad)."""
     found: Floats = run.angles[link] - stage.start(link)
     return found
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:
-    """Finer for the lead: by its angle the page says where all other links would stand if teeth touched."""
+    """Return the tolerance of a link (rad), smaller for the driving link.
+
+    The page derives the ideal angles of all other links from the angle of the driving link.
+    """
     if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)
     return TOLERANCE / max(1.0, *(abs(float(ratio)) for ratio in ratios if ratio))
 
 
-def _left_out(run: TimeRun, movement: Movement) -> Iterator[str]:
+def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
     if movement.kind == "mean":
-        yield f"wheels start where mean speeds have them, to within what their teeth ripple; {movement.why}"
+        yield f"initial angles are those of the mean motion, without transmission errors; {movement.why}"
     kept = len(run.impacts.time)
     if run.impacts.total > kept:
         last = run.impacts.time[-1] - run.skip
@@ -312,7 +324,7 @@ def _left_out(run: TimeRun, movement: Movement) -> Iterator[str]:
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """By contact: what it is, the body with which its place moves, and that place in the zero pose (mm)."""
+    """Yield each contact with its kind, the body with which its point moves, and this point in the zero pose (mm)."""
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
@@ -324,16 +336,17 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Where pallets would meet the escape wheel, which meshes with nothing; else the largest of the link."""
+    """Return the contact point of pallets with the escape wheel, a wheel without mates, else with the largest wheel."""
     if not wheels:
         return (0.0, 0.0, 0.0)
+    # an escape wheel has no mate among gears
     free = [wheel for wheel in wheels if not wheel.circuits] or wheels
     wheel = max(free, key=lambda each: each.radius)
     return plus(wheel.centre, wheel.reference, wheel.radius)
 
 
 def pitch_point(one: SceneWheel, other: SceneWheel) -> Vector:
-    """Where the teeth of two wheels meet in the zero pose (mm): on a pitch circle, towards the other axis."""
+    """Return the pitch point of two wheels in the zero pose (mm), on the pitch circle towards the other axis."""
     if other.kind == "ring":
         one, other = other, one
     way = across(minus(other.centre, one.centre), one.direction)

@@ -1,7 +1,7 @@
-"""Letters as strokes, such as an engraver cuts, and outlines of hands.
+"""Letters as single strokes for engraving, and outlines of hands.
 
-Letters are capitals of the Latin and Greek alphabets, figures, a few signs. Outlines of hands are given along their
-length, with how far they extend on a dial.
+Letters are capitals of the Latin and Greek alphabets, digits and a few signs. Outlines of hands are relative to their
+length, and come with their extent on a dial.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from math import cos, sin
 
 @dataclass(frozen=True, slots=True)
 class HandOutline:
-    """A hand along x from its axis, its tip at 1."""
+    """Outline of a hand along x from its axis, its tip at 1."""
 
     reach: float
-    """Its length over the radius of the scale on which it is read."""
+    """Length relative to the radius of the scale on which it is read."""
     stations: tuple[tuple[float, float], ...]
-    """(x, half its width there) from the tail to the tip, over its length."""
+    """Pairs (x, half the width there) from the tail to the tip, relative to its length."""
 
 
 HANDS: Mapping[str, HandOutline] = {
@@ -81,7 +81,7 @@ HANDS: Mapping[str, HandOutline] = {
         ),
     ),
 }
-"""By the word of a declaration."""
+"""Outlines of hands by the name used in a declaration."""
 
 
 # -------------------------------------------------------------------------------------------------------------- letters
@@ -90,10 +90,10 @@ HANDS: Mapping[str, HandOutline] = {
 Point = tuple[float, float]
 Stroke = tuple[Point, ...]
 
-_HIGH = 8  # of a capital, in the grid below
+_HIGH = 8  # height of a capital in the grid below
 _APART, _SPACE = 2.2, 3.0
 
-# strokes by letter: corners as x and y in one figure each, from the foot of the letter; after ~ a stroke is rounded
+# strokes by letter: corners as one digit each for x and y, from the base line; ~ marks a rounded stroke
 _LATIN = {
     "A": "003860 1353",
     "B": "0008 ~083857553404 ~044463614000",
@@ -163,7 +163,7 @@ _UNKNOWN = "0008585000"
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """The strokes of a capital, and its width, where capitals are 1 high and stand on 0; unknown letters are a box."""
+    """Return the strokes of a capital of height 1 above the base line at 0, and its width; a box if it is unknown."""
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)
@@ -176,7 +176,10 @@ def _stroke(drawn: str) -> Stroke:
 
 
 def _rounded(corners: list[Point]) -> Iterator[Point]:
-    """Every corner cut off at a quarter of its sides (Chaikin); ends stay, but where a stroke is closed."""
+    """Yield corners cut off at a quarter of their sides (Chaikin's algorithm).
+
+    End points are kept, unless a stroke is closed.
+    """
     closed = corners[0] == corners[-1]
     found = [] if closed else corners[:1]
     for (x, y), (u, v) in pairwise(corners):
@@ -186,33 +189,33 @@ def _rounded(corners: list[Point]) -> Iterator[Point]:
 
 
 def capitals(text: str) -> str:
-    """A text as it is engraved: in capitals, without accents."""
+    """Return a text as it is engraved, in capitals without accents."""
     return "".join(each for each in unicodedata.normalize("NFD", text.upper()) if not unicodedata.combining(each))
 
 
 def _advances(text: str) -> list[tuple[str, float]]:
-    """Its letters, each with its width and its gap, over their height."""
+    """Return the letters of a text, each with the sum of its width and gap relative to the height."""
     gap = _APART / _HIGH
     return [(each, (_SPACE / _HIGH if each.isspace() else letter_strokes(each)[1]) + gap) for each in capitals(text)]
 
 
 def text_length(text: str) -> float:
-    """How long a text is, over the height of its letters."""
+    """Return the length of a text relative to the height of its letters."""
     return max(0.0, sum(wide for _, wide in _advances(text)) - _APART / _HIGH)
 
 
 @dataclass(frozen=True, slots=True)
 class CurvedLine:
-    """A line along which text runs: round the middle at some radius, at an angle clockwise from above (rad)."""
+    """Circular arc along which text runs, by its radius and its angle clockwise from the top (rad)."""
 
     radius: float
     angle: float
     inwards: bool = False
-    """Its letters have their feet outside: so it is read where it runs below the middle."""
+    """True if the feet of letters point outwards, so that text below the centre is readable."""
 
 
 def curved_text(text: str, height: float, line: CurvedLine) -> Iterator[Stroke]:
-    """The strokes of a text whose middle is that of its line."""
+    """Yield the strokes of a text centred on its line."""
     way = -1.0 if line.inwards else 1.0
     along = -text_length(text) * height / 2
     for letter, advance in _advances(text):

@@ -1,14 +1,14 @@
-"""A train as a scene: all that a picture of it needs, as plain data. Lengths in mm, angles in rad.
+"""Scene of a train: all data that a picture of it needs, as plain data. Lengths in mm, angles in rad.
 
-Everything stands in the zero pose: the one in which the angle of every link is zero. A body's angle about its
-`direction`, after `t` turns of the lead, is
+Places are given in the zero pose, in which the angle of every link is zero. The angle of a body about its `direction`,
+after `t` turns of the driving link, is
 
     A(t) = sense (start + 2 pi speed t + error(t))
 
-with speed exact and error from `Movement`. The body is turned, as seen from its parent, by A(body) - A(parent) about
-the line through `point` along `direction`, after its parent has carried that line along (the frame has A = 0).
+with exact speed and the error from `Movement`. Relative to its parent, the body is rotated by A(body) - A(parent) about
+the line through `point` along `direction`, after the parent has moved that line with it (the frame has A = 0).
 """
-# Not in every train: the verdict's "advice" (trains that stand).
+# Not in every train: the verdict's "advice" (only for trains that cannot turn).
 
 from __future__ import annotations
 
@@ -39,80 +39,82 @@ FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class DialFace(Shown):
-    """A scale over which pointers turn.
+    """A dial: a scale over which pointers turn.
 
     See Also
     --------
-    make_scene : gives it, in `Scene.dials`.
+    make_scene : returns it in `Scene.dials`.
     """
 
     id: str
-    """Its name."""
+    """Name of the dial."""
     body: int
-    """Index of the body on which it stands."""
+    """Index of the body on which it is mounted."""
     face: str
-    """Front or back, or a name of its own."""
+    """Face of the train: front or back, or another name."""
     centre: Vector
-    """Its middle [mm]."""
+    """Centre of the dial [mm]."""
     normal: Vector
-    """Unit vector along which the face looks."""
+    """Unit vector perpendicular to the face, towards the reader."""
     zero: Vector
-    """Unit vector from the middle to the zero mark."""
+    """Unit vector from the centre to the zero mark."""
     radius: float
-    """Of all that is engraved [mm]."""
+    """Radius of the whole engraving [mm]."""
     scale: DialScale
-    """Its divisions, over its radius."""
+    """Divisions of the scale; its radii are relative to `radius`."""
     look: Literal["scale", "ball"] = "scale"
-    """A scale with a pointer, or a ball in the pointer of the link on which it stands: then `radius` is that of the
-    ball, `normal` the direction of the axis about which it turns, through its middle."""
+    """A scale with a pointer, or a ball in the pointer of the link on which it is mounted. For a ball, `radius` is that
+    of the ball and `normal` the direction of its axis of rotation, which passes through its centre.
+    """
     note: str = ""
-    """As declared."""
+    """Note as declared."""
     plate: float = 0.0
-    """Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 where none is made."""
+    """Radius of the disc on which it is engraved, which is one of the scene's parts [mm]; 0 if no disc is made."""
     seated: bool = False
-    """Whether it turns on the end of an arbor or pipe, with a hand of the dial below it."""
+    """True if the dial turns on the end of an arbor or pipe, together with a hand of the dial below it."""
     title: str = ""
-    """What stands over it: its name, and in brackets the outputs read on it where the dial stands about several
-    axes."""
+    """Caption: the name, followed in brackets by the outputs read on it if the dial exists about several axes."""
     engraving: Sequence[tuple[str, float, Sequence[Sequence[int]]]] = ()
-    """What is engraved: rim, fine, bold or letters, the width of lines over the radius, and lines in 4,000ths of it:
-    x to the reader's right and y to the zero mark, first from the middle, then from point to point."""
+    """Engraved lines: kind (rim, fine, bold or letters), width relative to the radius, and lines in 1/4,000 of the
+    radius. Of each line, x is to the reader's right and y towards the zero mark; the first point is relative to the
+    centre, each further one to the point before it.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class PointerTarget(Shown):
-    """What an output should show.
+    """A value that an output should show.
 
     See Also
     --------
-    make_scene : gives it, in `Pointer.targets`.
+    make_scene : returns it in `Pointer.targets`.
     """
 
     label: str
-    """The target in words."""
+    """Name of the target."""
     speed: str
-    """Over the lead's, exact; of a target without a sense, in that of the output."""
+    """Speed relative to the driving link, exact. A target without a sense takes the sense of the output."""
     source: str = ""
-    """Key of its source; empty where it names none."""
+    """Key of its source; empty if it names none."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneEpoch(Shown):
-    """The date at which the lead has made some turns, and what a turn lasts.
+    """A date that corresponds to a number of turns of the driving link, and the duration of one turn.
 
     See Also
     --------
-    make_scene : gives it, in `Scene.epoch`.
+    make_scene : returns it in `Scene.epoch`.
     """
 
     julian_day: str
-    """Of that date, exact [d]."""
+    """Julian day of the date, exact [d]."""
     turns: str
-    """That the lead has made by then, exact."""
+    """Turns of the driving link up to that date, exact."""
     days: str
-    """That one turn of the lead lasts, exact; negative where the lead turns against its positive sense."""
+    """Duration of one turn of the driving link, exact [d]; negative if it turns against its positive sense."""
     calendar: str | None
-    """In which dates are told; None for Julian before 1582-10-15 and Gregorian from then on."""
+    """Calendar in which dates are displayed; None for Julian before 1582-10-15 and Gregorian from then on."""
     source: str
     """Source as declared."""
     note: str
@@ -125,27 +127,27 @@ class Pointer(Shown):
 
     See Also
     --------
-    make_scene : gives it, in `Scene.pointers`.
+    make_scene : returns it in `Scene.pointers`.
     """
 
     output: str
-    """Its name."""
+    """Name of the output."""
     body: int
     """Index of the body that turns."""
     base: int
-    """Index of the body from which it is seen."""
+    """Index of the body relative to which it is read."""
     dial: int | None
-    """Index of its dial; None for an output without one, which gets a small one of its own in the picture."""
+    """Index of its dial; None for an output without one, for which the picture draws a small dial."""
     speed: str | None
-    """Over the lead's, exact; None where it is not determined."""
+    """Speed relative to the driving link, exact; None if it is not determined."""
     shown: str | None
     """Exact speed at the declared inputs, in the train's unit."""
     decimal: str
     """Rounded speed at the declared inputs, in the train's unit."""
     sense: int
-    """1 where a positive angle is clockwise for one who reads the dial, -1 where it is counter-clockwise."""
+    """1 if a positive angle is clockwise for a reader of the dial, -1 if it is counter-clockwise."""
     text: str
-    """What it shows, in words."""
+    """Sense of rotation in words."""
     pairs: Sequence[str]
     """Names of the pairs and couplings on which the output depends, in order from the input."""
     bodies: Sequence[int]
@@ -153,26 +155,29 @@ class Pointer(Shown):
     wheels: Sequence[int]
     """Indices of the wheels of its path."""
     note: str = ""
-    """As declared."""
+    """Note as declared."""
     targets: Sequence[PointerTarget] = ()
-    """What it should show, in the order declared; none where nothing is driven, or it is not determined."""
+    """Targets of the output, in the order declared; empty if nothing is driven, or the speed is not determined."""
     level: float = 0.0
-    """How high the middle of its hand stands over its dial [mm]."""
+    """Height of the middle of its hand above its dial [mm]."""
     seat: float = 0.0
-    """Diameter of the arbor or pipe on whose end the hand sits [mm]; 0 where none is made."""
+    """Diameter of the arbor or pipe on whose end the hand is fitted [mm]; 0 if none is made."""
     reach: float = 0.0
-    """Length of its hand over the radius of its scale."""
+    """Length of its hand relative to the radius of its scale."""
     outline: Sequence[tuple[float, float]] = ()
-    """Of its hand, over its length: how far from the axis, and half its width there; none without a dial."""
+    """Outline of its hand relative to its length: distance from the axis, and half the width there.
+
+    It is empty without a dial.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class Scene(Shown):
-    """A train in one state, ready to be drawn: plain data, in mm and rad.
+    """A train in one state, ready to be drawn, as plain data in mm and rad.
 
     See Also
     --------
-    make_scene : gives it.
+    make_scene : returns it.
     """
 
     name: str
@@ -182,26 +187,29 @@ class Scene(Shown):
     note: str
     """Note of the train."""
     state: str | None
-    """The state; None where the train has none."""
+    """State of the train; None if it has no states."""
     unit: str
     """Unit of speeds."""
     positive: str
     """Declared sense of a positive speed."""
     front: int
-    """Side of z from which it is looked at, 1 or -1."""
+    """Side of z from which it is viewed, 1 or -1."""
     driving_link: int | None
-    """Index of the body whose turns are given."""
+    """Index of the body whose turns are prescribed."""
     crank: int | None
-    """Index of the body at which a hand would turn the train."""
+    """Index of the body at which the train would be cranked by hand."""
     step: str
-    """Turns of the lead in one unit of the input, exact."""
+    """Turns of the driving link in one unit of the input, exact."""
     verdict: Mapping[str, Any]
-    """Kind, text, the offending loops: {"pairs": [...], "links": [...], "text": ...}, and "advice", a list of
-    sentences that say what would free it."""
+    """Verdict as plain data, with keys "kind", "text", "links", "loops" and "advice".
+
+    A faulty loop is {"pairs": [...], "links": [...], "text": ...}. The advice is a list of sentences that propose a
+    remedy.
+    """
     bodies: Sequence[SceneBody]
-    """Links, in the order declared, which is that of indices."""
+    """Links, in the order declared and of their indices."""
     wheels: Sequence[SceneWheel]
-    """In the order declared, which is that of indices."""
+    """Wheels, in the order declared and of their indices."""
     profiles: Sequence[ToothProfile]
     """Tooth forms that wheels share."""
     pairs: Sequence[ScenePair]
@@ -209,42 +217,48 @@ class Scene(Shown):
     couplings: Sequence[SceneCoupling]
     """Pins in slots."""
     dials: Sequence[DialFace]
-    """Scales."""
+    """Dials."""
     pointers: Sequence[Pointer]
-    """Outputs; of a train that declares none, its links, a hundred at most."""
+    """Outputs; for a train that declares none, its links, at most 100."""
     movement: Movement
-    """How angles differ from exact ones, for positive turns."""
+    """Deviations of angles from exact ones, for positive turns."""
     sources: Mapping[str, Mapping[str, str]]
     """Citations by key."""
     notices: Sequence[Mapping[str, str]]
-    """What could not be placed or followed, and why: {"what", "why", "fix", "place"}."""
+    """Problems of placement or motion: {"what", "why", "fix", "place"}."""
     back: Movement | None = None
-    """The movement while the lead turns against its declared sense, on the other flanks; None where it is the same."""
+    """Movement while the driving link turns against its declared sense, in contact on the other flanks.
+
+    It is None if it is the same.
+    """
     unit_days: str | None = None
-    """Length of the unit in days, exact, where it is a time; None elsewhere."""
+    """Length of the unit in days, exact, if it is a time; else None."""
     elements: Sequence[SceneShiftElement] = ()
-    """Brakes and clutches, in the order declared; which are closed."""
+    """Brakes and clutches, in the order declared, with their condition."""
     epoch: SceneEpoch | None = None
-    """A date for turns of the lead, where one is declared."""
+    """Date for turns of the driving link, if one is declared."""
     formulas: SceneFormulas | None = None
-    """Speeds as functions of tooth counts, where they were asked for and there are any."""
+    """Speeds as functions of tooth counts, if they were requested and exist."""
     asks: bool = True
-    """False where no output is declared, and links stand for outputs."""
+    """False if no output is declared, and links are used as outputs."""
     run: SceneRun | None = None
-    """The simulated motion through time, which is then played; None where the train is turned by its crank."""
+    """Simulated motion, which is then replayed; None if the train is turned by its crank."""
     parts: Sequence[ScenePart] = ()
-    """Plates, pillars, arbors, pipes and all else that holds the wheels, of a train as built; else none."""
+    """Plates, pillars, arbors, pipes and all other structural parts of a train as built; else empty."""
     hangers: Sequence[SceneHanger] = ()
-    """The pendulum and the weight of a train as built that declares them; else none."""
+    """Pendulum and weight of a train as built that declares them; else empty."""
     waves: Sequence[SceneWave] = ()
-    """What bends thin wheels into their rings."""
+    """Strain waves that bend flexible wheels into their rings."""
 
     def _summary(self) -> str:
         state = "" if self.state is None else f" state {self.state}"
         return f"{self.name}{state}: {len(self.bodies)} bodies, {len(self.wheels)} wheels, {len(self.pairs)} gear pairs"
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""
+        """Return plain data for JSON.
+
+        Arrays are base64 of little-endian numbers, row by row. `run` is included only if it exists.
+        """
         named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
         if self.run is None:
             del named["run"]

@@ -11,7 +11,7 @@ manufacturing, wheel_stock, reconstruction   materials and errors of cutting; bl
 fields, validation, references   strict fields, short forms and problems, names and units that conflict
 yaml_nodes, declaration_style    YAML with line numbers; the style in which declarations are written
 declaration_files, inheritance   files, JSON and shipped trains; `extends`, and other values of a declaration
-periods, trade_words             the table of periods of the sky; words of makers and historians
+periods                          the table of periods of the sky
 """
 
 from __future__ import annotations

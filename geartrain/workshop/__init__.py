@@ -1,11 +1,11 @@
-"""Files to cut, wheels cut by hand, tooth sizes, error budgets of pointers.
+"""Workshop: files to cut, wheels with cutting errors, Monte Carlo trials, tooth sizes and error budgets.
 
 export        outlines, plates, solids, graphs and tables of a train as files; proof that the cut parts turn
-cutting       wheels with cutting errors: which pairs jam, clash or lose contact, and their transmission functions
-monte_carlo   trials of a train cut by hand, and of its friction: probabilities with confidence intervals, Sobol indices
-budget        the causes of the error of a pointer: ratio, pins, teeth, lost motion, cutting (`find_budget`)
-sizes         radii, clearance and half angle of triangular teeth that minimise loss, error, impact or jamming
-answers       the results that commands print as JSON
+cutting       wheels with cutting errors: jams, clashes, loss of contact, and their transmission functions
+monte_carlo   Monte Carlo trials of cutting errors and of friction: probabilities with intervals, Sobol indices
+budget        error budget of each pointer: ratio, pins, teeth, lost motion, cutting (`find_budget`)
+sizes         radii, clearance factor and half angle of triangular teeth, optimised for one objective
+answers       result types that commands print as JSON
 """
 
 from __future__ import annotations

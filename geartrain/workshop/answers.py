@@ -1,4 +1,4 @@
-"""The results of the workshop that commands print as JSON."""
+"""Result types of the workshop commands that print JSON."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Question (a command, or a use of one) -> type of its result."""
+    """Return the result type of each workshop command (or command with option) that prints JSON."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.sizes.best_sizes import BestToothSizes

@@ -160,4 +160,4 @@ def test_a_table_of_planetary_sets_is_off_by_rounding_and_by_no_more() -> None:
     """The carrier turns by s/(s + r) of the sun."""
     made = load("planetary-24-18-60").variants({"s": range(11, 38), "ring": range(47, 74)}, ["carrier"])
     assert abs(made["carrier"] / (made["s"] / (made["s"] + made["ring"])) - 1).max() < 1e-15
-    assert repr(made) == "<TrainVariants: 729 trains by s, ring; carrier>"
+    assert repr(made) == "<TrainVariants 729 trains by s, ring; carrier>"

@@ -59,7 +59,7 @@ def test_a_folder_that_is_stopped_half_way_is_not_there(tmp_path: Path, monkeypa
     monkeypatch.setattr(sys.modules["geartrain.workshop.export.file_set"], "readme", stop)
     done = call("export", "planetary-24-18-60", "--to", tmp_path / "set", "--as", LIGHT)
     assert done.exit_code == 130
-    assert "nothing is written" in done.stderr
+    assert "no files were written" in done.stderr
     assert list(tmp_path.iterdir()) == []
 
 
@@ -86,14 +86,14 @@ def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        ((), "not said what to write"),
+        ((), "output is missing"),
         (("--to", "d", "-o", "x.glb"), "both given"),
-        (("-o", "x.pdf"), "no train is written as '.pdf'"),
-        (("-o", "x"), "no train is written as 'x'"),
-        (("-o", "x.glb", "--wheel", "s"), "no wheel is written as '.glb'"),
+        (("-o", "x.pdf"), "a train cannot be written as '.pdf'"),
+        (("-o", "x"), "a train cannot be written as 'x'"),
+        (("-o", "x.glb", "--wheel", "s"), "a wheel cannot be written as '.glb'"),
         (("-o", "x.svg", "--wheel", "nobody"), "no wheel 'nobody'"),
-        (("--to", "d", "--as", "svg,pdf"), "no export 'pdf'"),
-        (("--to", "d", "--wheel", "s"), "for one file"),
+        (("--to", "d", "--as", "svg,pdf"), "'pdf' is not a kind of export"),
+        (("--to", "d", "--wheel", "s"), "only to one file"),
         (("-o", "x.glb", "--turns", "many"), "not a valid number of turns"),
         (("-o", "x.stl", "--module", "0mm"), "a module of 0 mm"),
         (("-o", "x.stl", "--module", "1 m"), "a module of 1000 mm cannot be made"),
@@ -127,7 +127,7 @@ def test_a_module_is_refused_where_the_declaration_has_sizes(tmp_path: Path) -> 
     file = tmp_path / "sized.yaml"
     file.write_text(text, encoding="utf-8")
     done = call("export", file, "-o", out, "--module", "1mm")
-    assert "sizes of its own" in str(done.exception)
+    assert "already has sizes" in str(done.exception)
     assert call("export", file, "-o", out).exit_code == 0
 
 

@@ -229,7 +229,7 @@ def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kep
 def test_a_dash_is_standard_output_and_no_file(here: Path, command: str, option: str, suffix: str) -> None:
     done = ask(command, option, "-")
     if command == "export":
-        assert "no train is written as '-'" in refused(done)
+        assert "a train cannot be written as '-'" in refused(done)
     else:
         assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
         assert done.stdout_bytes

@@ -189,7 +189,7 @@ def test_what_does_not_fit_is_counted() -> None:
     shares = {str(at): VarianceShare(1 / (at + 1)) for at in range(30)}
     (axes,) = tornado_figure(shares, most=5).axes
     assert len(axes.get_yticklabels()) == 5
-    assert "25 more, each 0.17 or less" in axes.get_xlabel()
+    assert "25 more causes of at most 0.17" in axes.get_xlabel()
 
 
 def test_a_corner_shows_every_chance_at_its_counts() -> None:

@@ -138,7 +138,7 @@ def test_many_pointers_fit_on_a_page_with_those_that_stray_most() -> None:
     figure = histogram_figure(errors, "at random positions")
     assert not faults_of(figure)
     assert [axes.get_ylabel().split("\n")[0] for axes in figure.axes] == [f"pointer {at}" for at in range(58, 70)]
-    assert "58 pointers that stray less" in figure.axes[-1].get_xlabel()
+    assert "58 pointers with smaller errors" in figure.axes[-1].get_xlabel()
     bands = {name: ErrorBands.of([0.0, 1.0], np.stack([own, own], 1)) for name, own in errors.items()}
     assert not faults_of(pointer_error_figure(bands))
 

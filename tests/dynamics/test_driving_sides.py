@@ -63,7 +63,7 @@ def behind(pair: str, window: str = "0.5", rest: str = "") -> GearTrain:
 @pytest.mark.parametrize("pair", ["o, c", "c, o"])
 def test_behind_a_carrier_power_decides_and_not_the_wheel_written_first(pair: str) -> None:
     (mesh,) = behind(pair).meshes
-    assert (mesh.driver, mesh.who.why) == ("o", "power flows so from sun to out")
+    assert (mesh.driver, mesh.who.why) == ("o", "power flow sun -> out")
     # 48 teeth driving 16: the reverse would be 0.908
     assert mesh.transmission.efficiency_mean() == pytest.approx(0.8821535, abs=1e-7)
     assert behind(pair, "1").meshes[0].verdict.kind == behind("o, c", "1").meshes[0].verdict.kind
@@ -78,7 +78,7 @@ def test_a_load_that_drives_turns_the_flow_and_a_declared_driver_wins() -> None:
     speed = resisting.solve()["out"]
     first, other = (driving, resisting) if speed > 0 else (resisting, driving)
     assert (first.meshes[0].driver, other.meshes[0].driver) == ("o", "c")
-    assert first.meshes[0].who.why == "power flows so under the loads"
+    assert first.meshes[0].who.why == "power flow under the loads"
     declared = load(
         BEHIND.format(pair="o, c]\n    driver: c\n    copies: [", window="0.5", rest="").replace("\n    copies: []", "")
     )
@@ -257,7 +257,7 @@ def test_pairs_that_no_load_reaches_carry_nothing_whatever_pairs_lose(seeds: ran
 
 
 def test_drivers_found_one_by_one_follow_the_torques_under_all_efficiencies() -> None:
-    """In shipped trains: power flows so under the loads where the torques say so, and nowhere else."""
+    """In shipped trains: the power flows under the loads where the torques say so, and nowhere else."""
     found = 0
     for name in shipped.trains():
         for state in shipped.train(name).states or (None,):
@@ -270,7 +270,7 @@ def test_drivers_found_one_by_one_follow_the_torques_under_all_efficiencies() ->
             drivers = {
                 pair: train.mechanics.drivers(state)[pair] for pair in reversed(list(train.mechanics.drivers(state)))
             }
-            said = {pair: who.wheel for pair, who in drivers.items() if who.why.startswith("power flows so under the")}
+            said = {pair: who.wheel for pair, who in drivers.items() if who.why.startswith("power flow under the")}
             declared = {pair for pair, who in drivers.items() if who.why == "declared"}
             assert said == {pair: flows[pair] for pair in flows if pair in drivers and pair not in declared}, (
                 name,

@@ -301,7 +301,7 @@ def test_drag_goes_with_the_speed_of_the_moment() -> None:
     tau = 10 * (10 - 5 * np.cos(S)) / (100 + 25 - 100 * np.cos(S))
     assert found.mean == pytest.approx(1 + 0.01 * w * float(np.mean(tau**2)), rel=1e-9)
     assert found.starting.torque == pytest.approx(2, rel=1e-8)
-    assert [each.what for each in train.torques().left_out] == ["viscous drag", "swing within a turn"]
+    assert [each.what for each in train.torques().left_out] == ["viscous drag", "variation within a turn"]
 
 
 def test_other_names_and_another_order_change_nothing() -> None:
@@ -314,5 +314,5 @@ def test_other_names_and_another_order_change_nothing() -> None:
 
 
 def test_a_run_goes_forward() -> None:
-    with pytest.raises(QuestionError, match="torques over -1 turns"):
+    with pytest.raises(QuestionError, match="turns = -1"):
         cycle(pin_train(10, 8, 0.3, "loads: {b: -10 N m}"), -1)

@@ -99,7 +99,7 @@ def test_the_pin_of_known_forces_takes_its_mean_at_the_crank() -> None:
     assert pin_torques(10, 8, 0.3, 10.0, 100_000).max() == pytest.approx(50.9784589, rel=1e-4)  # which the mean hides
     assert found.verdict.kind == "incomplete"
     assert "mean" in found.verdict.text
-    assert names(found) == {"swing within a turn": ("P",)}
+    assert names(found) == {"variation within a turn": ("P",)}
     back = load(PIN.replace("inputs: {a: 1}", "inputs: {b: 1}").replace("loads: {b: -10", "loads: {a: -10")).torques()
     assert float(back.external["b"]) == pytest.approx(12.994123, abs=5e-7)
 
@@ -195,7 +195,7 @@ def test_a_train_of_real_teeth_asks_the_crank_for_the_mean_of_its_positions() ->
     assert float(found.external["crank"]) * 1000 == pytest.approx(stepped, rel=4e-4)
     assert float(found.external["crank"]) * 1000 == pytest.approx(3.555323, abs=1e-6)
     assert float(found.efficiency or 0) == pytest.approx(0.7520229, abs=1e-7)
-    assert names(found) == {"swing within a turn": tuple(alone)}
+    assert names(found) == {"variation within a turn": tuple(alone)}
 
 
 BOTH = """
@@ -263,7 +263,7 @@ def test_a_bearing_behind_a_retrograde_pointer_says_what_its_mean_speed_hides() 
     train = load("extends: freeth-2021\nname: s\nlinks: {saturn: {bearing: 1 N mm}}\n")
     found = train.torques()
     assert found.verdict.kind == "incomplete"
-    assert names(found)["friction of bearings that turn back"] == ("saturn",)
+    assert names(found)["friction of bearings that reverse"] == ("saturn",)
     (why,) = [each.why for each in found.left_out if each.what.startswith("friction of bearings")]
     # by hand: w = 1 - 427/442 tau, with the pin's circle of 14.37 and the axes 1.50 apart
     S = (np.arange(1_000_000) + 0.5) * (2 * pi / 1_000_000)
@@ -273,7 +273,7 @@ def test_a_bearing_behind_a_retrograde_pointer_says_what_its_mean_speed_hides() 
     factor, peak = np.mean(np.abs(w)) / abs(np.mean(w)), np.abs(w).max() / abs(np.mean(w))
     assert (factor, peak) == (pytest.approx(2.0656, abs=1e-4), pytest.approx(3.690611, abs=2e-5))
     page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
-    assert "N m without friction of bearings that turn back (saturn)." in page
+    assert "N m without friction of bearings that reverse (saturn)." in page
     assert f"{factor:.3f} times" in why
     assert f"{peak:.3f} times" in why
 
@@ -281,7 +281,7 @@ def test_a_bearing_behind_a_retrograde_pointer_says_what_its_mean_speed_hides() 
 @pytest.mark.parametrize(("planet", "back"), [("moon", False), ("mars", True), ("mercury", True)])
 def test_only_bearings_that_may_turn_back_are_named(planet: str, back: bool) -> None:
     found = load(f"extends: freeth-2021\nname: s\nlinks: {{{planet}: {{bearing: 1 N mm}}}}\n").torques()
-    assert ("friction of bearings that turn back" in names(found)) == back
+    assert ("friction of bearings that reverse" in names(found)) == back
 
 
 def test_a_bearing_of_a_follower_takes_something_though_its_mean_speed_is_none() -> None:
@@ -329,7 +329,7 @@ def test_the_captions_of_pictures_name_what_is_left_out(tmp_path: Path) -> None:
     path, picture = tmp_path / "pin.yaml", tmp_path / "pin.svg"
     path.write_text(PIN.replace(", pin_radius: 10 mm, offset: 8 mm", ""), encoding="utf-8")
     call("torques", path, "--plot", picture)
-    assert "left out: friction of pins (P), swing within a turn (P)" in picture.read_text(encoding="utf-8")
+    assert "left out: friction of pins (P), variation within a turn" in picture.read_text(encoding="utf-8")
 
 
 def test_the_means_of_teeth_are_worked_out_once_whatever_is_loaded(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -224,7 +224,7 @@ def test_a_load_on_a_link_whose_axis_moves_is_not_balanced() -> None:
     text = "inputs: {left: 1, right: 3}\nloads: {crown: -2 N m, spider: 1 N m}\nsolve_for: left\n"
     verdict = load(DIFFERENTIAL + text).torques().verdict
     assert (verdict.kind, bool(verdict)) == ("undecided", False)
-    assert "a torque on 'spider' has no one axis" in verdict.text
+    assert "a torque on 'spider' has no unique axis" in verdict.text
     assert load(DIFFERENTIAL + text).driven("spider", "left").verdict.kind == "undecided"
 
 

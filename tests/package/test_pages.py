@@ -75,7 +75,7 @@ def test_the_version_is_one_everywhere() -> None:
 
 def test_the_first_train_of_the_readme_is_short_and_solves_as_shown(tmp_path: Path) -> None:
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    lesson = text.partition("## A first train")[2]
+    lesson = text.partition("## An example")[2]
     declared, shown = re.findall(r"^```(?:yaml|console)\n(.*?)^```", lesson, re.S | re.M)[:2]
     path = tmp_path / "first.yaml"
     path.write_text(declared, encoding="utf-8")

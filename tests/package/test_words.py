@@ -20,8 +20,8 @@ FOLDERS = sorted({path.relative_to(PACKAGE).parts[0] for path in FILES})
 
 # the standard word stands beside each: reports, is, maximum, minimum, requested, is not a, N
 BANNED = re.compile(
-    r"\b(told|tells|stands?|stood|greatest|(?<!at )(?<!At )least(?! (squares|common))|asked|is no|are no|so many"
-    r"|mends?|spoilt|in place of|hands? in|goes for|what (stands|lies|goes))\b"
+    r"\b(told|tells|stands?|stood|greatest(?! common)|(?<!at )(?<!At )least(?! (squares|common))|asked"
+    r"|is no|are no|so many|mends?|spoilt|in place of|hands? in|goes for|what (stands|lies|goes))\b"
 )
 # a noun phrase does not begin so: the noun that is meant comes first
 FRONTED = re.compile(r"(Of|What|How|Whether|Where|Which|Why|When|As|With|That|Those|Not|By|From|For|In|On|To|At) ")
@@ -78,7 +78,7 @@ def test_the_docstring_of_a_function_begins_with_a_verb(folder: str) -> None:
         f"{path.relative_to(PACKAGE)}:{line}: {first_sentence(text)}"
         for path in files(folder)
         for _, kind, text, line in docstrings(path)
-        if kind == "function" and (text.split()[0] not in VERBS or len(text.split()) < SHORTEST)
+        if kind == "function" and (text.split()[0].rstrip(",") not in VERBS or len(text.split()) < SHORTEST)
     ]
     assert not wrong, "\n".join(wrong)
 
@@ -119,12 +119,12 @@ VERBS = frozenset(
     re.findall(
         r"\w+",
         """
-    Accept Accumulate Add Adjust Advance Align Allocate Answer Append Apply Approximate Arrange Assemble Assert
+    Accept Accumulate Add Adjust Advance Align Allocate Analyse Answer Append Apply Approximate Arrange Assemble Assert
     Assign Attach Average Balance Begin Bisect Bound Bracket Build Call Cancel Carry Check Choose Classify Clear
     Clip Close Collect Combine Compare Compile Complete Compose Compress Compute Connect Construct Continue Convert
     Copy Correct Count Create Cut Decide Declare Decode Decompose Decrease Define Delete Derive Describe Detect
     Determine Differentiate Discard Dispatch Display Distribute Divide Draw Drop Eliminate Embed Encode End Enforce
-    Engrave Enter Enumerate Equate Estimate Evaluate Exclude Exit Expand Explain Export Express Extend Extract
+    Engrave Enter Enumerate Equate Escape Estimate Evaluate Exclude Exit Expand Explain Export Express Extend Extract
     Extrapolate Factor Fill Filter Find Finish Fit Fix Flatten Fold Follow Form Format Gather Generate Give Group
     Guess Handle Hash Highlight Hold Identify Import Include Increase Index Infer Initialize Insert Install
     Integrate Interpolate Interrupt Intersect Invert Isolate Iterate Join Judge Keep Label Lay Leave Lift Limit

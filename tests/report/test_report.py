@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 import shipped
 from answer_schemas import holds
-from commands import TWENTY, call
+from commands import TWENTY, call, ended
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
@@ -150,7 +150,7 @@ def by_name(table: Rows) -> dict[str, dict[str, str]]:
 
 @pytest.fixture(scope="module")
 def paper() -> str:
-    return call("report", "pennestri-2002", "-o", "-").output
+    return call("report", "pennestri-2002", "--all", "-o", "-").output
 
 
 # ---------------------------------------------------------------------------------------------- the paper's own tables
@@ -164,7 +164,27 @@ def test_the_adjacency_matrix_of_the_report_is_table_7_cell_by_cell(paper: str) 
     expected = [["", *map(str, range(1, 21))]] + [
         [str(i), *(cells.get((i, j)) or cells.get((j, i)) or "" for j in range(1, 21))] for i in range(1, 21)
     ]
-    assert section(paper, "Adjacency matrix") == [expected]
+    assert section(paper, "Adjacency matrix by names") == [expected]
+
+
+def test_the_short_matrix_has_one_letter_for_each_edge_of_table_7() -> None:
+    shown = call("report", "pennestri-2002").output
+    assert len(shown.splitlines()) <= 100
+    rows = [line.split() for line in shown[shown.index("link  1 2 3") :].splitlines()[1:21]]
+    gears = {tuple(map(int, line.split()[1:3])) for line in TABLES_1_TO_3.strip().splitlines()}
+    for i, row in enumerate(rows, 1):
+        for j, letter in enumerate(row[2:], 1):
+            edge = {(i, j), (j, i)}
+            assert letter == ("R" if edge & set(TURNING_PAIRS) else "G" if edge & gears else "."), edge
+
+
+def test_a_section_is_printed_on_request_and_an_unknown_one_is_refused() -> None:
+    shown = call("report", "pennestri-2002", "--section", "errata").output
+    assert "z18 = 15" in shown
+    assert "Mobility" not in shown
+    refused = ended("report", "pennestri-2002", "--section", "nothing")
+    assert refused.returncode == 2
+    assert "Fundamental circuits" in refused.stderr
 
 
 def test_the_circuits_of_the_report_are_tables_1_to_3_with_their_teeth(paper: str) -> None:
@@ -259,7 +279,7 @@ def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(train
     assert page.outside == []
     assert page.headings[0] == "<script>alert(1)</script> & | <b>"
     assert page.tables == markdown_tables(text)
-    speeds, structure, circuits, *_ = page.tables
+    speeds, _letters, structure, circuits, *_ = page.tables
     assert speeds[2][0] == structure[2][0] == "a|b"
     assert structure[2][3] == "<img src=x onerror=y> | z"
     assert circuits[0][1] == "G|1"
@@ -286,8 +306,8 @@ def test_the_json_of_a_report_says_what_the_markdown_says(name: str, tmp_path: P
     whole = json.loads(out.read_text(encoding="utf-8"))
     assert whole == json.loads(call("report", name, "--json").output)
     (data,) = whole
-    text = call("report", name, "-o", "-").output
-    (matrix,) = section(text, "Adjacency matrix")
+    text = call("report", name, "--all", "-o", "-").output
+    (matrix,) = section(text, "Adjacency matrix by names")
     assert [matrix[0][1:], *(row[1:] for row in matrix[1:])] == [
         data["adjacency"]["links"],
         *data["adjacency"]["cells"],
@@ -433,7 +453,7 @@ def test_the_shift_table_has_the_ratios_and_clutches_of_the_maker() -> None:
 
 @pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "freeth-jones-2012"])
 def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name: str) -> None:
-    (table,) = section(call("report", name, "-o", "-").output, "Outputs")
+    (table,) = section(call("report", name, "--all", "-o", "-").output, "All outputs")
     rows = by_name(table)
     read = {pointer: rows[pointer]["as read"] for pointer in ("metonic", "callippic", "saros", "exeligmos", "games")}
     sense = {pointer: words.split(",")[0] for pointer, words in read.items()}
@@ -462,7 +482,7 @@ def terminal(name: str, width: int) -> str:
 
 def strips(shown: str) -> Iterator[tuple[str, str]]:
     """The cells of the matrix on a terminal with the column they start under."""
-    matrix = shown[shown.index("Adjacency matrix") :].split("Errata of the sources")[0]
+    matrix = shown[shown.index("Adjacency matrix by names") :].split("Errata of the sources")[0]
     head: dict[int, str] = {}
     lines = matrix.splitlines()
     start = next(at for at, line in enumerate(lines) if line.startswith(" "))

@@ -73,7 +73,7 @@ def in_time() -> Any:
 
 
 def trial_plan() -> Any:
-    errors = room("workshop").read_error_overrides(["placement=2 %"])
+    errors = room("workshop").read_error_overrides(["pitch_deviation=2 %"])
     return room("workshop").find_trial_plan(load("moon-triangular"), errors)
 
 
@@ -223,7 +223,7 @@ RESULTS: dict[str, Case] = {
     "trial plan": (trial_plan, None),
     "trials": (
         trials,
-        ("montecarlo", "moon-triangular", "--trials", "4", "--set", "placement=2 %"),
+        ("montecarlo", "moon-triangular", "--trials", "4", "--set", "pitch_deviation=2 %"),
     ),
     "friction trials": (friction_trials, None),
     "budget": (

@@ -87,13 +87,13 @@ def test_the_arbor_is_the_thickest_usual_one_that_passes_all_wheels(monkeypatch:
 
 
 def test_gaps_between_wheels_and_axes_are_not_computed_for_every_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    count, room_for = [0], StackDisc.room_for
+    count, clearance_to = [0], StackDisc.clearance_to
 
     def counted(disc: StackDisc, *column: Any) -> float:
         count[0] += 1
-        return room_for(disc, *column)
+        return clearance_to(disc, *column)
 
-    monkeypatch.setattr(StackDisc, "room_for", counted)
+    monkeypatch.setattr(StackDisc, "clearance_to", counted)
     (axes, discs, seats, *_), _ = searched("freeth-2021", monkeypatch)
     ways = sum(1 for _ in product(*seats))
     # once for every way to seat carriers, in three searches, and again for the axes that carriers bear

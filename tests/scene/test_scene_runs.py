@@ -128,7 +128,7 @@ def test_the_lead_is_kept_so_finely_that_the_fastest_link_follows_from_it() -> N
 
 
 def test_a_run_of_another_train_is_refused(pin: tuple[TimeRun, Scene]) -> None:
-    with pytest.raises(QuestionError, match="give the run of the same train"):
+    with pytest.raises(QuestionError, match="pass the run of the same train"):
         make_scene(shipped.train("planetary-24-18-60"), run=pin[0])
 
 

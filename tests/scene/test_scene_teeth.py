@@ -231,4 +231,4 @@ def test_a_flexible_wheel_that_nothing_bends_is_drawn_round_which_is_said() -> N
     text += "gears: [{pair: [a20, b30]}]\ninputs: {a: 1}\nframe: frame\nname: stiff\n"
     scene = make_scene(load(text))
     assert not scene.waves
-    assert "'a20' is flexible, and drawn round" in [notice["what"] for notice in scene.notices]
+    assert "flexible wheel 'a20' is drawn undeformed" in [notice["what"] for notice in scene.notices]

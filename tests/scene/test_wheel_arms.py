@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from shapely.geometry import Polygon
 
-from geartrain.scene.solids.wheel_blanks import HUB, RIM, arm_windows
+from geartrain.scene.solids.wheel_blanks import HUB, RIM, spoke_windows
 
 
 @pytest.mark.parametrize(
     ("root", "module", "bore", "arms"), [(30, 1, 3, 5), (30, 1, 3, 3), (12, 1, 2, 4), (100, 1, 5, 6), (90, 2, 4, 7)]
 )
 def test_windows_leave_rim_hub_and_arms(root: float, module: float, bore: float, arms: int) -> None:
-    windows = arm_windows(root, module, bore, arms)
+    windows = spoke_windows(root, module, bore, arms)
     assert len(windows) == arms
     shapes = [Polygon(each.flattened(1e-5)) for each in windows]
     for window, shape in zip(windows, shapes, strict=True):
@@ -37,11 +37,11 @@ def test_windows_leave_rim_hub_and_arms(root: float, module: float, bore: float,
 
 @pytest.mark.parametrize(("root", "arms"), [(30, 0), (30, 2), (5, 4), (6, 4), (30, 90)])
 def test_wheels_without_room_stay_whole(root: float, arms: int) -> None:
-    assert arm_windows(root, 1, 2, arms) == ()
+    assert spoke_windows(root, 1, 2, arms) == ()
 
 
 def test_a_tool_makes_corners_rounder() -> None:
-    fine, coarse = (Polygon(arm_windows(30, 1, 3, 5, corner)[0].flattened(1e-5)) for corner in (0.5, 2.0))
+    fine, coarse = (Polygon(spoke_windows(30, 1, 3, 5, corner)[0].flattened(1e-5)) for corner in (0.5, 2.0))
     assert coarse.area < fine.area
     opened = fine.buffer(-2.0, quad_segs=64).buffer(2.0, quad_segs=64)
     assert opened.symmetric_difference(coarse).area < 5e-3

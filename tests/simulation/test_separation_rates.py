@@ -305,7 +305,7 @@ def test_teeth_whose_speed_falls_at_once_part_at_any_rate() -> None:
 def test_a_notebook_shows_from_which_rate_each_pair_parts() -> None:
     page = find_separation(load("moon-triangular-inertia").mechanics, turns=37)._repr_html_()
     # 0.482 turn/s, docs/dynamics.md
-    assert "<td>d2~e</td><td>0.48188</td><td>16.9213</td>" in page
+    assert "d2~e</th><td>0.48188</td><td>16.9213</td>" in page
     assert page.count("<tr>") == 5
 
 

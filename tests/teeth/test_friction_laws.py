@@ -263,8 +263,8 @@ rate: 3 turn/s
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (("rate: 2 turn/s", ""), "nothing says how fast the train turns"),
-        (("teeth: 36, module: 1 mm", "teeth: 36"), "nothing says how large its wheels are"),
+        (("rate: 2 turn/s", ""), "the declaration does not give the speed of the train"),
+        (("teeth: 36, module: 1 mm", "teeth: 36"), "the declaration does not give the size of its wheels"),
     ],
 )
 def test_what_a_law_lacks_is_said_with_the_line_of_the_pair(change: tuple[str, str], said: str) -> None:

@@ -156,7 +156,7 @@ def test_declared_lengths_with_a_unit_are_measured_in_the_module_of_the_wheels()
     plain = shape("involute", centre_distance="30.1", backlash="0.05").transmission(24, 36)
     real = shape("involute", centre_distance="60.2 mm", backlash="0.1 mm").transmission(24, 36, pitch_distance=0.06)
     assert real.verdict.backlash == pytest.approx(plain.verdict.backlash, rel=1e-12)
-    assert real.path.contact_ratio == pytest.approx(plain._path.contact_ratio, rel=1e-12)
+    assert real.path.contact_ratio == pytest.approx(plain.path.contact_ratio, rel=1e-12)
 
 
 # rings ---------------------------------------------------------------------------------------------------------------

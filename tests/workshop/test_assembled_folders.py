@@ -43,7 +43,7 @@ def fits(name: str) -> list[MeasuredFit]:
 def stated(name: str) -> tuple[str, float, float]:
     """The README, the running clearance and that of what is joined (mm)."""
     text = (folder(name) / "README.md").read_text(encoding="utf-8")
-    running = re.search(r"hole of what turns is (\S+) mm wider", text)
+    running = re.search(r"Bearing holes are (\S+) mm wider", text)
     joined = re.search(r"\(hole ([+-]\S+) mm\)", text)
     assert running is not None
     assert joined is not None

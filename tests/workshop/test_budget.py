@@ -244,7 +244,7 @@ def test_a_pointer_that_reads_no_time_has_no_days() -> None:
     middle = budget["middle"]
     assert middle.degrees_per_day is None
     assert middle["ratio"].declared == "not declared"
-    assert "no time" in middle["ratio"].note
+    assert "not a time" in middle["ratio"].note
     assert middle.drifts[0].ppm == 0.0
 
 
@@ -295,7 +295,7 @@ def test_jams_are_counted_over_clearance() -> None:
 
 
 def test_cutting_that_is_requested_for_and_cannot_be_tried_is_refused() -> None:
-    with pytest.raises(geartrain.GearTrainError, match="no triangular teeth"):
+    with pytest.raises(geartrain.GearTrainError, match="no tooth form"):
         find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("pitch_deviation=1 %",), **SHORT))
 
 
@@ -362,7 +362,7 @@ def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(fr
 def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
     from geartrain.workshop import budget_figure
 
-    with pytest.raises(geartrain.GearTrainError, match="no budget"):
+    with pytest.raises(geartrain.GearTrainError, match="nothing to draw"):
         budget_figure(find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on"))
 
 
@@ -471,7 +471,7 @@ def test_a_weight_is_set_against_what_the_train_needs(drag: str, enough: bool) -
     assert weight.suffices is enough
     page = to_markdown([describe_budget(found)])
     assert f"The weight gives {PULL:.4g} N m at 'great'." in page
-    assert ("starts it everywhere" in page) == enough
+    assert ("the weight suffices" in page) == enough
 
 
 def test_a_year_of_the_crank_stands_in_the_budget() -> None:

@@ -479,7 +479,7 @@ def test_a_wheel_beside_declared_teeth_without_a_form_of_its_own_is_named() -> N
     text = IDLER.format(first=PLAIN, second="{form: ideal}")
     work = SolidModel(GearTrain.declare(yaml.safe_load(text)), ManufacturingSizes())
     assert set(work.blanks.wheels) == {"p", "w"}
-    assert any("nothing says what teeth run with 'w'" in each.what for each in work.blanks.notices)
+    assert any("the teeth that mesh with 'w' are not declared" in each.what for each in work.blanks.notices)
 
 
 @pytest.mark.parametrize("name", ["freeth-2021-teeth", "pennestri-2002-teeth", "moon-triangular", "sorge-pairs"])

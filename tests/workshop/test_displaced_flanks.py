@@ -84,7 +84,7 @@ def off_ratio(at: DisplacedContact, found: TwoFlankContact, S: np.ndarray) -> tu
 
 def by_transmission(pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     rows = np.zeros(len(S), int)
-    lag, lead = pair.first_lag(rows, S)[0], pair.first_lag(rows, S, back=True)[0]
+    lag, lead = pair.minimum_lag(rows, S)[0], pair.minimum_lag(rows, S, back=True)[0]
     return lag / pair.contact.pitches[1], (lag + lead + pair.contact.backlash) / pair.contact.pitches[1]
 
 
@@ -260,7 +260,7 @@ def test_the_minimum_backlash_of_a_batch_is_that_of_each_pair_angle_by_angle(nam
     S = np.arange(8 * pair.count) * at.pitches[0] / 8
     for trial, backlash in enumerate(pair.backlash()):
         rows = np.full(len(S), trial)
-        scanned = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.backlash
+        scanned = pair.minimum_lag(rows, S)[0] + pair.minimum_lag(rows, S, back=True)[0] + at.backlash
         assert backlash == pytest.approx(scanned.min(), abs=2e-3 * at.pitches[1])
     assert pair.tight_place().backlash == pytest.approx(pair.backlash(), abs=1e-14)
 
@@ -292,7 +292,7 @@ def test_each_error_is_in_the_minimum_backlash_as_it_is_angle_by_angle(
     S = (np.arange(pair.count)[:, None] * pitch + within).ravel()
     for trial, backlash in enumerate(pair.backlash()):
         rows = np.full(len(S), trial)
-        apart = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.backlash
+        apart = pair.minimum_lag(rows, S)[0] + pair.minimum_lag(rows, S, back=True)[0] + at.backlash
         assert backlash == pytest.approx(apart.min(), abs=1e-12)
 
 
@@ -351,7 +351,7 @@ def test_a_train_is_cut_filed_and_composed(form: str, tmp_path: Path) -> None:
     turns = np.linspace(0, 3, 40)
     errors = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
     cut = drawn.pair(0)
-    lag, _ = cut.first_lag(np.arange(40), np.mod(turns * 2 * pi, cut.count * 2 * pi / 24))
+    lag, _ = cut.minimum_lag(np.arange(40), np.mod(turns * 2 * pi, cut.count * 2 * pi / 24))
     # an external pair turns backwards: a lag is a positive error
     assert errors == pytest.approx(lag, abs=1e-10)
     # to first order sigma on each wheel, and a mean lag of none: the spread of an error of one couple
@@ -365,7 +365,7 @@ def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting
     train = geartrain.load(tmp_path / "pair.yaml")
     plan = find_trial_plan(train, read_error_overrides(["pitch_deviation=0.0001 %"]))
     transmission, pitch, S = train.meshes[0].transmission, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
-    lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).first_lag(np.zeros(50, int), S)[0]
+    lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).minimum_lag(np.zeros(50, int), S)[0]
     # to first order in 0.05 modules, the ripple of the outlines' own law
     assert np.ptp(transmission.error(S)) > 0.001 * pitch
     assert -lag == pytest.approx(transmission.error(S), abs=1e-3 * pitch)
@@ -421,7 +421,7 @@ def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
     assert first.mirrored(5).tips == pytest.approx(first.tips[(5 - np.arange(first.z)) % first.z], abs=1e-15)
     pair, mirror = DisplacedPair(at, first, second), DisplacedPair(at, first.mirrored(), second.mirrored(1))
     S, rows = angles(pair), np.zeros(60, int)
-    assert mirror.first_lag(rows, -S)[0] == pytest.approx(pair.first_lag(rows, S, back=True)[0], abs=1e-15)
+    assert mirror.minimum_lag(rows, -S)[0] == pytest.approx(pair.minimum_lag(rows, S, back=True)[0], abs=1e-15)
 
 
 def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:

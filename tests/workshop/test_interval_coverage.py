@@ -221,3 +221,9 @@ def test_the_same_seed_gives_the_same_intervals_and_a_constant_has_no_indices() 
     assert {
         (each.value, each.low, each.high) for pair in saltelli_indices(np.ones((9, 4)), seed=1) for each in pair
     } == {(0.0, 0.0, 0.0)}
+
+
+def test_equal_values_deviate_by_nothing_though_their_mean_is_rounded() -> None:
+    values = np.full(12, 0.1)
+    assert values.std() > 0
+    assert deviation_of(values).value == 0

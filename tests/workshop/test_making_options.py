@@ -85,7 +85,7 @@ def test_arms_take_the_windows_out_of_the_solid_and_of_its_mass() -> None:
     for pinion in ("c8", "t8", "e7"):
         assert armed.blanks.wheels[pinion].arms == 0
         assert masses[0][pinion] == masses[1][pinion]
-    with pytest.raises(QuestionError, match="2 arms"):
+    with pytest.raises(QuestionError, match="2 spokes"):
         ManufacturingSizes(arms=2)
 
 

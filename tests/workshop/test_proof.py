@@ -330,7 +330,7 @@ inputs: {sun: 1}
     assert set(model.sized.build_findings) <= set(found.findings)
     assert found.verdict.startswith("not ready to cut: the tips of 7 planets 'p' overlap")
     text = export_files(model, ["svg"])[-1].make().decode()
-    way, noted = text.index("In the way:"), text.index("Noted:")
+    way, noted = text.index("Errors:"), text.index("Notes:")
     assert way < text.index("[A3]") < noted < text.index("[W1]")
     assert text.count("the tips of 7 planets") == 1
 
@@ -340,7 +340,7 @@ def test_check_and_export_have_one_sentence_for_a_wheel_that_no_tooth_suits() ->
     (noted,) = geartrain.load("lantern-mill").build_findings
     assert (noted.rule, noted.level) == ("W3", "note")
     text = export_files(work("lantern-mill"), ["svg", "stl"])[-1].make().decode()
-    assert f"- {noted.text}\n" in text.split("In the way:")[1].split("Noted:")[0]
+    assert f"- {noted.text}\n" in text.split("Errors:")[1].split("Notes:")[0]
     assert text.count("require different teeth") == 2
 
 

@@ -290,7 +290,7 @@ def test_the_wave_is_as_long_as_the_bore_of_the_wheel_that_it_bends() -> None:
 
 def test_a_flexible_cup_is_no_obstacle_and_is_told() -> None:
     told = [each.problem.what for each in proof("strain-wave").findings]
-    assert any("'spline' and the wall of 'cup' are one thin piece" in each for each in told)
+    assert any("'spline' and the wall of 'cup' are one thin part" in each for each in told)
     wall, wheel, bottom = (
         part("strain-wave", name).placed.vertices[:, 2] for name in ("cup wall", "spline", "cup plate")
     )

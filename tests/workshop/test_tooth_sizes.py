@@ -163,7 +163,7 @@ def test_a_limit_on_a_chance_is_requested_of_few_designs_and_met() -> None:
     assert 0.9853 <= found.best.radii < 0.9856
     assert found.stops == 0.0
     assert len(requested) < 20
-    with pytest.raises(QuestionError, match="none stops"):
+    with pytest.raises(QuestionError, match="stop with a probability above"):
         find_tooth_sizes(pair(48, 96), free={"window": (0.4, 0.6)}, chance=ChanceLimit(0.1, lambda _: 1.0))
 
 
@@ -183,13 +183,13 @@ def test_no_design_of_a_front_is_better_than_another_in_both() -> None:
 @pytest.mark.parametrize(
     ("aims", "free", "limits", "word"),
     [
-        (("speed",), None, (), "nothing to be best in"),
-        (("loss", "loss"), None, (), "nothing to be best in"),
-        (("loss",), {"depth": None}, (), "no size of triangular teeth"),
-        (("loss",), {"window": (0.5, 1.5)}, (), "cannot lie"),
-        (("loss",), {"radii": (1.0, 0.9)}, (), "cannot lie"),
-        (("loss",), {}, (), "nothing is free"),
-        (("loss",), {"radii": (0.98, 0.99)}, (SizeLimit("loss", 1e-4),), "misses a limit"),
+        (("speed",), None, (), "not an objective"),
+        (("loss", "loss"), None, (), "not an objective"),
+        (("loss",), {"depth": None}, (), "not a free parameter"),
+        (("loss",), {"window": (0.5, 1.5)}, (), "not valid"),
+        (("loss",), {"radii": (1.0, 0.9)}, (), "not valid"),
+        (("loss",), {}, (), "no parameter is free"),
+        (("loss",), {"radii": (0.98, 0.99)}, (SizeLimit("loss", 1e-4),), "violates a limit"),
     ],
 )
 def test_what_cannot_be_requested_or_found_is_said(
@@ -200,7 +200,7 @@ def test_what_cannot_be_requested_or_found_is_said(
 
 
 def test_teeth_that_friction_locks_are_no_answer() -> None:
-    with pytest.raises(QuestionError, match="none of them turns"):
+    with pytest.raises(QuestionError, match="no design in the ranges turns"):
         find_tooth_sizes(pair(48, 96, friction=9.0), free={"radii": (0.97, 0.98)})
 
 

@@ -69,7 +69,7 @@ class DisplacedBatch:
         return [self._minimum(np.full(len(S), at), S) for at in range(trials)]
 
     def _minimum(self, rows: np.ndarray, S: np.ndarray) -> float:
-        lag, lead = self.pair.first_lag(rows, S)[0], self.pair.first_lag(rows, S, back=True)[0]
+        lag, lead = self.pair.minimum_lag(rows, S)[0], self.pair.minimum_lag(rows, S, back=True)[0]
         return float((lag + lead).min() + self.pair.contact.backlash)
 
     def compared(self, found: MeshingVerdicts, singly: list[float]) -> tuple[float, int]:

@@ -148,5 +148,5 @@ def unfit(train: GearTrain, scene: Scene) -> Iterator[tuple[str, str]]:
             yield pair.id, "in a loop that does not close"
         elif apart.get(pair.id, 0.0) < 0:
             yield pair.id, f"its axes are {-apart[pair.id]:g} mm too near"
-        elif any(f"the teeth of '{pair.id}' do not meet" in notice["what"] for notice in scene.notices):
+        elif any(f"the teeth of '{pair.id}' do not mesh" in notice["what"] for notice in scene.notices):
             yield pair.id, "closes a loop, and its teeth do not meet"

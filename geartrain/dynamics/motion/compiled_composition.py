@@ -1,10 +1,10 @@
-"""A composition that answers by its compiled kernel: the same errors to 1e-12, some ten times as fast.
+"""Composition evaluated by a compiled kernel: the same errors to 1e-12, about ten times as fast.
 
-The arrays that the kernel reads, the kernel, and the composition that calls it. What `ErrorComposition` does with
-arrays of all positions, one law after the other, equations (2) to (4) of docs/motion.md, the kernel does for two
-thousand positions at a time, whose angles and errors never leave the processor's cache. A pair that moves its own
-driver has the error delta = sigma error(S + g delta), equation (5) for one pair: while the driver goes on, delta is a
-function of S, with the law's period, a law like any other.
+This module has the arrays that the kernel reads, the kernel, and the composition that calls it. `ErrorComposition`
+evaluates equations (2) to (4) of docs/motion.md with arrays of all positions, one transmission function after the
+other. The kernel evaluates blocks of about two thousand positions, whose angles and errors stay in the processor's
+cache. A pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair. Short
+of dead centres, delta is a periodic function of S, which is tabulated like any transmission function.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission_table import TransmissionTable, TransmissionTables
 
 
-BLOCK = 2048  # positions: so many that what is done once a block does not count, and their angles stay in a cache
+BLOCK = 2048  # positions: enough to amortise the overhead of a block, few enough for the processor's cache
 
 
 @dataclass(frozen=True)
 class FedBackTransmission:
-    """Error and speed of a pair whose driver gains `gain` radians a radian of its error; `sense` of its driven side."""
+    """Error and speed of a pair whose driver moves by `gain` times its error. `sense` is that of its driven side."""
 
     transmission: TransmissionFunction
     sense: int
@@ -43,32 +43,32 @@ class FedBackTransmission:
 
     @property
     def ratio(self) -> Fraction:
-        """The law's own."""
+        """Mean ratio of the transmission function."""
         return self.transmission.ratio
 
     @property
     def period(self) -> float:
-        """The law's own."""
+        """Period of the transmission function."""
         return self.transmission.period
 
     @cached_property
-    def goes_on(self) -> bool:
-        """True where no place of the law is a dead centre."""
+    def has_no_dead_centre(self) -> bool:
+        """True if the transmission function with feedback has no dead centre."""
         ratio = float(self.transmission.ratio)
         return all(1 - self.sense * (tau - ratio) * self.gain > 0 for tau in self.transmission.speed_range())
 
     def kinks(self) -> list[float]:
-        """Where the driver would stand (rad) at the corners of the law itself."""
+        """Return the nominal driver angles [rad] at the kinks of the transmission function."""
         kinks = np.array(self.transmission.kinks(), dtype=float)
         found: list[float] = (kinks - self.gain * self.sense * self.transmission.error(kinks)).tolist()
         return found
 
     def error(self, S: Floats) -> Floats:
-        """Transmission error (rad) where the driver would stand at S (rad)."""
+        """Return the transmission error [rad] at nominal driver angles S [rad]."""
         return self._solved(S)[0]
 
     def speed(self, S: Floats) -> Floats:
-        """Its rate over the driver's, and the mean ratio."""
+        """Return the speed ratio of the driven side, including feedback."""
         return self._solved(S)[1]
 
     def _solved(self, S: Floats) -> tuple[Floats, Floats]:
@@ -78,58 +78,63 @@ class FedBackTransmission:
 
 
 class CompositionOrder(NamedTuple):
-    """The solved order, step by step. Links stand in rows, which later links take again; ranges begin at
-    `..._start`."""
+    """Order of solution, step by step, as flat arrays.
+
+    Links have rows, which later links reuse. Ranges begin at `..._start`.
+    """
 
     own_start: Ints
     own: Ints
     """Rows of the links of a step."""
     known_start: Ints
     known: Ints
-    """Rows of the links that they follow, by `from_known`, (own, known) flat."""
+    """Rows of the known links on which they depend, with coefficients `from_known`, (own, known) flattened."""
     from_known_start: Ints
     from_known: Floats
     sources: Ints
-    """Numbers of the first source of a step, and one beyond the last; by `from_sources`, (own, sources) flat."""
+    """Index of the first source of each step, and one past the last source.
+
+    Their coefficients are `from_sources`, (own, sources) flattened.
+    """
     from_sources_start: Ints
     from_sources: Floats
     seen_start: Ints
     seen: Ints
-    """Of each output: rows of the links of which it is the sum, with their signs."""
+    """Rows of the links whose signed sum is an output, for each output."""
     seen_sign: Floats
     offset: Floats
-    """What each output is ahead at every position (rad)."""
+    """Constant added to the error of each output [rad]."""
 
 
 class ComposedSources(NamedTuple):
-    """The sources in the order of the steps; the number of one is that of its law."""
+    """Sources in the order of the steps. The index of a source is that of its transmission function."""
 
     factor: Floats
-    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
+    """Cycles per turn of the input, rounded to a float."""
     high: Floats
-    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
+    """High half of `factor` (Dekker's split)."""
     low: Floats
-    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
+    """Low half of `factor` (Dekker's split)."""
     rest: Floats
-    """Cycles per turn of the input: as a float, that as a sum of two halves, and what it lacks."""
+    """Rounding error of `factor`."""
     start: Floats
-    """Forward angle (rad) and mean speed of the driver."""
+    """Forward angle of the driver at turn 0 [rad]."""
     mean: Floats
-    """Forward angle (rad) and mean speed of the driver."""
+    """Mean speed of the driver over the input speed."""
     row: Ints
-    """(sources, 2): driver and carrier, row -1 where no error reaches one."""
+    """Rows of driver and carrier, (sources, 2); -1 for links without error."""
     sign: Floats
-    """(sources, 2): driver and carrier, row -1 where no error reaches one."""
+    """Signs of driver and carrier, (sources, 2)."""
     sense: Floats
-    """Of the driven side, and of the law."""
+    """Sense of the driven side."""
     ratio: Floats
-    """Of the driven side, and of the law."""
+    """Mean ratio of the transmission function."""
     gain: Floats
-    """What the source adds to its own driver, where its law is a `FedBackTransmission`, else 0."""
+    """Gain of the source on its own driver if it has a `FedBackTransmission`, else 0."""
 
 
 class CompositionArrays(NamedTuple):
-    """All that the kernel reads; `rows` of links are kept at once, `most` sources stand in one step."""
+    """All input of the kernel. `rows` links are stored at once, and a step has at most `most` sources."""
 
     order: CompositionOrder
     sources: ComposedSources
@@ -139,7 +144,7 @@ class CompositionArrays(NamedTuple):
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
-    """The arrays of a composition; None where a law is not read from tables, or pairs turn each other's drivers."""
+    """Return the arrays of a composition, or None if a transmission function has no table or pairs are coupled."""
     transmissions: list[TransmissionTable | None] = []
     gains: list[float] = []
     for step in composition.steps:
@@ -166,11 +171,11 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
 
 
 def _fed_back(composition: ErrorComposition, step: CompositionStep) -> TransmissionTable | None:
-    """The table of a pair that moves its own driver; None where it has none, or may come to a dead centre."""
+    """Return the table of a pair that moves its own driver, or None if it has none or may reach a dead centre."""
     (source,) = (composition.sources[at] for at in step.sources)
     transmission = FedBackTransmission(source.transmission, source.sense, float(composition.gain(step)[0, 0]))
     changing = type(source.transmission).picked is not TransmissionFunction.picked
-    return make_transmission_table(transmission) if transmission.goes_on and not changing else None
+    return make_transmission_table(transmission) if transmission.has_no_dead_centre and not changing else None
 
 
 def _order(composition: ErrorComposition) -> CompositionOrder:
@@ -235,10 +240,10 @@ def compose(
     rate: Floats,
     behind: Ints,
 ) -> None:
-    """Errors (rad) and rates of the outputs, (outputs, n), where the input has made so many turns.
+    """Compute errors [rad] and rates of the outputs, (outputs, n), at some turns of the input.
 
-    plain    cycles per turn up to which a plain product tells where in its period a driver stands
-    behind   of each source: at how many positions its driver turns against its mean, filled in
+    plain    cycles per turn up to which a plain product gives the phase of a driver to rounding
+    behind   output by source: number of positions at which its driver turns against its mean
     """
     order, sources, transmissions, rows, most = arrays
     held = np.zeros((2, rows, BLOCK))
@@ -269,7 +274,7 @@ def compose(
 
 @kernel
 def _carry(order: CompositionOrder, step: int, size: int, held: Floats) -> None:
-    """Links of a step, as far as they follow links known before."""
+    """Compute the links of a step from the known links on which they depend."""
     first, last = order.known_start[step], order.known_start[step + 1]
     at = order.from_known_start[step]
     for row in order.own[order.own_start[step] : order.own_start[step + 1]]:
@@ -297,7 +302,7 @@ def _phase(
     turns: Floats,
     S: Floats,
 ) -> None:
-    """Forward angle (rad) of a driver on average, whole periods taken off: `InputPhase.cycles`."""
+    """Compute the mean forward angle of a driver [rad], modulo whole periods, like `InputPhase.cycles`."""
     factor, start = sources.factor[source], sources.start[source]
     if factor <= plain:
         for at in range(len(turns)):
@@ -307,7 +312,7 @@ def _phase(
     for at in range(len(turns)):
         turned = turns[at]
         product = turned * factor
-        # Dekker's product of two floats, as `rounding_bounds.split` and `InputPhase.cycles` have it
+        # Dekker's product of two floats, as in `rounding_bounds.split` and `InputPhase.cycles`
         wide = SPLITTER * turned
         left = wide - (wide - turned)
         right = turned - left
@@ -318,7 +323,7 @@ def _phase(
 
 @kernel
 def _turn(sources: ComposedSources, source: int, size: int, held: Floats, S: Floats, w: Floats) -> None:
-    """What errors of links add to the angle and speed of a driver."""
+    """Add the errors of links to the angle and speed of a driver."""
     w[:] = sources.mean[source]
     for end in range(2):
         row, sign = sources.row[source, end], sources.sign[source, end]
@@ -331,7 +336,7 @@ def _turn(sources: ComposedSources, source: int, size: int, held: Floats, S: Flo
 
 @kernel
 def _sign(sources: ComposedSources, source: int, w: Floats, error: Floats, slope: Floats) -> None:
-    """Errors and rates of a driven side from its law's error and speed."""
+    """Convert error and speed of a transmission function to error and rate of the driven side."""
     sense, ratio, gain = sources.sense[source], sources.ratio[source], sources.gain[source]
     for at in range(len(w)):
         error[at] *= sense
@@ -341,7 +346,7 @@ def _sign(sources: ComposedSources, source: int, w: Floats, error: Floats, slope
 
 @kernel
 def _count_negative(speed: Floats) -> int:
-    """How many speeds are negative."""
+    """Return the number of negative speeds."""
     found = 0
     for each in speed:
         found += each < 0.0
@@ -350,7 +355,7 @@ def _count_negative(speed: Floats) -> int:
 
 @kernel
 def _spread(order: CompositionOrder, step: int, size: int, delta: Floats, slope: Floats, held: Floats) -> None:
-    """What a step's pairs add to its links."""
+    """Add the errors of a step's pairs to its links."""
     count = order.sources[step + 1] - order.sources[step]
     at = order.from_sources_start[step]
     for row in order.own[order.own_start[step] : order.own_start[step + 1]]:
@@ -365,7 +370,7 @@ def _spread(order: CompositionOrder, step: int, size: int, delta: Floats, slope:
 
 @kernel
 def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: Floats, rate: Floats) -> None:
-    """The outputs, from the links of which they are differences."""
+    """Compute the outputs as differences of links."""
     for output in range(len(order.offset)):
         e, v = error[output, begin : begin + size], rate[output, begin : begin + size]
         e[:] = order.offset[output]
@@ -379,11 +384,11 @@ def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: F
 
 @dataclass(frozen=True)
 class CompiledComposition:
-    """A composition whose laws are all in tables, and whose pairs do not depend on each other.
+    """Composition with all transmission functions in tables and without coupled pairs.
 
-    Pairs that do are followed by numpy. As a kernel their Newton's method was 4 to 7 times faster at the composition
-    itself (`planetary-24-18-60-triangular`, `pennestri-2002-teeth`), where others gain 9 to 27 times, and nothing in
-    whole runs; in plain Python it was 13 to 20 times slower than numpy.
+    Coupled pairs are evaluated with numpy. A kernel for their Newton's method was 4 to 7 times faster in the
+    composition itself (`planetary-24-18-60-triangular`, `pennestri-2002-teeth`), where other trains gain 9 to 27 times,
+    but no faster in complete runs. In plain Python it was 13 to 20 times slower than numpy.
     """
 
     composition: ErrorComposition
@@ -392,11 +397,11 @@ class CompiledComposition:
 
     @property
     def chunk(self) -> int:
-        """Positions worked on at once."""
+        """Positions evaluated at once."""
         return self.composition.chunk
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Errors and rates of the outputs where the input has made some turns."""
+        """Return errors and rates of the outputs at some turns of the input."""
         turns = np.array(turns, dtype=float)
         farthest = max(float(np.max(turns, initial=0.0)), -float(np.min(turns, initial=0.0)))
         outputs, used = len(self.composition.outputs), self.composition.used
@@ -409,6 +414,6 @@ class CompiledComposition:
 
 
 def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:
-    """A composition with its kernel; None where a law is not in tables, or pairs depend on each other."""
+    """Return a composition with its kernel, or None if a transmission function has no table or pairs are coupled."""
     arrays = make_composition_arrays(composition)
     return None if arrays is None else CompiledComposition(composition, arrays)

@@ -1,8 +1,8 @@
-"""Motion with real teeth and pins: every pair's error carried to every link, and back into the angles of the pairs.
+"""Motion with real teeth and pins: every pair's error propagates to every link, and back into the angles of the pairs.
 
-Equations (2) to (4) of docs/motion.md. Each error depends on the angle at which its own driver stands, which the errors
-of other pairs have moved. In the solved order those come before it, and one pass composes the laws exactly; where pairs
-depend on each other their errors are found together (5).
+Equations (2) to (4) of docs/motion.md. Each error depends on the angle of its own driver, which the errors of other
+pairs have displaced. In the order of solution these come first, and one pass composes the transmission functions
+exactly. Errors of coupled pairs are solved simultaneously (5).
 """
 
 from __future__ import annotations
@@ -26,56 +26,59 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_CHUNK = 32768  # most positions worked on at once
-_NUMBERS = 1 << 23  # most angles kept at once: longer trains take shorter chunks
-PLAIN = 1  # period up to which a plain product tells where in it the driver stands, to rounding
+_CHUNK = 32768  # maximum number of positions evaluated at once
+_NUMBERS = 1 << 23  # maximum number of stored angles: longer trains use smaller chunks
+PLAIN = 1  # periods up to which a plain product gives the phase of the driver to rounding
 
 
 @dataclass(frozen=True)
 class PairErrorSource:
-    """One pair that ripples."""
+    """Pair with a variable transmission error."""
 
     id: str
     transmission: TransmissionFunction
-    """Of its driver's forward angle."""
+    """Transmission function of the driver's forward angle."""
     pair: int
-    """Its index in the spread."""
+    """Index of the pair in the error propagation."""
     driver_sense: int
-    """1 or -1 where the driver's axis points against its parallels; `carrier_sense` likewise."""
+    """Sense of the driver's axis: -1 if it points against its parallels, else 1.
+
+    `carrier_sense` is that of the carrier.
+    """
     carrier_sense: int
     cycles: Fraction
-    """Periods of the law per turn of the input, on average and exactly; not negative."""
+    """Exact mean number of periods of the transmission function per turn of the input, 0 or more."""
     phase: float
-    """The driver's forward angle (rad) at turn 0."""
+    """Forward angle of the driver at turn 0 [rad]."""
     forward: int
-    """1, or -1 where the driver turns backwards on average."""
+    """Sense of the driver's mean motion: -1 if it turns backwards, else 1."""
     sense: int
-    """Of the driven side's mean relative motion, 1 or -1."""
+    """Sense of the driven side's mean relative motion, 1 or -1."""
     set_back: float = 0.0
-    """How far the driver is ahead of its mean angle at turn 0 (rad): its teeth are counted from there."""
+    """Advance of the driver over its mean angle at turn 0 [rad]. Its teeth are counted from there."""
 
     @property
     def start(self) -> float:
-        """Forward angle (rad) of the driver at turn 0, without the errors of links."""
+        """Forward angle of the driver at turn 0 without the errors of links [rad]."""
         return self.phase - self.set_back
 
     @property
     def mean(self) -> float:
-        """Mean forward speed of the driver over the input's."""
+        """Mean forward speed of the driver over the input speed."""
         return float(self.cycles) * self.transmission.period / (2 * np.pi)
 
 
 def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
-    """Turns of the input after which all sources stand as at the start; None where none turns."""
+    """Return the turns of the input after which all sources repeat their positions, or None if none turns."""
     cycles = [source.cycles for source in sources if source.cycles]
     if not cycles:
         return None
-    # the least common multiple of the periods 1 / cycles, which are in lowest terms
+    # least common multiple of the periods 1 / cycles, which are in lowest terms
     return Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
 
 
 class CompositionStep(NamedTuple):
-    """A part of the spread in which something ripples, over lively links only; `sources` by index."""
+    """Block of the error propagation with variable errors, restricted to links that have one. `sources` are indices."""
 
     part: PropagationBlock
     links: tuple[int, ...]
@@ -87,14 +90,14 @@ class CompositionStep(NamedTuple):
 
 
 class SeenLink(NamedTuple):
-    """A link and the link it is seen from, by index; `sense` is -1 where their axes point against each other."""
+    """Link and its reference link, by index. `sense` is -1 if their axes are opposite."""
 
     of: int
     base: int
     sense: int = 1
 
     def difference(self, values: Floats) -> float:
-        """The value of the one seen from the other, from values of all links about their own axes."""
+        """Return the value of the link relative to its reference, from values of all links about their own axes."""
         return float(values[self.of] - self.sense * values[self.base])
 
 
@@ -103,18 +106,23 @@ class ErrorSamples(NamedTuple):
 
     See Also
     --------
-    Motion.at : what gives these.
+    Motion.at : Method that returns these.
     """
 
     turns: Floats
     """Turns of the input. Shape (n,)."""
     error: Floats
-    """Angle of each output less its mean motion [rad]. Shape (outputs, n)."""
+    """Angle of each output less its mean motion [rad]. Shape (outputs, n).
+
+    With a pin and slot it includes the intended deviation from uniform motion (anomaly).
+    """
     rate: Floats
-    """Speed of each output less its mean, over the input's. Shape (outputs, n)."""
+    """Speed of each output less its mean, over the input speed. Shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
-    """Pairs whose driver turns against its mean at one of these positions: their flanks change there, and the law,
-    which is that of the flanks in front, does not follow the play."""
+    """Pairs whose driver turns against its mean at some of these positions.
+
+    Their flanks change there, but the transmission function remains that of the drive flanks, without backlash.
+    """
 
     def __repr__(self) -> str:
         return short_repr(self)
@@ -122,29 +130,31 @@ class ErrorSamples(NamedTuple):
 
 @dataclass
 class ErrorComposition:
-    """Sources in a train, and the outputs that are asked for."""
+    """Error sources of a train, and the requested outputs."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
     outputs: tuple[SeenLink, ...]
     offsets: tuple[float, ...] = ()
-    """What each output is ahead of what its teeth and pins add to it, at every position (rad): teeth that keep their
-    ratio add their play alone, and pointers are set; none by default."""
+    """Constant added to the error of each output [rad]; empty for zeros.
+
+    It has the backlash of teeth with constant ratio, and the setting of the pointers.
+    """
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """The solved order, without the links that no error reaches, and those that no output depends on."""
+        """Order of solution, without links that have no error and without links on which no output depends."""
         wanted = {link for seen in self.outputs for link in (seen.of, seen.base)}
         kept = []
-        for step in reversed(self._lively):
+        for step in reversed(self._steps_with_errors):
             if wanted.intersection(step.links):
                 wanted.update(step.known, *(self._ends(source) for source in step.sources))
                 kept.append(step)
         return tuple(reversed(kept))
 
     @cached_property
-    def _lively(self) -> tuple[CompositionStep, ...]:
-        """The solved order without the links that no error reaches."""
+    def _steps_with_errors(self) -> tuple[CompositionStep, ...]:
+        """Order of solution, without links that have no error."""
         of_pair = {source.pair: at for at, source in enumerate(self.sources)}
         lively: set[int] = set()
         steps = []
@@ -172,22 +182,22 @@ class ErrorComposition:
 
     @cached_property
     def used(self) -> tuple[PairErrorSource, ...]:
-        """The sources that reach an output, or an angle that one depends on."""
+        """Sources that reach an output, directly or through the driver angle of another source."""
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
-        """What errors of links (rad, by index) add to the forward angle of a source's driver."""
+        """Return the change of a source's forward driver angle [rad] due to errors of links [rad, by index]."""
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
-        """Forward angle (rad) of a source's driver, from errors of links about their own axes, by index (rad)."""
+        """Return the forward angle of a source's driver [rad], from errors of links [rad, by index]."""
         S = phase.cycles(source.cycles) * source.transmission.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """The links whose errors turn a source's driver, itself and its carrier, each with its sign: equation (3)."""
+        """Return the two links whose errors turn a source's driver, itself and its carrier, with signs: (3)."""
         joint = self.spread.joints[source.pair]
         return (
             (joint.driver, source.forward * source.driver_sense),
@@ -200,7 +210,7 @@ class ErrorComposition:
 
     @cached_property
     def place(self) -> dict[int, int]:
-        """The row in which a link stands until it is read for the last time; then another takes the row."""
+        """Row in which the values of each link are stored until their last use. Later links reuse the row."""
         last: dict[int, int] = {}
         for at, step in enumerate(self.steps):
             last.update(dict.fromkeys((*step.known, *(end for s in step.sources for end in self._ends(s))), at))
@@ -215,24 +225,25 @@ class ErrorComposition:
                     free.append(count)
                     count += 1
                 place[link] = free.pop()
+            # rows of links read for the last time in this step become free
             read = {*step.links, *step.known, *(end for s in step.sources for end in self._ends(s))}
             free += [place[link] for link in read if link in place and last.get(link, at) == at]
         return place
 
     @cached_property
     def rows(self) -> int:
-        """How many links are kept at once."""
+        """Number of links stored at once."""
         return max(self.place.values(), default=-1) + 1
 
     @cached_property
     def chunk(self) -> int:
-        """Positions worked on at once: memory is bounded however long the train."""
-        # errors and rates of the links, and of coupled pairs a Jacobian at each position
+        """Positions evaluated at once. It bounds the memory for trains of any length."""
+        # stored numbers: errors and rates of the links, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
         return max(64, min(_CHUNK, _NUMBERS // (2 * (self.rows + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Errors and rates of the outputs where the input has made some turns, at most a chunk of them."""
+        """Return errors and rates of the outputs at some turns of the input, at most one chunk."""
         angle = InputPhase(turns)
         error = np.empty((self.rows, len(turns)))
         rate = np.empty_like(error)
@@ -248,7 +259,7 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Fill in the links of a step; yields its pairs whose driver turns against its mean."""
+        """Compute the links of a step in place. Yield its pairs whose driver turns against its mean."""
         known = [self.place[link] for link in step.known]
         first = self.place[step.links[0]]
         own = slice(first, first + 1) if len(step.links) == 1 else [self.place[link] for link in step.links]
@@ -256,7 +267,7 @@ class ErrorComposition:
         rate[own] = step.from_known @ rate[known] if known else 0.0
         if not step.sources:
             return
-        # angles of the drivers and their speeds, without what the step's own pairs add
+        # driver angles and speeds, without the errors of the step's own pairs
         where = [self._driver_angle(source, angle, error, rate) for source in step.sources]
         sources = [self.sources[source] for source in step.sources]
         if step.coupled:
@@ -274,7 +285,10 @@ class ErrorComposition:
         yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)
 
     def _driver_angle(self, at: int, angle: InputPhase, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
-        """Forward angle (rad) and speed of a source's driver; links of its own step count as they stand."""
+        """Return the forward angle [rad] and speed of a source's driver.
+
+        Links of its own step count with their current errors.
+        """
         source = self.sources[at]
         S = angle.cycles(source.cycles) * source.transmission.period
         if source.start:
@@ -288,7 +302,7 @@ class ErrorComposition:
         return S, turning
 
     def gain(self, step: CompositionStep) -> Floats:
-        """What each driver of a step gains from the errors of the step's own pairs, (sources, sources)."""
+        """Return the gain of each driver of a step from the errors of the step's own pairs, (sources, sources)."""
         inside = {link: at for at, link in enumerate(step.links)}
         gain = np.zeros((len(step.sources), len(step.sources)))
         for row, at in enumerate(step.sources):
@@ -308,7 +322,7 @@ class ErrorComposition:
 
 
 class InputPhase:
-    """Positions of the input, in turns, and the fraction of a law's period at which they find it."""
+    """Positions of the input in turns, and the fraction of a period of any transmission function at them."""
 
     def __init__(self, turns: Floats) -> None:
         self.turns = turns
@@ -319,25 +333,26 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """turns times an exact ratio, by Dekker's product, whole periods taken off where there are many.
+        """Return turns times an exact ratio with Dekker's product, reduced modulo 1 where there are many periods.
 
-        Right to the rounding of a period at any length: after 1e12 turns the teeth still stand where they should.
+        The result is accurate to the rounding of one period at any length: after 1e12 turns the teeth are still in
+        place.
         """
         factor = float(ratio)
         product: Floats = self.turns * factor
         if factor * self.most <= PLAIN:
             return product
-        # Dekker's product: what rounding took from it is found exactly
+        # Dekker's product: the rounding error of the product is computed exactly
         high, low = split(factor)
         left, right = self._halves
-        # largest first: in this order no sum rounds
+        # in this order, largest term first, no sum is rounded
         lost = left * high - product
         lost += left * low
         lost += right * high
         lost += right * low
         if rest := float(ratio - Fraction(factor)):
             lost += self.turns * rest
-        # exact; before the remainder is added, which many periods would swallow
+        # exact; must precede the addition of the remainder, which a large product would round away
         product -= np.floor(product)
         product += lost
         return product

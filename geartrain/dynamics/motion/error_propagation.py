@@ -1,13 +1,13 @@
-"""How the errors of pairs spread to links: equation (2) of docs/motion.md, solved block by block (its section 2).
+"""Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved block by block (its section 2).
 
-a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that of the pair's driven side:
-the Willis system with its speeds taken out. Blocks (matching and strong components) are solved once, exactly; after
-that every link is a sum over a few links before it.
+a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that of the pair's driven side.
+This is the Willis system with its mean speeds subtracted. Blocks (matching and strongly connected components) are
+solved once, exactly. After that every link is a sum over a few earlier links.
 
-Pairs that depend on each other, as around a differential, are solved together by Newton's method with halved steps,
-equation (5) of docs/motion.md, on delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Laws have
-corners, so a step that does not lessen the residual is halved. A pair by itself is bisected where that fails: no step
-leaves a dwell, in which the driven wheel rests while its driver turns.
+Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
+docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Transmission functions have
+kinks, so a step that does not reduce the residual is halved. If that fails, a single pair is solved by bisection,
+because no Newton step leaves a dwell, in which the driven wheel rests while its driver turns.
 """
 
 from __future__ import annotations
@@ -33,27 +33,27 @@ if TYPE_CHECKING:
     Flags = NDArray[np.bool_]
     from geartrain.kinematics.willis_system import WillisSystem
 
-_MOST_STEPS = 120  # halved steps count too
-_CONVERGED = 2e-15  # rad, over the scale of the angles added
-_FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
-_HALVINGS = 64  # of four pitches, or of four turns of cut wheels: to rounding
+_MOST_STEPS = 120  # maximum iterations, including halved steps
+_CONVERGED = 2e-15  # rad: tolerance of the residual, relative to the scale of the angles
+_FORGIVEN = 1e-9  # rad: accepted residual if no step reduces it further, as at a kink
+_HALVINGS = 64  # bisections of four pitches, or of four turns for cut wheels, to rounding
 
-_NO_FIT = "no angles of theirs fit all laws at once"
-_DEAD_CENTRE = "past a dead centre: one of them drives another faster than it is driven by it"
+_NO_FIT = "no angles satisfy all transmission functions simultaneously"
+_DEAD_CENTRE = "it is past a dead centre: an error moves its own driver by more than the error itself"
 
 
 @dataclass(frozen=True)
 class CoupledErrors:
-    """Pairs in parallel: names, laws, senses of the driven sides, and `gain`, (pairs, pairs)."""
+    """Coupled pairs: names, transmission functions, senses of the driven sides, and `gain`, (pairs, pairs)."""
 
     names: tuple[str, ...]
     transmissions: tuple[TransmissionFunction, ...]
     senses: Floats
     gain: Floats
-    """Radians of driver m's forward angle per radian of pair n's driven error."""
+    """Change of driver m's forward angle per radian of pair n's driven error."""
 
     def transmissions_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
-        """Driven errors and their slopes over the drivers' angles, both signed, (pairs, n), at some positions."""
+        """Return driven errors and their slopes over the drivers' angles, both signed, (pairs, n)."""
         error, slope = np.empty_like(S), np.empty_like(S)
         for at, transmission in enumerate(self.transmissions):
             error[at], tau = transmission.picked(columns).error_and_speed(S[at])
@@ -63,22 +63,23 @@ class CoupledErrors:
         return error, slope
 
     def jacobian(self, slope: Floats) -> Floats:
-        """J = I - slope gain of equation (5) at each position, (n, pairs, pairs)."""
+        """Return the Jacobian J = I - slope gain of equation (5) at each position, (n, pairs, pairs)."""
         return np.eye(len(self.transmissions)) - slope.T[:, :, None] * self.gain
 
 
 def solve_coupled_errors(
     pairs: CoupledErrors, base: Floats, turning: Sequence[Floats | float]
 ) -> tuple[Floats, Floats, list[Floats | float]]:
-    """Errors, their rates, and the speeds of the drivers, from the drivers' angles and speeds without these errors.
+    """Solve for errors, their rates and the driver speeds, given driver angles and speeds without these errors.
 
-    base      (pairs, n) rad; `turning` by pair over the input's speed
-    Raises `GearTrainError` where the laws have no single solution: the train would jump or lock there.
+    base      (pairs, n) rad; `turning` is the speed by pair over the input speed
+
+    Raises `GearTrainError` if the solution is not unique: the train would jump or lock there.
     """
     delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
     speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
-    # 1 for ideal teeth: not positive any more means past a dead centre
+    # the determinant is 1 for ideal teeth and changes sign at a dead centre
     if not (_determinant(jacobian) > 0).all():
         raise _refusal(pairs.names, _DEAD_CENTRE)
     rate = _solve_coupled(jacobian, slope * speed)
@@ -87,7 +88,7 @@ def solve_coupled_errors(
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Errors, and the slopes of the laws there."""
+    """Solve for errors by Newton's method. Return them with the slopes of the transmission functions."""
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.transmissions_at(base, active)
@@ -95,12 +96,12 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
     for _ in range(_MOST_STEPS):
         trial = now - length * step
-        # at first the step is 0 and the size infinite: the first trial is the start itself
+        # the initial step is 0 and the initial residual infinite, so the first trial is the starting point
         error, slope = pairs.transmissions_at(base[:, active] + pairs.gain @ trial, active)
         residual = trial - error
         found = np.max(np.abs(residual), axis=0)
         better = found < size
-        # where nothing lessens it any more the residual is rounding, or the last of a corner
+        # a residual that no step reduces is rounding, or due to a kink
         done = (better & (found <= tolerance)) | (~better & (length < 1e-9) & (size <= _FORGIVEN))
         length = np.where(better, 1.0, length / 2)
         now, size = np.where(better, trial, now), np.where(better, found, size)
@@ -121,10 +122,10 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Errors of a pair by itself, and the slopes of its law there: short of a dead centre, delta - error grows.
+    """Solve for the error of a single pair by bisection: delta - error increases short of a dead centre.
 
-    A law may jump past the error, as that of cut teeth that clash: the error is then where the law jumps, its slope 0.
-    Where nothing touches, the error is that of the law, infinite.
+    A transmission function may jump past the solution, as for cut teeth that clash. The error is then at the jump, with
+    slope 0. Where nothing touches, the error is infinite like that of the transmission function.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -136,12 +137,12 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
         if (slope * pairs.gain > 1 + _FORGIVEN).any():
             raise _refusal(pairs.names, _DEAD_CENTRE)
         low, high = np.where(middle < error, middle, low), np.where(middle < error, high, middle)
-    slope[np.abs(middle - error) > _FORGIVEN] = 0.0
+    slope[np.abs(middle - error) > _FORGIVEN] = 0.0  # the transmission function jumps past the solution here
     return np.where(np.isfinite(error), middle, error), slope
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
-    """Newton's step; none from a place where the pairs stand at a dead centre, and which no step leaves."""
+    """Return Newton's step, or 0 at dead centres, where the Jacobian is singular."""
     dead = _determinant(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
@@ -152,11 +153,11 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Solutions (pairs, n) of n small systems; by Cramer's rule for two, the usual number around a differential."""
+    """Solve n small systems, (pairs, n), with Cramer's rule for two pairs, the usual number around a differential."""
     if matrices.shape[1] == 1:
         return np.asarray(right / matrices[:, 0, 0])
     if matrices.shape[1] == 2:
-        # all positions in a few array operations, where LAPACK would be called once a position
+        # a few array operations over all positions, instead of a LAPACK call per position
         (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
         whole = a * d - b * c
         return np.stack([(right[0] * d - b * right[1]) / whole, (a * right[1] - c * right[0]) / whole])
@@ -170,18 +171,17 @@ def _determinant(matrices: Floats) -> Floats:
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
-    """The error that says which pairs cannot be followed, and why."""
+    """Return the error for pairs that cannot be solved, with the cause."""
     names = ", ".join(pairs)
     if len(pairs) == 1:
-        what = f"the driver of pair {names} is moved by what it drives, and cannot be followed"
-        return GearTrainError(Problem(what, why, "give it ideal teeth, or say who drives it with `driver`"))
-    return GearTrainError(
-        Problem(f"the pairs {names} depend on each other and cannot be followed", why, "give some of them ideal teeth")
-    )
+        what = f"the motion of pair {names}, which moves its own driver, has no unique solution"
+        return GearTrainError(Problem(what, why, "give it ideal teeth, or declare its driving wheel with `driver`"))
+    what = f"the motion of the coupled pairs {names} has no unique solution"
+    return GearTrainError(Problem(what, why, "give some of them ideal teeth"))
 
 
 class ErrorPath(NamedTuple):
-    """One pair or coupling as a path of error: who drives, and the coefficient of the driven side in its row."""
+    """Links of a pair or coupling for error propagation, and the coefficient of the driven side in its row."""
 
     driver: int
     driven: int
@@ -190,36 +190,36 @@ class ErrorPath(NamedTuple):
 
 
 class PropagationBlock(NamedTuple):
-    """Links solved together, from links known before and from the pairs whose rows these are."""
+    """Links solved together, from earlier links and from the pairs of their rows."""
 
     links: tuple[int, ...]
-    """Indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients."""
+    """Indices of the links."""
     known: tuple[int, ...]
-    """Indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients."""
+    """Indices of the earlier links. Their coefficients are `from_known`, (links, known)."""
     pairs: tuple[int, ...]
-    """Indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients."""
+    """Indices of the pairs. Their coefficients are `from_pairs`, (links, pairs)."""
     from_known: Floats
     from_pairs: Floats
 
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """The solved order of a train: `parts` in order, over `links` and `pairs` by index."""
+    """Error propagation of a train: `parts` in order of solution, over `links` and `pairs` by index."""
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
-    """By pair, each made when it is first read."""
+    """Links by pair. Each is built when it is first read."""
     parts: tuple[PropagationBlock, ...]
-    """As far as the wanted links depend on them: all others have no error here."""
+    """Blocks on which the wanted links depend. Other links have no error here."""
 
     @property
     def reached(self) -> frozenset[int]:
-        """The pairs whose error reaches the wanted links, directly or by the angle of another pair's driver."""
+        """Pairs whose error reaches the wanted links, directly or through the angle of another pair's driver."""
         return frozenset(pair for part in self.parts for pair in part.pairs)
 
     def errors(self, deltas: Floats) -> Floats:
-        """Errors of all links, (links, n), from those of all pairs, (pairs, n): linear, the pairs left as they are."""
+        """Return errors of all links, (links, n), from those of all pairs, (pairs, n), without feedback."""
         found = np.zeros((len(self.links), deltas.shape[1]))
         for part in self.parts:
             spread = part.from_known @ found[list(part.known)] + part.from_pairs @ deltas[list(part.pairs)]
@@ -227,17 +227,17 @@ class ErrorPropagation:
         return found
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
-        """Radians of a link, seen from another, per radian of each pair's driven error, by the adjoint: one walk back.
+        """Return the sensitivity of a link relative to another to each pair's driven error, by the adjoint method.
 
-        sense   -1 where the axes of the two point against each other
+        sense   -1 where the axes of the two are opposite
 
-        Raises `RangeError` where one of them is beyond float64.
+        Raises `RangeError` if a sensitivity exceeds float64.
         """
         weight = np.zeros(len(self.links))
         weight[link] += 1.0
         weight[base] -= sense
         found = np.zeros(len(self.pairs))
-        with np.errstate(over="ignore", invalid="ignore"):  # judged at the end, once
+        with np.errstate(over="ignore", invalid="ignore"):  # overflow is checked once at the end
             for part in reversed(self.parts):
                 own = weight[list(part.links)]
                 if own.any():
@@ -245,18 +245,18 @@ class ErrorPropagation:
                     weight[list(part.known)] += own @ part.from_known
         if not np.isfinite(found).all():
             what = f"'{self.links[link]}' turns more than 1e308 times as far as a pair's error"
-            why = "motion is followed in float64, which holds 1e-308 to 1e308"
-            raise RangeError(Problem(what, why, "drive the train nearer to this output, or ask `solve`"))
+            why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
+            raise RangeError(Problem(what, why, "drive the train nearer to this output, or use `solve`"))
         return found
 
 
 def find_error_propagation(
     system: WillisSystem, ends: Mapping[str, Sequence[int]], path: Callable[[str], ErrorPath], wanted: Iterable[int]
 ) -> ErrorPropagation | None:
-    """The solved order of a square system before some links; None where its rows do not determine them.
+    """Return the order of solution of a square system for some links, or None if its rows do not determine them.
 
     ends     both sides and the carrier of each pair, by the label of its row; other rows have no error (inputs, locks)
-    path     of a pair by its label: called for pairs that the wanted links depend on, and for others when they are read
+    path     function from label to `ErrorPath`, called for pairs that the wanted links depend on, else when read
     wanted   links by index
     """
     at = {link: number for number, link in enumerate(system.links)}
@@ -266,7 +266,7 @@ def find_error_propagation(
     own = [pair_of.get(row.label, -1) for row in system.equations]
     if len(rows) != len(at):
         return None
-    # the angle of a pair depends on its driver and its carrier even where the row does not hold them
+    # the angle of a pair depends on its driver and its carrier even if its row does not contain them
     also = [ends[pairs[pair]] if pair >= 0 else () for pair in own]
     blocks = find_blocks([tuple(row) for row in rows], also)
     if blocks is None:
@@ -282,7 +282,7 @@ def find_error_propagation(
 
 
 def _before(wanted: Iterable[int], blocks: Sequence[Block], rows: Sequence[Sequence[int]]) -> list[Block]:
-    """The blocks that some columns depend on, in their order; `rows` as the columns that each depends on."""
+    """Return the blocks that some columns depend on, in order. `rows` lists the columns that each row depends on."""
     needed, kept = set(wanted), []
     for block in reversed(blocks):
         if needed.intersection(block.columns):
@@ -294,7 +294,7 @@ def _before(wanted: Iterable[int], blocks: Sequence[Block], rows: Sequence[Seque
 def _solve(
     block: Block, rows: Sequence[Mapping[int, int]], own: Sequence[int], joints: Mapping[int, ErrorPath]
 ) -> PropagationBlock | None:
-    """One block, exactly: its links as forms of what is known before it and of its pairs' errors."""
+    """Solve one block exactly: its links as linear forms of earlier links and of its pairs' errors."""
     inside = {column: number for number, column in enumerate(block.columns)}
     known = tuple(dict.fromkeys(column for row in block.rows for column in rows[row] if column not in inside))
     pairs = tuple(own[row] for row in block.rows if own[row] >= 0)
@@ -322,6 +322,6 @@ def _matrix(forms: Sequence[LinearForm], first: int, count: int) -> Floats:
     found = np.zeros((len(forms), count))
     for at, form in enumerate(forms):
         for number in range(count):
-            # exact up to here, and rounded once
+            # exact up to here, rounded only once
             found[at, number] = float(form.get(-1 - first - number, 0))
     return found

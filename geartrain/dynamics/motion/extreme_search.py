@@ -1,9 +1,9 @@
-"""The least and greatest errors and rates of outputs over a run of the input: branch and bound, then smooth pieces.
+"""Extreme errors and rates of outputs over a run of the input: branch and bound, then smooth pieces.
 
-The run is cut into steps, narrow beside the shortest pitch, and `rate_bounds` tells between which values errors and
-rates lie in each. Steps that cannot hold an extreme are dropped, the others cut in four, and again. Those that are left
-are cut at the corners of all laws; on each piece everything is smooth, and the extremes of its Chebyshev polynomials
-count, with the limits on both sides of a jump. Nothing of it depends on the positions at which a run is sampled.
+The run is divided into steps narrower than the shortest pitch, and `rate_bounds` bounds errors and rates in each. Steps
+that cannot contain an extreme are discarded and the others divided in four, repeatedly. The remaining steps are divided
+at the kinks of all transmission functions. Errors are smooth on each piece, and the extremes follow from Chebyshev
+polynomials and from the one-sided limits at jumps. The result does not depend on the sampled positions of a run.
 """
 
 from __future__ import annotations
@@ -25,84 +25,84 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
-_MOST_STEPS = 200_000  # of a run at first: those of a longer run are wider than a pitch
-_FEWEST_STEPS = 64
-_MOST_LEFT = 50_000  # narrow steps divided at once; of more those with the highest bounds
-_MOST_WIDE = 16_000  # wide ones, of all outputs: most of these would be divided for nothing
-_NUMBERS = 1 << 23  # most bounds kept at once
-_PARTS = 4  # of a step that is divided
-_FEW = 1024  # so few steps are cut at corners without being divided further
-_MINIMUM_DIVISIONS, _MOST_DIVISIONS = 2, 16
-_BATCH = 4096  # steps cut at corners at once
-_BATCHES = 16
-_MOST_CORNERS = 200_000  # in a batch
-_SURE = 1e-9  # of the range of an output's errors or rates: so little more is not sought
-_ROUNDING = 1e-12  # rad: nor what may be rounding
-_NODES, _TO_SERIES = points(8)  # on a smooth piece
-_PLACES = np.linspace(-1, 1, 49)
+_MOST_STEPS = 200_000  # maximum number of initial steps: those of a longer run are wider than a pitch
+_FEWEST_STEPS = 64  # minimum number of initial steps
+_MOST_LEFT = 50_000  # maximum number of narrow steps kept, those with the largest bounds (beam search)
+_MOST_WIDE = 16_000  # maximum number of wide steps kept for all outputs: bounds of wide steps are rarely useful
+_NUMBERS = 1 << 23  # maximum number of stored bounds
+_PARTS = 4  # subdivisions of a step
+_FEW = 1024  # steps that are cut at kinks without further division
+_MINIMUM_DIVISIONS, _MOST_DIVISIONS = 2, 16  # levels of the branch-and-bound tree
+_BATCH = 4096  # steps cut at kinks at once
+_BATCHES = 16  # maximum number of batches: bounds the effort, the rest enters `dropped`
+_MOST_KINKS = 200_000  # maximum number of kinks in a batch
+_SURE = 1e-9  # of the range of an output's errors or rates: tolerance of the search
+_ROUNDING = 1e-12  # rad: absolute tolerance, above rounding
+_NODES, _TO_SERIES = points(8)  # Chebyshev nodes on a smooth piece, and the matrix from values to coefficients
+_PLACES = np.linspace(-1, 1, 49)  # places on a piece at which its polynomial is evaluated
 _TO_PLACES = chebyshev.chebvander(_PLACES, len(_NODES) - 1) @ _TO_SERIES
-_BESIDE = 1e-9  # of a step: so near to the end of a piece is a limit from one side
-_ULPS = 32  # of the turns: or so near, so that rounding does not lead beyond a corner
-_NO_PIECE = 4  # times as near: two corners so near are one
+_BESIDE = 1e-9  # of a step: distance from the end of a piece at which its one-sided limit is taken
+_ULPS = 32  # units in the last place of the turns: minimum distance, so that rounding does not pass a kink
+_NO_PIECE = 4  # times that distance: kinks closer than this are not separated
 
 
 def signed(error: Floats, rate: Floats) -> Floats:
-    """Errors, errors reversed, rates, rates reversed: what is sought is the greatest of each, (outputs, 4, n)."""
+    """Return errors, negated errors, rates, negated rates, (outputs, 4, n). The maximum of each is sought."""
     return np.stack([error, -error, rate, -rate], axis=1)
 
 
 class BoundedSteps(NamedTuple):
-    """Steps of the input with what the values sought cannot pass in them, (outputs, 4, n)."""
+    """Steps of the input with upper bounds of the values sought, (outputs, 4, n)."""
 
     steps: InputSteps
     above: Floats
 
     @classmethod
     def joined(cls, parts: Sequence[BoundedSteps]) -> BoundedSteps:
-        """All steps of some parts."""
+        """Join all steps of some parts."""
         low, high = (np.concatenate([part.steps[end] for part in parts]) for end in (0, 1))
         return cls(InputSteps(low, high), np.concatenate([part.above for part in parts], axis=2))
 
     def chosen(self, which: Bools | Indices | slice) -> BoundedSteps:
-        """Some of them."""
+        """Return a selection of the steps."""
         return BoundedSteps(InputSteps(self.steps.low[which], self.steps.high[which]), self.above[:, :, which])
 
     def of_outputs(self, outputs: list[int], search: StepSearch) -> BoundedSteps:
-        """Those that may hold more than was found, for some of the outputs."""
+        """Return the steps that may exceed the values found, for some of the outputs."""
         above = self.above[outputs]
         more = (above > (search.values + search.tolerance)[outputs, :, None]).any(axis=(0, 1))
         return BoundedSteps(InputSteps(self.steps.low[more], self.steps.high[more]), above[:, :, more])
 
     def before(self, end: float) -> BoundedSteps:
-        """Those that begin before a position of the input."""
+        """Return the steps that begin before a position of the input."""
         return self.chosen(self.steps.low < end)
 
     @property
     def number(self) -> int:
-        """How many they are."""
+        """Number of steps."""
         return len(self.steps.low)
 
     @property
     def width(self) -> float:
-        """Of the widest (turns)."""
+        """Width of the widest step [turns]."""
         return float(np.max(self.steps.high - self.steps.low, initial=0.0))
 
 
 class StepSearch:
-    """The extremes in steps of the input of what a composition gives, or of what it gives less what another does.
+    """Search for extremes of a composition, or of the difference of two compositions, in steps of the input.
 
-    parts         the composition, and the other if there is one
-    share         of the work on steps that are not narrow
-    values        (outputs, 4): the greatest errors, errors reversed, rates, rates reversed that were found
-    dropped       (outputs, 4): what they may be in steps that were not searched, or between places that were looked at
-    turned_back   pairs whose driver was seen turning against its mean
+    parts               the composition, and the one to subtract if there is one
+    share               fraction of the effort spent on steps that are not narrow
+    values              (outputs, 4): maxima found of errors, negated errors, rates, negated rates
+    dropped             (outputs, 4): upper bounds in steps not searched, or between evaluated positions
+    reversing_drivers   pairs whose driver turned against its mean at some position
     """
 
     def __init__(self, parts: tuple[ErrorComposition, ...], share: float = 1.0) -> None:
         self._parts = parts
         self._most_wide = int(_MOST_WIDE * share)
         self._bounds = tuple(RateBounds(part) for part in parts)
-        self._corners = tuple(KinkSearch(part) for part in parts)
+        self._kink_searches = tuple(KinkSearch(part) for part in parts)
         self.chunk = min(bounds.chunk for bounds in self._bounds)
         self.values = np.full((len(parts[0].outputs), 4), -np.inf)
         self.dropped = self.values.copy()
@@ -110,38 +110,38 @@ class StepSearch:
 
     @cached_property
     def step(self) -> float:
-        """Turns of the input that are narrow for every law."""
-        return min(corners.step for corners in self._corners)
+        """Turns of the input that are narrow for every transmission function."""
+        return min(kinks.step for kinks in self._kink_searches)
 
     @cached_property
     def _rate(self) -> float:
-        """Corners in a turn of the input."""
-        return sum(corners.rate for corners in self._corners)
+        """Mean number of kinks per turn of the input."""
+        return sum(kinks.rate for kinks in self._kink_searches)
 
     @property
     def tolerance(self) -> Floats:
-        """How much more is not sought."""
+        """Increments below which larger extremes are not sought."""
         ranges = np.repeat(self.values[:, ::2] + self.values[:, 1::2], 2, axis=1)
         return np.maximum(_SURE * ranges, _ROUNDING)
 
     # ------------------------------------------------------------------------------------------------ branch and bound
 
     def go(self, left: BoundedSteps) -> None:
-        """Search some steps."""
+        """Search some steps by branch and bound."""
         before = 0
         for division in range(_MOST_DIVISIONS):
-            # narrow steps are divided twice at least, and as long as that leaves fewer of them
+            # narrow steps are divided at least twice, and then as long as their number decreases
             enough = division >= _MINIMUM_DIVISIONS and (left.number <= _FEW or left.number > before)
             if not left.number or (left.width <= self.step and enough):
                 break
             before, left = left.number, self._searched(_divided(left.steps, self.chunk))
         for _ in range(_BATCHES):
-            # a step that is not narrow has too many corners to list
-            size = min(_BATCH, int(_MOST_CORNERS / max(self._rate * left.width, 1.0)))
+            # a wide step has too many kinks to list
+            size = min(_BATCH, int(_MOST_KINKS / max(self._rate * left.width, 1.0)))
             if not left.number or not size:
                 break
-            self._cut_at_corners(left.chosen(slice(size)).steps)
-            left = self._worth_while(left.chosen(slice(size, None)))
+            self._cut_at_kinks(left.chosen(slice(size)).steps)
+            left = self._promising(left.chosen(slice(size, None)))
         self._drop(left)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
@@ -149,18 +149,18 @@ class StepSearch:
         width = min(step, self.step)
         low = np.unique(np.clip(turns - width, start, end))
         high = np.minimum(low + 2 * width, np.append(low[1:], end))
-        self._cut_at_corners(InputSteps(low[high > low], high[high > low]))
+        self._cut_at_kinks(InputSteps(low[high > low], high[high > low]))
 
     def _searched(self, steps: Iterator[InputSteps]) -> BoundedSteps:
-        """Those that may hold an extreme, the likeliest first, and not too many."""
-        parts = [self._worth_while(self.bounded(part)) for part in steps]
-        left = self._worth_while(BoundedSteps.joined(parts))
+        """Return the steps that may contain an extreme, in order of their bounds, up to a maximum number."""
+        parts = [self._promising(self.bounded(part)) for part in steps]
+        left = self._promising(BoundedSteps.joined(parts))
         most = min(_MOST_LEFT, _NUMBERS // (4 * len(self.values))) if left.width <= self.step else self._most_wide
         self._drop(left.chosen(slice(most, None)))
         return left.chosen(slice(most))
 
     def bounded(self, steps: InputSteps) -> BoundedSteps:
-        """With bounds; what is at their ends counts."""
+        """Return the steps with bounds. Values at their ends are included in the maxima."""
         found = self._bounds[0].over(*steps)
         if len(self._bounds) > 1:
             found = StepBounds.difference(found, self._bounds[1].over(*steps))
@@ -168,35 +168,35 @@ class StepSearch:
             self._count(passage)
         errors = found.errors()
         above = np.stack([errors.high, -errors.low, found.rate.high, -found.rate.low], axis=1)
-        # where no teeth touch there is no error
+        # the error is undefined where no teeth touch
         return BoundedSteps(steps, np.where(np.isnan(above), -np.inf, above))
 
-    def _worth_while(self, given: BoundedSteps) -> BoundedSteps:
-        """Steps that may hold more than was found, those that may hold most first."""
+    def _promising(self, given: BoundedSteps) -> BoundedSteps:
+        """Return the steps that may exceed the values found, largest bounds first."""
         excess = (given.above - self.values[:, :, None]) / self.tolerance[:, :, None]
         most = excess.max(axis=(0, 1), initial=-np.inf)
         order = np.argsort(-most, kind="stable")
         return given.chosen(order[: int(np.count_nonzero(most > 1))])
 
     def _drop(self, given: BoundedSteps) -> None:
-        """Leave steps unsearched."""
+        """Record the bounds of steps that are not searched."""
         self.dropped = np.maximum(self.dropped, given.above.max(axis=2, initial=-np.inf))
 
     def _count(self, passage: ErrorSamples) -> None:
         for first, values in ((0, passage.error), (2, passage.rate)):
-            # NaN where no teeth touch
+            # ignores NaN, where no teeth touch
             extremes = np.fmax.reduce(values, axis=1), -np.fmin.reduce(values, axis=1)
             self.values[:, first : first + 2] = np.fmax(self.values[:, first : first + 2], np.stack(extremes, axis=1))
         self.reversing_drivers |= passage.reversing_drivers
 
     # --------------------------------------------------------------------------------------------------- smooth pieces
 
-    def _cut_at_corners(self, steps: InputSteps) -> None:
-        """Count the extremes within some steps, apart from each other, piece by piece."""
+    def _cut_at_kinks(self, steps: InputSteps) -> None:
+        """Include the extremes within disjoint steps, piece by piece between kinks."""
         order = np.argsort(steps.low)
         low, high = steps.low[order], steps.high[order]
-        corners = [search.between(InputSteps(low, high)).turns for search in self._corners]
-        edges = np.unique(np.concatenate([low, high, *corners]))
+        kinks = [search.between(InputSteps(low, high)).turns for search in self._kink_searches]
+        edges = np.unique(np.concatenate([low, high, *kinks]))
         middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
         within = np.maximum(np.searchsorted(low, middle) - 1, 0)
         beside = np.maximum(_BESIDE * (high - low)[within], _ULPS * np.spacing(np.abs(middle)))
@@ -207,7 +207,7 @@ class StepSearch:
             self._take_pieces(middle[first : first + size], half[first : first + size])
 
     def _take_pieces(self, middle: Floats, half: Floats) -> None:
-        """Count the extremes of smooth pieces."""
+        """Include the extremes of smooth pieces."""
         found = self._at((middle[:, None] + half[:, None] * _NODES).ravel())
         self._count(found)
         values = signed(found.error, found.rate).reshape(len(self.values), 4, len(middle), -1)
@@ -225,11 +225,13 @@ class StepSearch:
         return found[0] if len(found) == 1 else error_difference(*found)
 
     def _peak(self, pieces: Floats, sought: tuple[int, ...]) -> tuple[int, float] | None:
-        """The piece and the place on it, from -1 to 1, where polynomials are greatest; None where at no such place.
+        """Return the index of the highest polynomial and the place of its maximum, from -1 to 1.
+
+        The result is None if the maximum is not in the interior.
 
         pieces    (n, nodes): their values at the nodes
         """
-        # an eighth degree goes little beyond its nodes: pieces that stay far below are not looked at
+        # a polynomial of degree 8 hardly exceeds its values at the nodes, so pieces far below the maximum are skipped
         with np.errstate(invalid="ignore"):
             looked = np.flatnonzero(pieces.max(axis=1) + np.ptp(pieces, axis=1) > self.values[sought])
         if not len(looked):
@@ -238,13 +240,14 @@ class StepSearch:
         at = np.clip(np.argmax(places, axis=1), 1, len(_PLACES) - 2)
         every = np.arange(len(at))
         one, two, three = (places[every, at + side] for side in (-1, 0, 1))
+        # vertex of the parabola through the highest place and its neighbours
         bend = 2 * two - one - three
         with np.errstate(all="ignore"):
             inner = np.abs(three - one) < 2 * bend
             peaks = np.where(inner, two + (three - one) ** 2 / (8 * bend), places.max(axis=1))
         best = int(np.argmax(peaks))
         series = _TO_SERIES @ pieces[looked[best]]
-        # what the last terms of the series leave open
+        # the last coefficients of the series estimate the truncation error
         self.dropped[sought] = max(self.dropped[sought], peaks[best] + float(np.abs(series[-2:]).max()))
         if not inner[best]:
             return None
@@ -254,7 +257,7 @@ class StepSearch:
 
 
 def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
-    """Steps in equal parts, some of them at a time."""
+    """Yield steps divided in equal parts, one chunk at a time."""
     size = max(1, chunk // _PARTS)
     for first in range(0, len(steps.low), size):
         low, high = (each[first : first + size, None] for each in steps)
@@ -264,10 +267,10 @@ def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
 
 
 class ExtremeSearch:
-    """The extremes over a run of the input of what a composition gives, or of what it gives less what another does.
+    """Extremes of a composition, or of the difference of two compositions, over a run of the input.
 
-    values        (outputs, 4): the greatest errors, errors reversed, rates, rates reversed that were found
-    turned_back   pairs whose driver was seen turning against its mean
+    values              (outputs, 4): maxima found of errors, negated errors, rates, negated rates
+    reversing_drivers   pairs whose driver turned against its mean at some position
     """
 
     def __init__(self, composition: ErrorComposition, less: ErrorComposition | None = None) -> None:
@@ -279,21 +282,21 @@ class ExtremeSearch:
 
     @property
     def doubt(self) -> Floats:
-        """By how much a value of the run may be greater than those found, as far as is known; (outputs, 4)."""
+        """Bound on how far a value of the run may exceed the maxima found, (outputs, 4)."""
         beyond = self._dropped - self.values
         return np.where(beyond > 2 * self._whole.tolerance, beyond, 0.0)
 
     @cached_property
     def _groups(self) -> dict[tuple[int, ...], tuple[ErrorComposition, ...]]:
-        """Outputs that depend on the same pairs, by index, with the compositions of them alone."""
+        """Groups of outputs that depend on the same pairs, by index, with their compositions."""
         found: dict[frozenset[int], list[int]] = {}
         for at in range(len(self.values)):
-            pairs = (source.pair for part in self._parts for source in _alone(part, (at,)).used)
+            pairs = (source.pair for part in self._parts for source in _restricted(part, (at,)).used)
             found.setdefault(frozenset(pairs), []).append(at)
-        return {tuple(each): tuple(_alone(part, each) for part in self._parts) for each in found.values()}
+        return {tuple(each): tuple(_restricted(part, each) for part in self._parts) for each in found.values()}
 
     def over(self, start: float, end: float) -> None:
-        """Search from one position of the input to a greater one."""
+        """Search from one position of the input to a later one."""
         if not len(self.values):
             return
         end = _period_end(self._parts, start, end)
@@ -309,7 +312,7 @@ class ExtremeSearch:
             self._take(group, search)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
-        """Search also near positions that promise much, (outputs, n), within a run."""
+        """Search near promising positions within a run, (outputs, n), in addition."""
         for group, parts in self._groups.items():
             search = StepSearch(parts)
             search.values = self.values[list(group)]
@@ -317,14 +320,14 @@ class ExtremeSearch:
             self._take(group, search)
 
     def _take(self, group: tuple[int, ...], search: StepSearch) -> None:
-        """Count what was found for some outputs."""
+        """Record the results for some outputs."""
         at = list(group)
         self.values[at] = self._whole.values[at] = np.maximum(self.values[at], search.values)
         self._dropped[at] = np.maximum(self._dropped[at], search.dropped)
         self.reversing_drivers |= search.reversing_drivers
 
     def _first(self, start: float, end: float) -> Iterator[InputSteps]:
-        """The whole run, in steps that are narrow if there are not too many."""
+        """Yield the whole run in steps, which are narrow unless there would be too many."""
         wanted = (end - start) / self._whole.step
         number = _MOST_STEPS if wanted > _MOST_STEPS else max(_FEWEST_STEPS, ceil(wanted))
         for first in range(0, number, self._whole.chunk):
@@ -334,14 +337,14 @@ class ExtremeSearch:
             yield InputSteps(ends[:-1], ends[1:])
 
 
-def _alone(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
-    """A composition of some of its outputs only."""
+def _restricted(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
+    """Return a composition restricted to some of its outputs."""
     seen = tuple(composition.outputs[at] for at in outputs)
     offsets = tuple(composition.offsets[at] for at in outputs) if composition.offsets else ()
     return ErrorComposition(composition.spread, composition.sources, seen, offsets)
 
 
 def _period_end(parts: tuple[ErrorComposition, ...], start: float, end: float) -> float:
-    """The end of a run, or of its first period."""
+    """Return the end of a run, or of its first period if that is earlier."""
     period = common_period([source for part in parts for source in part.used])
     return end if period is None or period >= end - start else start + float(period)

@@ -1,9 +1,9 @@
-"""Where the input stands as a pair passes a corner of its law: between these positions all errors are smooth.
+"""Positions of the input at which pairs pass kinks. All errors are smooth between them.
 
-A law says at which angles of its driver it has corners. The driver of pair m stands at S_m(x), equation (3) of
-docs/motion.md, which the errors of pairs before it have moved; so each S_m(x) = corner + a whole number of periods is
-solved for x. Between the ends of a narrow step S_m grows from one value to another, which tells how many corners it
-passes; each is found by false position. Where a driver turns back the step is cut at the place where it turns.
+A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
+equation (3) of docs/motion.md, which includes the errors of earlier pairs. S_m(x) = kink + a whole number of periods is
+solved for x. The values of S_m at the ends of a narrow step give the number of kinks it passes, and each is located by
+false position. If a driver reverses, the step is divided at the reversal.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
 MOST_KINKS = 20_000_000
-"""More corners are not listed at once."""
+"""Maximum number of kinks listed at once."""
 
-_STEPS = 4  # a period of the fastest law: so narrow a step is monotonic, or its driver turns slowly at an end
-_FEWEST = 16  # steps of a run
-_SLOW = 0.25  # of the mean speed: a driver so slow may turn back within the step
-_PARTS = 16  # of a step in which a driver may turn back
-_HALVINGS = 40  # of a step, to find where its driver turns
-_FINE = 1e-14  # of a step: what a corner's place is off by
-_SAME = 1e-9  # of a period: two corners so near are one found twice, from either side
-_NEAR = 1e-11  # of a period beyond a step, in which its corners are sought too: rounding must lose none at its end
+_STEPS = 4  # steps per period of the fastest pair: the driver is monotonic in a step, or slow at one of its ends
+_FEWEST = 16  # minimum number of steps in a run
+_SLOW = 0.25  # of the mean speed: a slower driver may reverse within the step
+_PARTS = 16  # subdivisions of a step in which a driver may reverse
+_HALVINGS = 40  # bisections of a step to locate a reversal
+_FINE = 1e-14  # of a step: tolerance of a kink's position
+_SAME = 1e-9  # of a period: closer kinks are the same kink found from both sides
+_NEAR = 1e-11  # of a period: overlap of neighbouring steps, so that rounding loses no kink at their ends
 
 
 class KinkPositions(NamedTuple):
-    """Where the input stands as pairs pass corners of their laws, in ascending order.
+    """Positions of the input at which pairs pass kinks of their transmission functions, in ascending order.
 
     See Also
     --------
-    Motion.kink_positions : what gives these.
+    Motion.kink_positions : Method that returns these.
     """
 
     turns: Floats
     """Turns of the input. Shape (n,)."""
     pair: Indices
-    """Which pair is at a corner there, as an index into `pairs`. Shape (n,)."""
+    """Index into `pairs` of the pair with the kink. Shape (n,)."""
     pairs: tuple[str, ...]
     """Names of pairs and couplings."""
 
@@ -57,7 +57,7 @@ class KinkPositions(NamedTuple):
         return short_repr(self)
 
     def names(self) -> list[str]:
-        """The pair at each position, by name."""
+        """Return the name of the pair at each position."""
         return [self.pairs[at] for at in self.pair]
 
 
@@ -70,7 +70,7 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """The corners of one law, and its driver's angle by turns of the input.
+    """Kinks of one transmission function, and its driver's angle by turns of the input.
 
     kinks    rad, within one period, each once
     """
@@ -80,15 +80,15 @@ class PairKinks:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Driver's angles (rad) at which the law has a corner, within a period, each once."""
+        """Driver angles at which the transmission function has a kink [rad], within one period, each once."""
         period = self.source.transmission.period
         found = folded_kinks(self.source.transmission)
-        # one at 0 may be told again, by rounding, just before the period ends
+        # a kink at 0 may be listed again just before the end of the period, due to rounding
         apart = np.diff(found, append=found[:1] + period) > _NEAR * period
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
     def shift(self, turns: Floats) -> tuple[Floats, Floats]:
-        """What errors add to the driver's forward angle (rad), and its speed over the input's."""
+        """Return the change of the driver's forward angle due to errors [rad], and its speed over the input speed."""
         if not len(turns):
             return np.zeros(0), np.zeros(0)
         size = self.drivers.chunk
@@ -101,9 +101,9 @@ class PairKinks:
         return way * error, self.source.mean + way * rate
 
     def between(self, steps: InputSteps) -> Floats:
-        """Turns of the input at which the law is at a corner, within some steps, and which: (2, n), in any order.
+        """Return the turns of the input at the kinks within some steps, and the kink indices: (2, n), in any order.
 
-        A corner at the end of a step may stand twice.
+        A kink at the end of a step may be listed twice.
         """
         if not len(self.kinks) or not len(steps.low):
             return np.zeros((2, 0))
@@ -114,10 +114,10 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """The same steps, those in which the driver may turn back in parts, cut where it turns."""
+        """Divide the steps in which the driver may reverse, at the reversals found by bisection."""
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
-        ends[:, -1] = steps.high[slow]
+        ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum
         ahead = self.shift(ends.ravel())[1].reshape(ends.shape) >= 0
         turning = ahead[:, 1:] != ahead[:, :-1]
         low, high, first = ends[:, :-1][turning], ends[:, 1:][turning], ahead[:, :-1][turning]
@@ -132,15 +132,16 @@ class PairKinks:
         )  # fmt: skip
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
-        """As `between`, in steps in which the driver turns one way, from its shifts at their ends (rad)."""
+        """Return the kinks as in `between`, in steps without reversals, from the shifts at their ends [rad]."""
         period, cycles = self.source.transmission.period, self.source.cycles
         width = steps.high - steps.low
         phase = np.mod(InputPhase(steps.low).cycles(cycles) * period + self.source.start + low, period)
         travel = float(cycles) * period * width + (high - low)
         minimum, most = np.minimum(0, travel) - _NEAR * period, np.maximum(0, travel) + _NEAR * period
+        # levels kink + n period between the angles at both ends: the first n, and their number
         first = np.ceil((phase[:, None] + minimum[:, None] - self.kinks) / period)
         count = np.floor((phase[:, None] + most[:, None] - self.kinks) / period) - first + 1
-        # an angle that is not known, where no teeth touch, passes none
+        # the angle is undefined where no teeth touch; no kink is passed there
         count = np.where(np.isfinite(count), np.maximum(count, 0), 0).astype(np.intp)
         step, kink = (np.repeat(each, count.ravel()) for each in np.indices(count.shape).reshape(2, -1))
         nth = np.arange(len(step)) - np.repeat(np.cumsum(count) - count.ravel(), count.ravel())
@@ -155,8 +156,8 @@ class PairKinks:
         share = roots_by_false_position(beyond, *ends, -level, travel[step] - level, _FINE)
         return np.stack([steps.low[step] + share * width[step], kink])
 
-    def once(self, found: Floats) -> Floats:
-        """Turns in order from what `between` gave, a corner that was found from either side of a place only once."""
+    def unique(self, found: Floats) -> Floats:
+        """Sort the turns from `between`, and remove kinks found from both sides of a position."""
         turns, kink = found[:, np.lexsort(found)]
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
         again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(kink, prepend=-1) == 0)
@@ -164,21 +165,21 @@ class PairKinks:
 
 
 def _filled(chosen: Floats, values: Floats, ends: Floats) -> Floats:
-    """`values` where they were chosen from, in the shape of the steps between `ends`."""
+    """Return `values` at the chosen steps, and the ends of the other steps."""
     found = ends[:, 1:].copy()
     found[chosen] = values
     return found
 
 
 class KinkSearch:
-    """Corners of all pairs that an output of a composition depends on."""
+    """Search for kinks of all pairs that an output of a composition depends on."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition = composition
 
     @cached_property
     def pairs(self) -> tuple[PairKinks, ...]:
-        """The pairs with their drivers' angles."""
+        """Pairs with their drivers' angles."""
         joints = self.composition.spread.joints
         found = []
         for source in self.composition.used:
@@ -190,17 +191,17 @@ class KinkSearch:
 
     @cached_property
     def rate(self) -> float:
-        """Corners passed a turn of the input, on average."""
+        """Mean number of kinks per turn of the input."""
         return sum(float(pair.source.cycles) * len(pair.kinks) for pair in self.pairs)
 
     @cached_property
     def step(self) -> float:
-        """Turns of the input that are narrow for every law; infinite where nothing ripples."""
+        """Turns of the input that are narrow for every transmission function; infinite if every error is constant."""
         fastest = max((float(pair.source.cycles) for pair in self.pairs), default=0.0)
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """A stretch of the input in narrow steps, some of them at a time."""
+        """Yield a stretch of the input in narrow steps, one chunk at a time."""
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
         size = self.composition.chunk
         for first in range(0, number, size):
@@ -210,15 +211,15 @@ class KinkSearch:
             yield InputSteps(ends[:-1], ends[1:])
 
     def between(self, steps: InputSteps) -> KinkPositions:
-        """The corners within some narrow steps."""
+        """Return the kinks within some narrow steps."""
         return self._joined([[pair.between(steps)] for pair in self.pairs])
 
     def over(self, start: float, end: float) -> KinkPositions:
-        """The corners from one position of the input to a greater one, both included."""
+        """Return the kinks from one position of the input to a later one, both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
-            what = f"from {start:g} to {end:g} turns pairs pass some {expected:.2g} corners of their laws"
+            what = f"from {start:g} to {end:g} turns, pairs pass about {expected:.2g} kinks"
             why = f"at most {MOST_KINKS:g} are listed"
-            raise QuestionError(Problem(what, why, "ask for fewer turns at a time"))
+            raise QuestionError(Problem(what, why, "request fewer turns at a time"))
         found: list[list[Floats]] = [[] for _ in self.pairs]
         for steps in self.steps(start, end):
             for pair, parts in zip(self.pairs, found, strict=True):
@@ -226,8 +227,8 @@ class KinkSearch:
         return self._joined(found)
 
     def _joined(self, found: list[list[Floats]]) -> KinkPositions:
-        """What was found of each pair, in parts, in one order."""
-        each = [pair.once(np.concatenate(parts, axis=1)) for pair, parts in zip(self.pairs, found, strict=True)]
+        """Merge the kinks of each pair, found in parts, in one order."""
+        each = [pair.unique(np.concatenate(parts, axis=1)) for pair, parts in zip(self.pairs, found, strict=True)]
         turns = np.concatenate(each or [np.zeros(0)])
         pair = np.repeat(np.arange(len(each)), [len(part) for part in each])
         order = np.argsort(turns, kind="stable")

@@ -1,8 +1,7 @@
-"""From a solved train to its motion: which pairs ripple, who drives, where they start, and how their errors spread.
+"""Motion of a solved train: pairs with variable errors, driving sides, starting positions, and error propagation.
 
-At turn 0 every tooth and pin is where its phase says, and every pointer is set: section 3 of docs/motion.md. The angles
-of drivers are counted from turn 0, so that the errors of the pairs before a pair do not move the tooth with which it
-starts.
+At turn 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The angles
+of drivers are counted from turn 0, so that the errors of earlier pairs do not move the tooth with which a pair starts.
 """
 
 from __future__ import annotations
@@ -35,18 +34,18 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
 
-_PACE = 2e6  # links per second that numpy computes, in most trains
+_PACE = 2e6  # link positions per second evaluated by numpy in typical trains
 
 
 @dataclass(frozen=True)
 class PointerCompositions:
-    """The compositions of some outputs of a train, from the errors of its pairs."""
+    """Compositions of some outputs of a train, from the errors of its pairs."""
 
     errors: PairErrors
     outputs: tuple[SeenLink, ...]
 
     def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """The composition while the input turns that way; `besides` as of `PairErrors.sources`."""
+        """Return the composition for one direction of the input. `besides` is that of `PairErrors.sources`."""
         backlash, (teeth, pins) = self.errors.backlash(way), self._start
         found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
         sources = tuple(
@@ -63,7 +62,10 @@ class PointerCompositions:
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """What teeth, and what pins add to the angle of each link at turn 0 (rad): linear, as all drivers are known."""
+        """Angles added to each link at turn 0 by teeth, and by pins [rad].
+
+        They are linear, because all driver angles are known.
+        """
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
         for each in self.errors.sources(1):
@@ -73,31 +75,33 @@ class PointerCompositions:
 
     @property
     def setting(self) -> Floats:
-        """By how much each link is turned on its wheels (rad), so that its teeth do not displace it at turn 0."""
+        """Angle by which each link is turned on its wheels so that its teeth do not displace it at turn 0 [rad]."""
         return -self._start[0]
 
 
 @dataclass(frozen=True)
 class TransmissionErrorCurve(Tabular, Result):
-    """The transmission error of one output, position by position.
+    """Transmission error of one output, position by position.
+
+    With a pin and slot it includes the intended deviation from uniform motion (anomaly).
 
     See Also
     --------
-    Motion.transmission_error : Gives it.
+    Motion.transmission_error : Method that returns this.
     """
 
     KEYS = (Key("", "statistics"),)
 
     name: str
-    """The output."""
+    """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the input's."""
+    """Exact mean speed over the input speed."""
     angle: Floats
     """Angle of the input [rad]. Shape (n,)."""
     error: Floats
     """Angle less its mean motion [rad]. Shape (n,)."""
     speed: Floats
-    """Speed over the input's [1]. Shape (n,)."""
+    """Speed over the input speed [1]. Shape (n,)."""
 
     def _summary(self) -> str:
         figures = f"p-p {degrees(self.peak_to_peak):.4g} deg, rms {degrees(self.rms):.4g} deg"
@@ -105,12 +109,12 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each position: angle of the input, transmission error and speed."""
+        """Table with a row for each position: angle of the input, transmission error and speed."""
         return {"angle": self.angle.tolist(), "error": self.error.tolist(), "speed": self.speed.tolist()}
 
     @property
     def mean(self) -> float:
-        """Mean speed over the input's."""
+        """Mean speed over the input speed."""
         return mean_speed(self.name, self.ratio)
 
     @cached_property
@@ -135,36 +139,37 @@ _MAIN = 3  # outputs in a summary
 
 
 class Motion(Shown):
-    """A train's motion with real teeth and pins, as a function of the turns of its input.
+    """Motion of a train with real teeth and pins, as a function of the turns of its input.
 
-    Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At
-    turn 0 every tooth and pin is where its `phase` says, and every link where ideal teeth would have it (section 3
-    there).
+    Transmission functions are composed along the order of solution of the train: equations (2) and (3) of
+    docs/motion.md. At turn 0 every tooth and pin has its declared `phase`, and every link the position that ideal teeth
+    would give it (section 3 there).
 
     Parameters
     ----------
     train : MotionProblem
-        Rows, mean speeds, laws of pairs, drivers: `GearTrain.motion` gathers them.
+        Equations, mean speeds, transmission functions and drivers, as collected by `GearTrain.motion`.
     outputs : mapping of str to tuple of str
-        Name -> the link, and the link it is seen from.
+        Link and reference link of each output, by name.
     tolerance : float, optional
-        Laws are read from tables of this accuracy [pitches, between 0 and 1]; by default the laws themselves are asked.
+        Accuracy of tables that replace the transmission functions [pitches, between 0 and 1]. By default they are
+        evaluated directly.
     fast : bool, optional
-        Whether compiled kernels follow the motion, the same to 1e-12; by default where numba is installed and there are
-        so many positions that it pays to load it.
+        Use compiled kernels, which agree to 1e-12. By default they are used if numba is installed and there are enough
+        positions to repay loading it.
 
     Raises
     ------
     MissingExtraError
-        If kernels are asked for and numba is not installed: when positions are first asked for.
+        If kernels are requested and numba is not installed; raised when positions are first requested.
     QuestionError
-        If the tolerance is no part of a pitch.
+        If the tolerance is not between 0 and 1.
     GearTrainError
-        If a redundant loop has teeth that cannot turn together, or the train has no solved order.
+        If the real teeth of a redundant loop cannot turn together, or the train has no order of solution.
 
     Examples
     --------
-    The four pairs of triangular teeth before the Moon stand as at the start after 95 turns of the crank:
+    The four pairs of triangular teeth before the Moon repeat their positions after 95 turns of the crank:
 
     >>> import geartrain
     >>> motion = geartrain.load("moon-triangular").motion(outputs=["moon"])
@@ -188,10 +193,10 @@ class Motion(Shown):
         self._errors = PairErrors(train, tolerance, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
         if tolerance is not None and not 0 < tolerance < 1:
-            why = "a table's accuracy is a part of a pitch"
-            fix = "give a part of a pitch such as 1e-9, or none"
+            why = "the accuracy of tables is a fraction of a pitch, between 0 and 1"
+            fix = "give a fraction such as 1e-9, or omit it"
             raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
-        self._declaration: Any = None  # what `print` needs of the train
+        self._declaration: Any = None  # declaration of the train, for `print`
         self._state: str | None = None
         self._without: tuple[str, ...] = ()
         self._refuse_loops()
@@ -199,58 +204,66 @@ class Motion(Shown):
     def _summary(self) -> str:
         name = "" if self._declaration is None else self._declaration.name
         state = "" if self._state is None else f" state {self._state}"
-        lead = self._problem.driving_link
+        driving = self._problem.driving_link
         means = [(each, self._problem.seen_ratio(*self.outputs[each])) for each in islice(self.outputs, _MAIN)]
-        shown = ", ".join(f"{each} = {brief(ratio)} of {lead}" for each, ratio in means)
+        shown = ", ".join(f"{each} = {brief(ratio)} of {driving}" for each, ratio in means)
         more = f", {len(self.outputs) - _MAIN} more" if len(self.outputs) > _MAIN else ""
         return f"{name}{state}: mean {shown or 'of no output'}{more}".strip()
 
-    # ----------------------------------------------------------------------------------------------- what it is made of
+    # ----------------------------------------------------------------------------------------------- compositions
 
     @property
     def _propagation(self) -> ErrorPropagation:
-        """The solved order of the train, as far as its outputs depend on it."""
+        """Error propagation of the train, as far as its outputs depend on it."""
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Where the sides of a pair or coupling stand, which says how its errors spread.
+        """Return the links of a pair or coupling, which determine how its errors propagate.
 
         Parameters
         ----------
         pair : str
-            Its name; one that closes a loop which others close has none: `QuestionError`.
+            Name of the pair.
+
+        Raises
+        ------
+        QuestionError
+            If the pair only closes a loop of other pairs, which has no unique path.
         """
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
-        why = "other pairs say already how its wheels turn; which of them bears how much is a matter of play and errors"
-        fix = f"leave it out: --without {pair}; or declare one of equal planets, with `copies: 3`"
-        raise QuestionError(Problem(f"the motion in time of '{pair}' is not worked out", why, fix))
+        why = (
+            "other pairs already determine the motion of its wheels, and backlash and errors decide how they share the "
+            "load"
+        )
+        fix = f"leave it out with --without {pair}, or declare one of several equal planets, with `copies: 3`"
+        raise QuestionError(Problem(f"the dynamics of the redundant pair '{pair}' cannot be simulated", why, fix))
 
     @cached_property
     def _forward(self) -> ErrorComposition:
-        """The composition while the input turns as declared."""
+        """Composition while the input turns as declared."""
         return self._compositions.composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """The composition while the input turns as declared, some pairs that keep their ratio among its sources.
+        """Return the composition while the input turns as declared, with more pairs among its sources.
 
-        So that laws which do not keep it can be put in their place.
+        Pairs of constant ratio can thus be given other transmission functions.
 
         Parameters
         ----------
         pairs : collection of str
-            Names of pairs; others and those that ripple anyway change nothing.
+            Names of pairs to include; pairs with variable errors are included anyway.
         """
         return self._compositions.composed(1, pairs)
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
+        """Composition without set pointers: every link at the position given by its transmission functions."""
         return replace(self._forward, offsets=())
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """The composition while the input turns the other way: the other flanks drive."""
+        """Composition while the input turns the other way, with the other flanks driving."""
         return self._compositions.composed(-1)
 
     @cached_property
@@ -266,7 +279,7 @@ class Motion(Shown):
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
-        """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
+        """Angle by which each output's pointer is turned on its wheels so that its teeth do not displace it [rad]."""
         found = self._compositions.setting
         return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
@@ -275,97 +288,96 @@ class Motion(Shown):
             path = " - ".join((*loop.links, loop.links[0]))
             raise GearTrainError(
                 Problem(
-                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that real teeth do not let turn",
-                    f"the loop holds in the mean, and the errors of {', '.join(real)} would have to cancel at "
-                    "every instant",
-                    f"leave out one of the loop's pairs: `--without {loop.pairs[-1]}` follows the rest",
+                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that locks with real teeth",
+                    f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
+                    f"leave out one of the loop's pairs, such as `--without {loop.pairs[-1]}`",
                 )
             )
 
     def with_random_phases(self, random: Generator) -> Motion:
-        """The same train with a random phase for every pair with real teeth that declares none.
+        """Return the train with a random phase for every pair with real teeth that declares none.
 
         Parameters
         ----------
         random : numpy.random.Generator
-            Phases are drawn from it [pitches, 0 to 1].
+            Source of the phases [pitches, 0 to 1].
 
         Returns
         -------
         Motion
-            Of the same outputs and tolerance.
+            Motion with the same outputs and tolerance.
         """
         declared = self._problem.phases
-        # the first pair of a planet places its teeth in the second
+        # the phase of a planet's second pair follows from its first pair
         free = [mesh.name for mesh in self._problem.rippling if self._problem.placed_by(mesh.name) is None]
         drawn = {name: float(random.random()) for name in free if name not in declared}
         return Motion(replace(self._problem, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
 
-    # -------------------------------------------------------------------------------------------------- what it answers
+    # -------------------------------------------------------------------------------------------------- results
 
     @cached_property
     def period(self) -> Fraction | None:
-        """Turns of the input after which every rippling pair stands as at the start; None where nothing ripples."""
+        """Turns of the input after which every pair repeats its position; None if every error is constant."""
         return common_period(self._forward.used)
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Radians of each output per radian of error of the driven side of each pair, real teeth or not."""
+        """Sensitivity of each output to the error of the driven side of each pair, real teeth or not [rad per rad]."""
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
             found[name] = dict(zip(self._propagation.pairs, self._propagation.sensitivity(*seen).tolist(), strict=True))
         return found
 
     def _statistics(self) -> list[RunningStatistics]:
-        """An empty tally for each output."""
+        """Return empty statistics for each output."""
         return [
             RunningStatistics(name, self._problem.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()
         ]
 
     @property
     def _start_angles(self) -> list[float]:
-        """Starting angle of each output (rad), in the sense of the input as its motion is."""
+        """Starting angle of each output [rad], in the sense of the input's motion."""
         angles = self._problem.way * np.array([self._problem.angles.get(link, 0.0) for link in self._propagation.links])
         return [seen.difference(angles) for seen in self._seen]
 
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
-        """The run in stretches that fit in memory.
+        """Yield the run in stretches that fit in memory.
 
         Parameters
         ----------
         turns : float
-            Turns of the input from 0; negative turns go the other way, on the other flanks.
+            Turns of the input from 0. Negative turns are in the other direction, with the other flanks driving.
         samples : int
-            Positions, 2 or more, both ends included.
+            Number of positions including both ends, 2 or more.
         first : int
-            The position to begin with.
+            Index of the first position.
 
         Yields
         ------
         ErrorSamples
-            One stretch after the other.
+            Errors of consecutive stretches.
         """
         composition = self._sampler(turns, samples)
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
-            # divided first: the last position is `turns` to the last bit, wherever stretches begin
+            # division first: the last position is exactly `turns`, wherever stretches begin
             yield composition.at(turns * (at / (samples - 1)))
 
     def _sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """What is asked for errors at some positions.
+        """Return the object that computes errors for a run.
 
         Parameters
         ----------
         turns : float
-            Turns of the input; only their sign counts.
+            Turns of the input; only their sign matters.
         samples : int
-            How many positions there will be.
+            Number of positions of the run.
 
         Returns
         -------
         ErrorSampler
-            The composition, or its compiled kernel.
+            Composition, or its compiled kernel.
         """
         composition = self._forward if turns >= 0 else self._backward
         links = sum(len(step.links) for step in composition.steps)
@@ -379,11 +391,11 @@ class Motion(Shown):
 
     @cached_property
     def _compiled(self) -> dict[bool, CompiledComposition | None]:
-        """Compiled kernels of the compositions forwards (True) and backwards (False), as far as they were requested."""
+        """Compiled kernels of the forward (True) and backward (False) compositions, as far as requested."""
         return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Errors and rates of the outputs, turning as declared.
+        """Return errors and rates of the outputs while the input turns as declared.
 
         Parameters
         ----------
@@ -393,7 +405,7 @@ class Motion(Shown):
         Returns
         -------
         ErrorSamples
-            Errors [rad] and rates at them.
+            Errors [rad] and rates at these turns.
         """
         turns = np.asarray(turns, dtype=float)
         composition = self._sampler(1, len(turns))
@@ -403,19 +415,21 @@ class Motion(Shown):
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
-        """Where some pair that an output depends on is at a corner of its law: between them all errors are smooth.
+        """Return the positions at which some pair has a kink. All errors are smooth between them.
 
-        A speed may jump there. To take its values on either side, ask a little before and a little after.
+        Only pairs that an output depends on are included.
+
+        A speed may jump at a kink. For its one-sided values, evaluate a little before and a little after.
 
         Parameters
         ----------
         start, end : float
-            Turns of the input; where the end is less than the start it turns back, on the other flanks.
+            Turns of the input. If the end is less than the start it turns back, with the other flanks driving.
 
         Returns
         -------
         KinkPositions
-            Turns from the lesser to the greater of the two, both included, in ascending order, with the pair at each.
+            Turns in ascending order between the two, ends included, with the pair at each.
 
         Raises
         ------
@@ -424,7 +438,8 @@ class Motion(Shown):
 
         Examples
         --------
-        A pair of triangular teeth has a corner a pitch, and the driver of the first makes 45 in one turn of the crank:
+        A pair of triangular teeth has one kink per pitch, and the driver of the first passes 45 in one turn of the
+        crank:
 
         >>> import geartrain
         >>> kinks = geartrain.load("moon-triangular").motion(outputs=["moon"]).kink_positions(0, 1)
@@ -442,16 +457,16 @@ class Motion(Shown):
         Parameters
         ----------
         turns : float
-            Turns of the input from 0; negative turns go the other way, on the other flanks.
+            Turns of the input from 0. Negative turns are in the other direction, with the other flanks driving.
         samples : int
-            Positions, 2 or more, both ends included.
+            Number of positions including both ends, 2 or more.
         on_done : callable
-            Called with the number of positions of each stretch that is done.
+            Callback, called with the number of positions of each stretch that is done.
 
         Returns
         -------
         dict of str to TransmissionErrorCurve
-            By output.
+            Curves by output.
 
         Examples
         --------
@@ -481,19 +496,19 @@ class Motion(Shown):
         Parameters
         ----------
         output : str
-            One of the outputs.
+            Name of the output.
         turns, samples : float, int
-            As of `transmission_errors`.
+            Turns and number of positions, as for `transmission_errors`.
 
         Returns
         -------
         TransmissionErrorCurve
-            Its peak-to-peak value, its root mean square, and its value at every position.
+            Transmission error at every position, with its peak-to-peak value and root mean square.
 
         Raises
         ------
         QuestionError
-            For an output that is not followed.
+            If the output is not part of this motion.
 
         Examples
         --------
@@ -506,17 +521,17 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Follow the motion over some turns of the input, and return its peaks and moments by output.
+        """Compute the motion over some turns of the input, and return its peaks and moments by output.
 
         Parameters
         ----------
         turns, samples : float, int
-            As of `transmission_errors`.
+            Turns and number of positions, as for `transmission_errors`.
 
         Returns
         -------
         geartrain.dynamics.MotionRun
-            `print` shows the report of `geartrain motion`.
+            Run with statistics of all outputs. `print` shows the report of `geartrain motion`.
 
         Examples
         --------
@@ -530,39 +545,39 @@ class Motion(Shown):
 
     @cached_property
     def _usual_run(self) -> Any:
-        """The run of the command; `print` shows it."""
+        """Run with the command's default turns and samples, which `print` shows."""
         return self.run()
 
     def _of(self, outputs: Sequence[str]) -> Motion:
-        """The motion of some of the outputs."""
+        """Return the motion of some of the outputs."""
         shown = {name: self.outputs[name] for name in outputs}
         motion = Motion(self._problem, shown, self.tolerance, self.fast)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
         return motion
 
     def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
-        """Angles, errors and speeds over turns of the input, as a figure that notebooks show.
+        """Return a figure of angles, errors and speeds over turns of the input, for notebooks.
 
         Parameters
         ----------
         *outputs : str
-            Names of those to draw; all where none is given.
+            Names of the outputs to draw, by default all.
         turns : float
-            Of the input, from the position where ideal teeth stand as declared [turn].
+            Turns of the input, from the position where ideal teeth are as declared.
         samples : int
-            Positions, 2 or more, both ends included.
+            Number of positions including both ends, 2 or more.
 
         Returns
         -------
         matplotlib.figure.Figure
-            As `geartrain.drawing.outputs_figure` draws it.
+            Figure drawn by `geartrain.drawing.outputs_figure`.
 
         Raises
         ------
         MissingExtraError
-            Without matplotlib, which the extra `plot` brings.
+            If matplotlib is not installed (extra `plot`).
         QuestionError
-            For an output that is not followed.
+            If an output is not part of this motion.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""What motion needs to know of a train in one case, gathered: rows, mean speeds, laws, who drives, loops."""
+"""Data of a train in one case for motion: equations, mean speeds, transmission functions, drivers, loops."""
 
 from __future__ import annotations
 
@@ -25,49 +25,51 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MotionProblem:
-    """What motion needs to know of a train in one case."""
+    """Data of a train in one case for motion."""
 
     system: WillisSystem
-    """The labelled rows without redundant circuits."""
+    """Labelled equations without redundant circuits."""
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
-    """Exact mean speeds; `lead` is the input whose angle is given."""
+    """Exact mean speeds. `driving_link` is the input whose angle is given."""
     frame: str
     driving_link: str
     meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth by name, as they are driven, each made when it is first read."""
+    """Pairs with real teeth as they are driven, by name. Each is built when it is first read."""
     pins: Sequence[PinMesh]
     drivers: Mapping[str, MeshDriver]
-    """Who drives each pair and coupling, and how that is known."""
+    """Driver of each pair and coupling, with the reason."""
     angles: Mapping[str, float] = field(default_factory=dict)
-    """Starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel."""
+    """Starting angles of links [rad]."""
     phases: Mapping[str, float] = field(default_factory=dict)
     shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
-    """By pair and wheel, the other pairs of that wheel about the same line, and whether its contacts lie on opposite
-    sides."""
+    """Other pairs of each wheel with the same line of centres, by pair and wheel.
+
+    Each has a flag that is True if its contacts are on opposite sides.
+    """
     loops: Sequence[Loop] = ()
-    """Loops that are redundant: real teeth in them contradict the rest."""
+    """Redundant loops, in which real teeth contradict each other."""
 
     @property
     def way(self) -> int:
-        """1, or -1 where the lead turns backwards about its own axis: motion counts turns and angles in its sense."""
+        """Sign of the driving link's motion about its own axis. Turns and angles count in its sense."""
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
-        """Mean speed of a link over the lead's, exactly."""
+        """Return the exact mean speed of a link over that of the driving link."""
         return self.speeds[link] / self.speeds[self.driving_link]
 
     def seen_ratio(self, link: str, base: str) -> Fraction:
-        """Mean speed of a link seen from another, about the first one's axis, over the lead's."""
+        """Return the mean speed of a link relative to another, about the first one's axis, over the driving speed."""
         return relative_speed(link, base, self.ratio, self.signs)
 
     def relative(self, link: str, carrier: str) -> Fraction:
-        """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
+        """Return the mean speed of a link relative to its carrier, about their parallels, over the driving speed."""
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:
-        """The pair that drives the driver of a pair, and so places its teeth; of `shared`, None where there is none."""
+        """Return the pair that drives the driver of a pair and so places its teeth, as in `shared`, or None."""
         if pair not in self.drivers:
             return None
         wheel = self.drivers[pair].wheel
@@ -81,16 +83,16 @@ class MotionProblem:
 
     @property
     def rippling(self) -> list[GearMesh]:
-        """The pairs whose teeth do not keep their ratio at every instant."""
+        """Pairs whose teeth have a variable speed ratio."""
         return [mesh for mesh in self.teeth if not mesh.rigid]
 
     @property
     def rigid(self) -> list[GearMesh]:
-        """The pairs with real teeth that do: nothing of them is worked out position by position."""
+        """Pairs with real teeth of constant ratio, which need no evaluation at positions."""
         return [mesh for mesh in self.teeth if mesh.rigid]
 
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
-        """Redundant loops in which something ripples, with what does."""
+        """Return the redundant loops with variable errors, with the pairs that have them."""
         found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
         return [(loop, real) for loop, real in found if real]
 
@@ -100,9 +102,9 @@ class MotionProblem:
 
 
 def find_motion_problem(train: TrainMechanics, state: str | None = None, without: Sequence[str] = ()) -> MotionProblem:
-    """A train in one state; pairs that are left out leave their teeth out too. Raises `QuestionError` if it rests.
+    """Collect the data of a train in one state. Raise `QuestionError` if it does not move.
 
-    without   pairs left out, so that real teeth do not contradict each other around a loop
+    without   pairs to leave out with their teeth, so that real teeth do not contradict each other around a loop
     """
     own, declared, meshes, pins = train.kinematics, train.declaration, train.undriven, train.pins
     case = own.case(state)
@@ -134,9 +136,9 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
 
 
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
-    """Wheels with coaxial mates, as a planet between sun and ring: their lines of centres are one line.
+    """Return the wheels with coaxial mates, such as a planet between sun and ring, which share a line of centres.
 
-    The contacts lie on opposite sides where one mate is a ring.
+    The contacts are on opposite sides if one mate is a ring.
     """
     of_wheel: dict[str, list[tuple[Circuit, str]]] = {}
     for circuit in circuits:

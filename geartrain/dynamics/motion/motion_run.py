@@ -1,10 +1,9 @@
-"""One run of a motion: so many turns of the input in so many positions, and what is asked of it.
+"""Run of a motion over some turns of the input, sampled at some positions, with its statistics and spectrum.
 
-Its spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair repeats `cycles` times in a turn
-of the input, a rational number known exactly, so its harmonics fall on orders k cycles. To first order each line is
-the pair's own harmonic times the output's sensitivity; the line that the composed motion really has there is measured
-beside it, by a Fourier sum under a Hann window. What no line explains is the product of pairs that modulate each
-other.
+The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per turn of
+the input, an exact rational number, so its harmonics have the orders k cycles. To first order the amplitude of a line
+is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is measured as well, by
+a Fourier sum with a Hann window. What these lines do not explain comes from modulation of pairs by each other.
 """
 
 from __future__ import annotations
@@ -36,30 +35,30 @@ if TYPE_CHECKING:
 
     OnDone = Callable[[int], None]
 
-_SAMPLES = 1 << 14  # of one period of a law
-_HARMONICS = 24  # of each pair that are looked at
+_SAMPLES = 1 << 14  # samples of one period of a transmission function
+_HARMONICS = 24  # harmonics evaluated for each pair
 _MAIN = 3  # outputs in a summary
-_FAINT = 1e-6  # of the strongest line
+_FAINT = 1e-6  # of the strongest line: weaker lines are omitted
 
 
 class HarmonicShare(NamedTuple):
-    """A harmonic of a pair, and the amplitude (rad) it has in an output to first order."""
+    """Harmonic of a pair, and its first-order amplitude in an output."""
 
     pair: str
-    """The pair."""
+    """Name of the pair."""
     harmonic: int
-    """Number of the harmonic of its period."""
+    """Number of the harmonic of the pair's period."""
     amplitude: float
-    """Its amplitude in the output to first order [rad]."""
+    """First-order amplitude in the output [rad]."""
 
 
 @dataclass(frozen=True)
 class SpectrumLine(Result):
-    """One line of the spectrum of an output's error, at an exact order of the input.
+    """Line of the spectrum of an output's transmission error, at an exact order of the input.
 
     See Also
     --------
-    MotionRun.spectra : where these stand, strongest first.
+    MotionRun.spectra : All lines by output, strongest first.
     """
 
     KEYS = (Key("order", to=float), Key("exact", "order"), "expected", "measured", Key("pairs", "shares"))
@@ -67,9 +66,9 @@ class SpectrumLine(Result):
     order: Fraction
     """Periods per turn of the input."""
     shares: tuple[HarmonicShare, ...]
-    """The pairs and harmonics that fall on this order, each with its amplitude to first order [rad]."""
+    """Pairs and harmonics of this order, each with its first-order amplitude [rad]."""
     expected: float
-    """Amplitude to first order, all of them together in their phases [rad]."""
+    """First-order amplitude of their sum, including phases [rad]."""
     measured: float
     """Amplitude in the composed motion [rad]."""
 
@@ -77,10 +76,10 @@ class SpectrumLine(Result):
 def find_spectrum(
     motion: Motion, turns: float, samples: int, most: int = 12, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, list[SpectrumLine]]:
-    """The strongest lines of every output, strongest first, measured over `samples` positions.
+    """Return the strongest lines of every output, strongest first, measured over `samples` positions.
 
-    Lines are told apart if they differ by two periods over the run; over whole common periods the measure is exact but
-    for harmonics beyond half the sampling rate.
+    Lines are resolved if they differ by two periods over the run. Over a whole number of common periods the measurement
+    is exact except for harmonics above half the sampling rate.
     """
     from geartrain.dynamics.motion.superposition import Superposition
 
@@ -104,12 +103,15 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Complex amplitudes of a pair's error at harmonics 1, 2, ... of its own period, in the phase of the run."""
+    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period.
+
+    Phases are those at the start of the run.
+    """
     source = superposed.sources[at]
     u = np.arange(_SAMPLES) / _SAMPLES
     shift = source.start + superposed.lags[at]
     error = source.sense * source.transmission.error(u * source.transmission.period + shift)
-    # twice, for half of a real wave stands at the negative frequency
+    # factor 2, because half of the amplitude of a real signal is at the negative frequency
     return np.asarray(2 * np.fft.rfft(error)[1 : _HARMONICS + 1] / _SAMPLES)
 
 
@@ -130,7 +132,7 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
         )
         for order, parts in phasors.items()
     ]
-    # of equal amplitudes the lower order first, so that the list is the same each time
+    # lines of equal amplitude are ordered by order, so that the list is reproducible
     lines.sort(key=lambda line: (-line.expected, line.order))
     strongest = lines[0].expected if lines else 0.0
     return [line for line in lines[:most] if line.expected > _FAINT * strongest]
@@ -139,7 +141,10 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Amplitudes of the composed errors at some orders, (outputs, orders), under a Hann window unless it closes."""
+    """Measure the amplitudes of the composed errors, (outputs, orders).
+
+    A Hann window is applied unless the run is periodic.
+    """
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
     centre, weights = np.zeros(len(motion.outputs)), 0.0
@@ -148,7 +153,7 @@ def _measure(
     for passage in motion._stretches(turns, samples):
         at = np.arange(done, done + len(passage.turns)) / (samples - 1)
         done += len(passage.turns)
-        # over whole periods every line closes, and the last position repeats the first; else Hann against leakage
+        # whole periods need no window, but the last position repeats the first; otherwise Hann reduces leakage
         window = np.where(at < 1, 1.0, 0.0) if closes else 1 - np.cos(2 * np.pi * at)
         angle = InputPhase(passage.turns)
         waves = np.exp(-2j * np.pi * np.stack([angle.cycles(order) for order in orders])) * window
@@ -157,28 +162,28 @@ def _measure(
         centre += passage.error @ window
         weights += float(window.sum())
         on_done(len(passage.turns))
-    # the mean, a lag of no frequency, leaks into no line
+    # the mean is subtracted, so that it does not leak into any line
     return np.asarray(2 * np.abs(sums - (centre / weights)[:, None] * means) / weights)
 
 
 MOST_TURNS = 10**12
-"""Beyond so many turns of an input, positions as floats no longer tell the teeth of one turn apart."""
+"""Maximum number of turns. Beyond it, positions in float64 do not resolve the teeth of one turn."""
 
 
-def _untold(_: int) -> None:
+def _ignore(_: int) -> None:
     pass
 
 
 @dataclass
 class MotionRun(Tabular, Pictured):
-    """One run of a motion: positions from 0 to `turns` of the input, and what is asked of them.
+    """Run of a motion: positions from 0 to `turns` of the input, and results on request.
 
-    It has the results that were requested by `run`, `run_random_phases`, `find_estimates` and `find_spectra`.
+    Results are filled in by `run`, `run_random_phases`, `find_estimates` and `find_spectra`.
 
     Raises
     ------
     QuestionError
-        If there are more turns than positions can tell apart, or fewer than two samples.
+        If there are more turns than positions can resolve, or fewer than two samples.
 
     Examples
     --------
@@ -205,37 +210,36 @@ class MotionRun(Tabular, Pictured):
     FIGURE = "motion_figure"
 
     motion: Motion
-    """The motion that is followed."""
+    """Motion that is evaluated."""
     turns: float
-    """Turns of the input, within 1e12 either way; negative turns go on the other flanks."""
+    """Turns of the input, up to 1e12 in either direction. Negative turns use the coast flanks."""
     samples: int
-    """Positions, 2 or more, both ends included."""
+    """Number of positions including both ends, 2 or more."""
     statistics: list[RunningStatistics] = field(default_factory=list)
     """Peaks and moments by output."""
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
-    """The same for each set of random phases."""
+    """Peaks and moments by output, for each set of random phases."""
     seed: int | None = None
-    """Of these phases; None where none were drawn."""
+    """Random seed of these phases; None if none were drawn."""
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
-    """By output."""
+    """Fast estimates by output."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
-    """By output, the strongest lines first."""
+    """Spectral lines by output, strongest first."""
     done: int = 0
-    """Positions counted so far: fewer than `samples` in a run that was interrupted."""
+    """Positions evaluated so far: fewer than `samples` in an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
-    """Pairs whose driver was seen turning against its mean; the play between their flanks is not followed there."""
+    """Pairs whose driver turned against its mean at some position, where backlash is not modelled."""
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
-            why = "so far away positions do not tell the teeth of one turn apart"
-            raise QuestionError(
-                Problem(
-                    f"a motion over {self.turns:g} turns", why, f"give turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
-                )
-            )
+            why = "beyond that, positions in float64 do not resolve the teeth of one turn"
+            fix = f"pass turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
+            raise QuestionError(Problem(f"turns = {self.turns:g}", why, fix))
         if self.samples < 2:
             raise QuestionError(
-                Problem(f"{self.samples} positions of the input", "from one to the next it turns", "give 2 or more")
+                Problem(
+                    f"samples = {self.samples}", "at least two positions of the input are needed", "pass samples >= 2"
+                )
             )
 
     def _summary(self) -> str:
@@ -249,7 +253,10 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each output that was counted: mean speed over the input's, error [rad], speed over its mean."""
+        """Table with a row for each evaluated output.
+
+        Its columns are the mean speed over the input speed, the error [rad], and the speed over its mean.
+        """
         return {
             "output": [each.name for each in self.statistics],
             "mean speed": [float(each.ratio) for each in self.statistics],
@@ -260,18 +267,18 @@ class MotionRun(Tabular, Pictured):
             "fastest": [each.fast for each in self.statistics],
         }
 
-    def run(self, on_done: OnDone = _untold) -> None:
-        """Count every position, and seek the extremes between them.
+    def run(self, on_done: OnDone = _ignore) -> None:
+        """Evaluate every position, and search for the extremes between them.
 
         Parameters
         ----------
         on_done : callable
-            Called with the number of positions of each stretch that is done.
+            Callback, called with the number of positions of each stretch that is done.
 
         Raises
         ------
         GearTrainError
-            If pairs depend on each other in a way that cannot be followed.
+            If coupled pairs have no unique solution.
         """
         self.statistics = self.motion._statistics()
         peaks = SampledPeaks(len(self.statistics))
@@ -287,67 +294,69 @@ class MotionRun(Tabular, Pictured):
         count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)
         self.reversing_drivers |= search.reversing_drivers
 
-    def run_random_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
-        """The same run with random phases of the pairs that declare none.
+    def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
+        """Repeat the run with random phases of the pairs that declare none.
 
         Parameters
         ----------
         count : int
-            Sets of phases.
+            Number of sets of phases.
         seed : int
-            Of the random numbers, 0 or more.
+            Random seed, 0 or more.
         on_done : callable
-            As of `run`.
+            Callback, as in `run`.
         """
         self.seed = seed if count else None
         if seed < 0:
-            raise QuestionError(Problem(f"a seed of {seed}", "random numbers begin at 0 or more", "give 0 or more"))
+            raise QuestionError(Problem(f"seed = {seed}", "a random seed is not negative", "pass seed >= 0"))
         random = np.random.default_rng(seed)
         for _ in range(count):
             other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)
             other.run(on_done)
             self.phase_statistics.append(other.statistics)
 
-    def find_estimates(self, on_done: OnDone = _untold) -> None:
-        """Make the cheap estimates, with their true error.
+    def find_estimates(self, on_done: OnDone = _ignore) -> None:
+        """Compute the fast estimates, with their true error.
 
         Parameters
         ----------
         on_done : callable
-            As of `run`.
+            Callback, as in `run`.
         """
         from geartrain.dynamics.motion.superposition import find_estimates
 
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
-    def find_spectra(self, on_done: OnDone = _untold) -> None:
-        """Make the spectra by exact order.
+    def find_spectra(self, on_done: OnDone = _ignore) -> None:
+        """Compute the spectra by exact order.
 
         Parameters
         ----------
         on_done : callable
-            As of `run`.
+            Callback, as in `run`.
         """
         self.spectra = find_spectrum(self.motion, self.turns, self.samples, on_done=on_done)
 
     @property
     def _position_columns(self) -> list[str]:
-        """Names of the columns of a table of all positions."""
+        """Column names of a table of all positions."""
         names = self.motion.outputs
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """The columns of one stretch: an angle is its start, mean motion and error; a speed is over the input's.
+        """Return the columns of one stretch: turns, then angle [rad], error [rad] and speed of each output.
+
+        An angle is the sum of starting angle, mean motion and error.
 
         Parameters
         ----------
         passage : ErrorSamples
-            The stretch.
+            Stretch of the run.
 
         Returns
         -------
         list of array of float, (n,)
-            As `_position_columns` names them.
+            Columns in the order of `_position_columns`.
         """
         found = [passage.turns]
         angle = 2 * pi * passage.turns
@@ -357,24 +366,23 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Refuse to go on with a table whose last row is not of this run.
+        """Raise an error if the last row of a table is not of this run.
 
         Parameters
         ----------
         row : str
-            The last row, its cells parted by commas.
+            Last row, with cells separated by commas.
         rows : int
-            How many there are.
+            Number of rows.
 
         Raises
         ------
         GearTrainError
-            If this run has other turns there, or fewer positions.
+            If this run has other turns in this row, or fewer positions.
         """
-        # the operations of `_stretches` in their order: the same float, and so the same text
+        # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):
-            what = f"its row {rows} stands at {row.split(',')[0]} turns, and this run has {turns!r} there"
-            raise GearTrainError(
-                Problem("the partial file is of another run", what, "give the same turns and samples, or begin again")
-            )
+            why = f"its row {rows} is at {row.split(',')[0]} turns, but this run has {turns!r} there"
+            fix = "give the same turns and samples, or omit --resume to start again"
+            raise GearTrainError(Problem("the partial file is of another run", why, fix))

@@ -1,4 +1,4 @@
-"""The errors of each pair of a train that moves: who drives, where its teeth stand, and how its error spreads.
+"""Errors of each pair of a moving train: driving side, phase of the teeth, and propagation of the errors.
 
 Sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the phase at which its teeth start.
 """
@@ -27,28 +27,28 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_FASTEST = 2**90  # periods a turn: a position is a float, and its product with the ratio is kept to 106 bits
-_HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
+_FASTEST = 2**90  # periods per turn: the product of a position and the ratio has a precision of 106 bits
+_HALVINGS = 54  # bisections of four pitches, to rounding
 
 
 @dataclass(frozen=True)
 class PairErrors:
-    """The pairs of a train with their laws, as paths of error."""
+    """Pairs of a train with their transmission functions, as sources of error."""
 
     train: MotionProblem
     tolerance: float | None
-    """Laws are read from tables of this accuracy (in pitches); None asks the laws themselves."""
+    """Accuracy of tables that replace the transmission functions [pitches]; None evaluates them directly."""
     links: Collection[str]
-    """Those whose errors are wanted: the teeth of pairs that they do not depend on are not made."""
+    """Links whose errors are wanted. The teeth of pairs that do not affect them are not built."""
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """The column of each link."""
+        """Column of each link."""
         return {link: at for at, link in enumerate(self.train.system.links)}
 
     @cached_property
     def spread(self) -> ErrorPropagation:
-        """The solved order of the train before the wanted links."""
+        """Error propagation of the train to the wanted links."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
         ends = {name: [self.index[link] for link in (each.i, each.j, each.carrier)] for name, each in circuits.items()}
@@ -57,9 +57,9 @@ class PairErrors:
         if found is None:
             raise GearTrainError(
                 Problem(
-                    "the motion of this train has no solved order",
-                    "some of its pairs say what others say already, though they close no loop on one carrier",
-                    "leave out a pair that is redundant (`geartrain check` names the link at which they meet)",
+                    "the motion of this train has no order of solution",
+                    "some of its pairs are redundant, although they do not close a loop on one carrier",
+                    "leave out a redundant pair with --without (`geartrain check` names the link at which they meet)",
                 )
             )
         return found
@@ -75,23 +75,24 @@ class PairErrors:
         return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
 
     def driven_side(self, circuit: Circuit) -> int:
-        """0 where the circuit's first link is driven, 1 where its second is.
+        """Return 0 if the circuit's first link is driven, 1 if its second is.
 
-        A pin's law gives the angle of its slot, whichever of the two drives: there is no play between them.
+        The transmission function of a pin gives the angle of its slot, whichever of the two drives, because they have
+        no backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
     @cached_property
     def _meshes(self) -> list[GearMesh]:
-        """The pairs with real teeth that the wanted links depend on."""
+        """Pairs with real teeth that the wanted links depend on."""
         reached = self.spread.reached
         names = [name for at, name in enumerate(self.spread.pairs) if at in reached and name in self.train.meshes]
         return [self.train.meshes[name] for name in names]
 
     def backlash(self, way: int) -> Floats:
-        """What the play of teeth that keep their ratio adds to the angle of each link (rad): the same everywhere.
+        """Return the constant angle that the backlash of teeth with constant ratio adds to each link [rad].
 
-        Nothing while the input turns as declared.
+        It is 0 while the input turns as declared.
         """
         transmissions = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes if mesh.rigid}
         ahead = {name: transmission.error_moments()[0] for name, transmission in transmissions.items()}
@@ -100,15 +101,15 @@ class PairErrors:
         return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
 
     def sense(self, circuit: Circuit) -> int:
-        """1, or -1 where the driven wheel turns backwards on average, seen from its carrier."""
+        """Return -1 if the driven wheel turns backwards on average relative to its carrier, else 1."""
         driver = (circuit.i, circuit.j)[1 - self.driven_side(circuit)]
         forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
         return forward if circuit.a * circuit.b < 0 else -forward
 
     def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
-        """The pairs whose error changes as they turn, and pins, with their laws while the input turns that way.
+        """Yield the pairs with variable error, and the pins, for one direction of the input.
 
-        besides   pairs that keep their ratio and are wanted as well
+        besides   pairs of constant ratio to include as well
         """
         meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
         transmissions: dict[str, TransmissionFunction] = {mesh.name: mesh.transmission for mesh in meshes}
@@ -135,33 +136,32 @@ class PairErrors:
         forward = -1 if driver < 0 else 1
         sense = self.sense(circuit)
         teeth = 1
-        if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
+        if circuit.kind != "gear":  # the error of a pin counts in the sense of the slot's own angle
             sense = forward
         else:
             teeth = abs((circuit.b, circuit.a)[driven])
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
-        # phases count forwards, angles about declared axes
+        # phases count in the forward sense, angles about declared axes
         turned = self.train.way * forward * (senses[0] * angles[0] - senses[1] * angles[1])
         phase = self._phase(circuit, ahead, driven) + turned
         cycles = abs(driver) * teeth
         if cycles > _FASTEST:
             raise GearTrainError(
                 Problem(
-                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while "
-                    f"'{self.train.driving_link}' turns once",
-                    "no position of the input can be told so finely that it says where these teeth stand",
+                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth per turn of '{self.train.driving_link}'",
+                    "positions of the input in float64 do not resolve these teeth",
                     "drive the train nearer to this pair, or give it ideal teeth",
                 )
             )
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
-        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
+        """Return the driver's forward angle [rad] that puts a tooth of the first wheel at the pair's phase.
 
-        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards. A
-        planet between sun and ring has no phase of its own in its second pair: there its teeth are where the first puts
-        them, half a pitch off where their number is odd and the contacts lie on opposite sides.
+        The phase of a pin is that of the pin itself. If the first wheel is driven, its transmission function is
+        inverted. A planet between sun and ring has no independent phase in its second pair. There the first pair places
+        its teeth, half a pitch off if their number is odd and the contacts are on opposite sides.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:
@@ -182,7 +182,7 @@ class PairErrors:
         phase -= self.train.meshes[circuit.id].stands
         wanted = phase * float(transmission.ratio) * transmission.period
         low, high = (phase - 2) * transmission.period, (phase + 2) * transmission.period
-        # bisection: an angle grows with its driver's, and laws have corners that other methods stumble on
+        # bisection: the driven angle increases with the driver's, and kinks would disturb faster methods
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
             low, high = (middle, high) if float(transmission.angle(middle)) < wanted else (low, middle)

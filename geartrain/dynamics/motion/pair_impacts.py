@@ -1,12 +1,12 @@
-"""What collisions of one pair of teeth cost, and from what speed its quasi-static law is void.
+"""Energy of tooth impacts of a pair, and the speed above which its quasi-static transmission function is invalid.
 
-Where the speed ratio tau falls at a rate s = max(-d tau / dS), the driven inertia J stays in contact at the driver's
-speed w if the load torque is at least J w^2 s; under a load T the law is void above w = sqrt(T / (J s)).
+Let the speed ratio tau fall at a rate s = max(-d tau / dS). The driven inertia J stays in contact at the driver's speed
+w if the load torque is at least J w^2 s. Under a load T contact is lost above w = sqrt(T / (J s)).
 
-In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. A pair whose driven side jumps
-by one radian a second makes every link l jump by its response g_l, so that side strikes with the inertia sum J_l g_l^2;
-an inelastic blow of a speed difference v takes half of it times v^2. In an ordinary train that is the inertia of all
-that turns with the driven wheel, seen from it.
+In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. If the driven side of a pair
+jumps by one radian a second, every link l jumps by its response g_l, so the effective inertia of that side is
+sum J_l g_l^2. An inelastic impact with the speed difference v dissipates half of it times v^2. In an ordinary train the
+effective inertia is that of all that turns with the driven wheel, referred to it.
 """
 
 from __future__ import annotations
@@ -29,30 +29,30 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ToothImpact(Shown):
-    """Collisions of the teeth of one pair, where its speed ratio leaps up: equation (7) of docs/motion.md.
+    """Impacts of the teeth of one pair, where its speed ratio jumps up: equation (7) of docs/motion.md.
 
     See Also
     --------
-    geartrain.dynamics.find_tooth_impacts : gives these, by pair.
+    geartrain.dynamics.find_tooth_impacts : Returns these by pair.
     """
 
     inertia: float
-    """Of all that is struck, at the driven wheel [kg m^2]."""
+    """Effective inertia at the driven wheel [kg m^2]."""
     rate: float
-    """Pitches passed a second [1/s]."""
+    """Pitches per second [1/s]."""
     jumps: tuple[float, ...]
-    """Jumps of the driven wheel's speed [rad/s], those of one pitch."""
+    """Jumps of the driven wheel's speed within one pitch [rad/s]."""
 
     @property
     def power(self) -> float:
-        """Power dissipated (W)."""
+        """Power dissipated [W]."""
         return self.rate * sum(self.inertia * jump**2 / 2 for jump in self.jumps)
 
 
 def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) -> dict[str, ToothImpact]:
-    """The collisions of every pair whose speed ratio leaps, the input turning at `speed` (rad/s).
+    """Return the impacts of every pair whose speed ratio jumps, by name, for an input speed of `speed` [rad/s].
 
-    inertias   of links about their own axes (kg m2); links without one count as having none
+    inertias   of links about their own axes [kg m2], 0 for other links
     """
     spread = motion._propagation
     weight = np.array([inertias.get(link, 0.0) for link in spread.links])
@@ -72,11 +72,11 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
 
 
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:
-    """Energies of one pitch's collisions (J): handed to the driven side, dissipated, and their sum, the driver's work.
+    """Return energies of the impacts in one pitch [J]: transferred to the driven side, dissipated, and their sum.
 
-    J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts, the driver at constant speed
-    omega1 (rad/s), `inertia` J (kg m2) all that turns with the driven wheel. The source of triangular teeth counts
-    the first as lost; what is lost is the second.
+    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts. The driver has the
+    constant speed omega1 [rad/s], so the sum is its work. J is the `inertia` of all that turns with the driven wheel
+    [kg m2]. The source of triangular teeth counts the first term as lost; the energy actually lost is the second.
     """
     leaps, scale = tuple(leaps), inertia * omega1**2
     handed = sum((leap.after**2 - leap.before**2) / 2 for leap in leaps) * scale
@@ -86,7 +86,7 @@ def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float
 
 @dataclass(frozen=True)
 class PairOperation:
-    """How a pair is run, as far as it is known: SI units, `rate` of the driver in turns per second."""
+    """Known operating data of a pair in SI units. `rate` is that of the driver in turns per second."""
 
     inertia: float | None = None
     rate: float | None = None
@@ -94,13 +94,13 @@ class PairOperation:
 
     @property
     def omega1(self) -> float | None:
-        """Speed of the driver (rad/s)."""
+        """Speed of the driver [rad/s]."""
         return None if self.rate is None else 2 * pi * self.rate
 
 
 @dataclass(frozen=True)
 class PairImpacts(Result):
-    """What collisions of one pair cost, and where its law is void, as far as `PairOperation` tells; None elsewhere."""
+    """Impact energies of one pair and limits of its contact. Figures are None if `PairOperation` lacks their data."""
 
     KEYS = (
         *("inertia", "rate", "handed", "dissipated", "work"),
@@ -108,23 +108,23 @@ class PairImpacts(Result):
     )
 
     inertia: float
-    """kg m2, of all that turns with the driven wheel."""
+    """Inertia of all that turns with the driven wheel [kg m2]."""
     rate: float | None = None
-    """Of the driver (turns per second)."""
+    """Speed of the driver [turns per second]."""
     handed: float | None = None
-    """Energy of one pitch (J) handed to the driven side; `dissipated`, and `work`, their sum."""
+    """Energy transferred to the driven side in one pitch [J]."""
     dissipated: float | None = None
-    """Energy of one pitch dissipated by collisions [J]."""
+    """Energy dissipated by impacts in one pitch [J]."""
     work: float | None = None
-    """Sum of the energies handed and dissipated in one pitch [J]."""
+    """Work of the driver in one pitch [J]: sum of the energies transferred and dissipated."""
     minimum_load: float | None = None
-    """Load torque (N m) that keeps the teeth in contact at this rate."""
+    """Load torque that keeps the teeth in contact at this speed [N m]."""
     void: float | None = None
-    """Driver's speed (turns per second) above which they part under the declared load."""
+    """Driver's speed above which the teeth separate under the declared load [turns per second]."""
 
 
 def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:
-    """What collisions cost; None where no inertia is known, or the law has no account of its collisions."""
+    """Return the impact energies of a pair, or None if its inertia or its speed jumps are unknown."""
     inertia, load, omega1 = operation.inertia, operation.load, operation.omega1
     leaps, steepest = transmission.speed_leaps(), transmission.steepest_fall()
     if inertia is None or leaps is None or steepest is None:

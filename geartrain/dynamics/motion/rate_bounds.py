@@ -1,10 +1,10 @@
-"""Bounds on errors and rates of outputs over steps of the input, by interval arithmetic along the solved order.
+"""Bounds on errors and rates of outputs over steps of the input, by interval arithmetic along the order of solution.
 
-At both ends of a step every driver's angle S_m is known, and between them it lies between these two (where it cannot
-turn back; else beyond them by what its slowest speed allows). A table of each law tells between which two values its
-speed ratio tau_m lies there. Rates follow as intervals: rate(driven) = sigma (tau - mean tau) S', summed by equation
-(2) of docs/motion.md, and where pairs depend on each other by Krawczyk's operator. With a rate between r and R an error
-lies between its values at the ends as Piyavskii's bounds say.
+The angle S_m of every driver is known at both ends of a step. Within the step it is between these two, or beyond them
+by what its minimum speed allows if it can turn back. A table of each transmission function gives bounds of the speed
+ratio tau_m there. Rates follow as intervals: rate(driven) = sigma (tau - mean tau) S', summed by equation (2) of
+docs/motion.md. For coupled pairs they follow from Krawczyk's operator. An error with a rate between r and R is bounded
+by its values at the ends (Piyavskii's bounds).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class RangeExtremes:
-    """Extremes of runs of cells, each with a least and a greatest value, (n,), the first following the last."""
+    """Minimum and maximum over ranges of cyclic cells in constant time (sparse table)."""
 
     def __init__(self, minimum: Floats, most: Floats) -> None:
         self.count = len(minimum)
@@ -42,9 +42,9 @@ class RangeExtremes:
         return np.stack(minimum), np.stack(most)
 
     def over(self, first: Ints, last: Ints) -> tuple[Floats, Floats]:
-        """Least and greatest value over cells `first` to `last`, any whole numbers, first <= last."""
+        """Return minimum and maximum over cells `first` to `last`, any integers with first <= last."""
         length = np.clip(last - first + 1, 1, self.count)
-        level = np.frexp(length)[1] - 1
+        level = np.frexp(length)[1] - 1  # floor of the binary logarithm: two overlapping blocks of 2^level cells cover
         one, other = first % self.count, (first + length - (1 << level)) % self.count
         minimum, most = self._levels
         return (
@@ -53,15 +53,15 @@ class RangeExtremes:
         )
 
 
-_CELLS = 1024  # of a period, of a table of the speed ratio
-_A_KINK = 64  # cells for each corner of a law, where that is more
-_WITHIN = 4  # values of the speed ratio in a cell
-_MARGIN = 0.25  # of what it changes within a cell: it may go so far beyond these values
-_BESIDE = 1e-9  # of a period: so near to a corner is its limit from one side
+_CELLS = 1024  # minimum number of cells per period in a table of the speed ratio
+_A_KINK = 64  # cells per kink of a transmission function, if that is more
+_WITHIN = 4  # samples of the speed ratio in a cell
+_MARGIN = 0.25  # of the change within a cell: allowance for values beyond these samples
+_BESIDE = 1e-9  # of a period: distance from a kink at which its one-sided limits are taken
 
 
 class Interval(NamedTuple):
-    """Least and greatest value, arrays of one shape."""
+    """Intervals: minimum and maximum, arrays of one shape."""
 
     low: Floats
     high: Floats
@@ -70,28 +70,28 @@ class Interval(NamedTuple):
         return Interval(self.low + other.low, self.high + other.high)
 
     def __mul__(self, other: Interval) -> Interval:  # type: ignore[override]
-        """Of the product."""
+        """Return the interval of the product."""
         each = np.stack([self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high])
         return Interval(each.min(axis=0), each.max(axis=0))
 
     def scaled(self, factor: float) -> Interval:
-        """Times a number."""
+        """Return the interval times a number."""
         ends = factor * self.low, factor * self.high
         return Interval(*(ends if factor >= 0 else ends[::-1]))
 
     @property
     def middle(self) -> Floats:
-        """Half way."""
+        """Midpoint of the interval."""
         return (self.low + self.high) / 2
 
     @property
     def radius(self) -> Floats:
-        """Half the width."""
+        """Half of the width."""
         return (self.high - self.low) / 2
 
 
 class SpeedRanges:
-    """Between which values the speed ratio of a law lies while its driver goes from one angle to another."""
+    """Table of bounds on the speed ratio of a transmission function over ranges of driver angles."""
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.period = transmission.period
@@ -101,6 +101,7 @@ class SpeedRanges:
         inside = (np.arange(_WITHIN) / (_WITHIN - 1)) * (1 - 2 * _BESIDE) + _BESIDE
         values = transmission.speed((np.arange(self.cells)[:, None] + inside) * width)
         minimum, most = np.nanmin(values, axis=1), np.nanmax(values, axis=1)
+        # the ratio may jump at a kink, so both one-sided limits are included
         for side in (-_BESIDE, _BESIDE):
             at = kinks + side * transmission.period
             cell, value = np.floor(at / width).astype(int) % self.cells, transmission.speed(at)
@@ -110,22 +111,22 @@ class SpeedRanges:
         self._extremes = RangeExtremes(minimum - spread, most + spread)
 
     def over(self, phase: Floats, travel: Interval) -> Interval:
-        """While it goes from `phase` + travel.low to `phase` + travel.high (rad)."""
+        """Return bounds from the angle `phase` + travel.low to `phase` + travel.high [rad]."""
         scale = self.cells / self.period
         first, last = (np.floor((phase + end) * scale) for end in travel)
-        # a whole period has all values: how many makes no difference
+        # one period includes all values, so that more periods need not be counted
         last = np.minimum(last, first + self.cells)
         return Interval(*self._extremes.over(first.astype(np.int64), last.astype(np.int64)))
 
 
 def error_difference(one: ErrorSamples, other: ErrorSamples) -> ErrorSamples:
-    """Errors of outputs less other errors of them at the same positions; where a driver turns back in either, told."""
+    """Return the difference of errors at the same positions, with the reversing drivers of both."""
     both = one.reversing_drivers | other.reversing_drivers
     return ErrorSamples(one.turns, one.error - other.error, one.rate - other.rate, both)
 
 
 class StepBounds(NamedTuple):
-    """Errors and rates of outputs over steps, (outputs, n): at the ends, and bounds on the rates between them."""
+    """Errors and rates of outputs over steps, (outputs, n): end values, and bounds on the rates between them."""
 
     low: ErrorSamples
     high: ErrorSamples
@@ -133,16 +134,16 @@ class StepBounds(NamedTuple):
 
     @classmethod
     def difference(cls, one: StepBounds, other: StepBounds) -> StepBounds:
-        """Of the errors of one composition less those of another."""
+        """Return the bounds of the errors of one composition less those of another."""
         ends = error_difference(one.low, other.low), error_difference(one.high, other.high)
         return cls(*ends, one.rate + other.rate.scaled(-1.0))
 
     def errors(self) -> Interval:
-        """Bounds on the errors."""
+        """Return bounds on the errors."""
         angle = 2 * np.pi * (self.high.turns - self.low.turns)
         start, end, (minimum, most) = self.low.error, self.high.error, self.rate
         with np.errstate(all="ignore"):
-            # two lines from the ends, as steep as may be, meet at the bound (Piyavskii)
+            # the steepest lines from both ends intersect at the bound (Piyavskii)
             up = np.clip((end - start - minimum * angle) / (most - minimum), 0, angle)
             down = np.clip((most * angle - (end - start)) / (most - minimum), 0, angle)
             above = np.where(most > minimum, start + most * up, np.maximum(start, end))
@@ -162,12 +163,12 @@ class RateBounds:
 
     @cached_property
     def _sources(self) -> dict[int, PairErrorSource]:
-        """The sources that count, by index."""
+        """Sources that reach an output, by index."""
         return {at: self.composition.sources[at] for step in self.composition.steps for at in step.sources}
 
     @cached_property
     def _whole(self) -> ErrorComposition:
-        """The composition with the drivers of its sources, seen from their carriers, as further outputs."""
+        """Composition with the drivers of its sources, relative to their carriers, as additional outputs."""
         given, joints = self.composition, self.composition.spread.joints
         drivers = tuple(
             SeenLink(joints[s.pair].driver, joints[s.pair].carrier, s.driver_sense * s.carrier_sense)
@@ -182,12 +183,12 @@ class RateBounds:
 
     @property
     def chunk(self) -> int:
-        """Steps worked on at once."""
+        """Steps evaluated at once."""
         return self._whole.chunk
 
     def over(self, low: Floats, high: Floats) -> StepBounds:
-        """Bounds over steps from turns `low` to turns `high` of the input, (n,) each, at most a chunk of them."""
-        # most steps begin where others end
+        """Return bounds over steps from turns `low` to turns `high` of the input, (n,) each, at most one chunk."""
+        # most steps begin where others end, so that shared ends are evaluated once
         edges, at_edge = np.unique(np.concatenate([low, high]), return_inverse=True)
         found = self._whole.at(edges)
         ends = [
@@ -204,7 +205,7 @@ class RateBounds:
         return StepBounds(first, last, rate)
 
     def _rates(self, low: Floats, angle: Floats, shifts: dict[int, tuple[Floats, Floats]]) -> Interval:
-        """Of the outputs, (outputs, n)."""
+        """Return bounds on the rates of the outputs, (outputs, n)."""
         still = Interval(np.zeros(len(low)), np.zeros(len(low)))
         links: dict[int, Interval] = {}
         phase = InputPhase(low)
@@ -222,7 +223,7 @@ class RateBounds:
         return Interval(np.stack([each.low for each in found]), np.stack([each.high for each in found]))
 
     def _turning(self, at: int, links: dict[int, Interval], still: Interval) -> Interval:
-        """Speed of a source's driver over the input's."""
+        """Return bounds on the speed of a source's driver over the input speed."""
         source = self._sources[at]
         turning = Interval(still.low + source.mean, still.high + source.mean)
         for link, sign in self.composition.turned_by(source):
@@ -238,7 +239,7 @@ class RateBounds:
         angle: Floats,
         shifts: dict[int, tuple[Floats, Floats]],
     ) -> list[Interval]:
-        """Rates of the driven sides of a step's pairs, on their own."""
+        """Return bounds on the rates that a step's pairs add to their driven sides."""
         if not step.sources:
             return []
         if not step.coupled:
@@ -248,7 +249,7 @@ class RateBounds:
         found = _coupled_rates(self._slopes(step, turning, phase, angle, shifts), turning, gain)
         whole = [speed + _summed(row, found, speed.scaled(0.0)) for speed, row in zip(turning, gain, strict=True)]
         if any((speed.low < 0).any() for speed in whole):
-            # a driver may turn back, and come by angles beyond those at the ends
+            # a driver may reverse, and pass angles beyond those at the ends
             found = _coupled_rates(self._slopes(step, whole, phase, angle, shifts), turning, gain)
         return found
 
@@ -260,7 +261,7 @@ class RateBounds:
         angle: Floats,
         shifts: dict[int, tuple[Floats, Floats]],
     ) -> list[Interval]:
-        """sigma (tau - mean tau) of a step's pairs."""
+        """Return bounds on sigma (tau - mean tau) of a step's pairs."""
         found = []
         for at, speed in zip(step.sources, turning, strict=True):
             source, (first, last) = self._sources[at], shifts[at]
@@ -289,9 +290,9 @@ def _summed(row: Floats, each: list[Interval], still: Interval) -> Interval:
 
 
 def _coupled_rates(slopes: list[Interval], turning: list[Interval], gain: Floats) -> list[Interval]:
-    """Intervals of x = slope (w + gain x), for intervals of slopes and speeds w; infinite where none is found.
+    """Return intervals of x = slope (w + gain x), for intervals of slopes and speeds w, or infinite intervals.
 
-    About the middle slope m the solution of J x = b, J = I - diag(m) G, is off by at most r, where
+    With the middle slope m, the solution of J x = b, J = I - diag(m) G, has an error of at most r, where
     r = |J^-1| (rad b + rad slope |G| (|x| + r)): Krawczyk's operator, solved for r.
     """
     count = len(slopes)
@@ -300,12 +301,13 @@ def _coupled_rates(slopes: list[Interval], turning: list[Interval], gain: Floats
     b, off = (np.stack([getattr(each, part) for each in right]) for part in ("middle", "radius"))
     matrices = np.eye(count) - middle.T[:, :, None] * gain
     fit = np.isfinite(matrices).all(axis=(1, 2)) & np.isfinite(b).all(axis=0) & np.isfinite(off).all(axis=0)
-    fit[fit] = np.abs(np.linalg.det(matrices[fit])) > 1e-9
+    fit[fit] = np.abs(np.linalg.det(matrices[fit])) > 1e-9  # nearly singular middles give no useful bound
     matrices[~fit] = np.eye(count)
     inverse = np.linalg.inv(matrices)
     x = np.einsum("nij,jn->in", inverse, b)
     size = np.abs(inverse)
     spread = size @ (radius.T[:, :, None] * np.abs(gain))
+    # Krawczyk's operator needs a contraction: the maximum norm of the spread is below 1
     fit &= spread.sum(axis=2).max(axis=1) < 1
     spread[~fit] = 0
     known = off + radius * (np.abs(gain) @ np.abs(x))

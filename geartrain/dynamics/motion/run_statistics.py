@@ -1,7 +1,7 @@
-"""Peaks and moments of an output, gathered stretch by stretch; its extremes, wherever they are.
+"""Peaks and moments of an output, accumulated stretch by stretch, and its extremes at any position.
 
-Moments of stretches are joined by the update of Chan, Golub and LeVeque (1983). Errors of teeth have sharp peaks, which
-a sample misses: extremes are sought by themselves (docs/motion.md, section 5).
+Moments of stretches are combined with the update of Chan, Golub and LeVeque (1983). Transmission errors have sharp
+peaks that samples miss, so extremes are searched separately (docs/motion.md, section 5).
 """
 
 from __future__ import annotations
@@ -25,33 +25,36 @@ if TYPE_CHECKING:
 
 
 def mean_speed(name: str, ratio: Fraction) -> float:
-    """An exact mean speed as a float, or a `RangeError` where there is none."""
+    """Return an exact mean speed as a float. Raise `RangeError` if it overflows."""
     found = as_float(ratio)
     if found is None:
         what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the input's"
-        why = "motion is followed in float64, which holds 1e-308 to 1e308"
-        raise RangeError(Problem(what, why, "drive the train nearer to this output, or ask `solve`"))
+        why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
+        raise RangeError(Problem(what, why, "drive the train nearer to this output, or use `solve`"))
     return found
 
 
 class SpeedSpan(NamedTuple):
-    """Least and greatest speed over the mean (over the input's where that is 0), and the mean over the input's."""
+    """Minimum and maximum speed over the mean, and the mean over the input's speed.
+
+    If the mean is 0, minimum and maximum are over the input's speed.
+    """
 
     min: float
-    """Least speed over the mean; over the speed of the input where the mean is 0."""
+    """Minimum speed over the mean, or over the input's speed if the mean is 0."""
     max: float
-    """Greatest speed over the mean; over the speed of the input where the mean is 0."""
+    """Maximum speed over the mean, or over the input's speed if the mean is 0."""
     mean: float
-    """Mean speed over that of the input."""
+    """Mean speed over the input speed."""
 
 
 @dataclass
 class RunningStatistics(Result):
-    """Peaks and moments of the error and speed of one output over all positions seen so far (Welford, Chan et al.).
+    """Peaks and moments of error and speed of one output over all positions so far (Welford, Chan et al.).
 
     See Also
     --------
-    MotionRun.statistics : where these stand.
+    MotionRun.statistics : Statistics of all outputs.
     """
 
     KEYS = (
@@ -62,42 +65,45 @@ class RunningStatistics(Result):
     )
 
     name: str
-    """The output."""
+    """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the input's."""
+    """Exact mean speed over the input speed."""
     count: int = 0
-    """Positions seen."""
+    """Number of positions."""
     centre: float = 0.0
-    """Mean of the error [rad]."""
+    """Mean error [rad]."""
     square: float = 0.0
-    """Sum of the squared differences of the error from its mean [rad^2]."""
+    """Sum of squared deviations of the error from its mean [rad^2]."""
     minimum: float = inf
-    """Least error [rad]."""
+    """Minimum error [rad]."""
     most: float = -inf
-    """Greatest error [rad]."""
+    """Maximum error [rad]."""
     slow: float = inf
-    """Least speed less its mean, over the speed of the input."""
+    """Minimum speed less its mean, over the speed of the input."""
     fast: float = -inf
-    """Greatest speed less its mean, over the speed of the input."""
+    """Maximum speed less its mean, over the speed of the input."""
     error_within: float | None = 0.0
-    """No error of the run [rad] lies farther than this beyond the extremes of the error; 0 where the run was searched
-    to the end, which leaves a thousand millionth of the range, and None where no bound is known."""
+    """Bound on how far any error of the run exceeds the extremes found [rad].
+
+    It is 0 if the run was searched completely, to 1e-9 of the range, and None if no bound is known.
+    """
     speed_within: float | None = 0.0
-    """The same for the speed over that of the input."""
+    """Bound on how far any speed exceeds the extremes found, over the speed of the input; 0 or None as for the error.
+    """
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Count some more positions.
+        """Add some positions to the statistics.
 
         Parameters
         ----------
         error : array of float, (n,)
             Errors [rad].
         rate : array of float, (n,)
-            Speeds less their mean, over the input's.
+            Speeds less their mean, over the input speed.
         """
         new = len(error)
         centre = float(error.mean())
-        # differences from each stretch's own mean: a sum of squares would lose a small error beside a large lag
+        # deviations from each stretch's own mean: a plain sum of squares would cancel for a small error on a large lag
         gap = centre - self.centre
         total = self.count + new
         self.square += float(((error - centre) ** 2).sum()) + gap**2 * self.count * new / total
@@ -106,63 +112,63 @@ class RunningStatistics(Result):
         self.reach(error, rate)
 
     def reach(self, error: Floats, rate: Floats) -> None:
-        """Let extremes count, and nothing else.
+        """Include extremes, without changing the moments.
 
         Parameters
         ----------
         error, rate : array of float, (n,)
-            As for `add`.
+            Errors and rates, as for `add`.
         """
         self.minimum, self.most = min(self.minimum, float(error.min())), max(self.most, float(error.max()))
         self.slow, self.fast = min(self.slow, float(rate.min())), max(self.fast, float(rate.max()))
 
     @property
     def mean(self) -> float:
-        """Mean speed over the input's."""
+        """Mean speed over the input speed."""
         return mean_speed(self.name, self.ratio)
 
     @property
     def peak_to_peak(self) -> float:
-        """Greatest less least error (rad)."""
+        """Peak-to-peak error [rad]."""
         return self.most - self.minimum
 
     @property
     def rms(self) -> float:
-        """Root mean square of the error about its mean (rad)."""
+        """Root mean square of the error about its mean [rad]."""
         return sqrt(self.square / self.count)
 
     @property
     def speed_span(self) -> SpeedSpan:
-        """Least, greatest and mean speed."""
+        """Minimum, maximum and mean speed."""
         return SpeedSpan(*self.speeds, self.mean)
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Least and greatest speed over the mean, or over the input's where the mean is 0."""
+        """Minimum and maximum speed over the mean, or over the input speed if the mean is 0."""
         scale = self.mean or 1.0
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high
 
 
-_BIN = 1024  # positions of which the greatest is kept
-_KEPT = 10  # of them, for each output and each extreme
+_BIN = 1024  # positions per bin, each of which keeps its maximum
+_KEPT = 10  # bins kept for each output and each extreme
 
 
 class ErrorSampler(Protocol):
-    """What errors of outputs can be asked of, at most a chunk of positions at once."""
+    """Protocol of objects that compute errors of outputs, at most one chunk of positions at once."""
 
     @property
     def chunk(self) -> int:
-        """Positions worked on at once."""
+        """Positions evaluated at once."""
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Errors and rates where the input has made some turns."""
+        """Return errors and rates at some turns of the input."""
 
 
 class SampledPeaks:
-    """The greatest and least errors and speeds of each output among sampled positions, and the turns where they are.
+    """Extreme errors and speeds of each output among sampled positions, and the turns at which they occur.
 
-    values, turns    (outputs, 4, n): of `signed` errors and rates, the greatest first
+    values, turns    (outputs, 4, n): maxima of `signed` errors and rates, largest first
     """
 
     def __init__(self, outputs: int) -> None:
@@ -170,7 +176,7 @@ class SampledPeaks:
         self.turns = np.zeros((outputs, 4, 0))
 
     def add(self, passage: ErrorSamples) -> None:
-        """Keep the best of some more positions."""
+        """Update the peaks with some positions."""
         bins = [_peaks(passage, slice(start, start + _BIN)) for start in range(0, len(passage.turns), _BIN)]
         values = np.concatenate([self.values, np.stack([value for value, _ in bins], axis=2)], axis=2)
         turns = np.concatenate([self.turns, np.stack([turns for _, turns in bins], axis=2)], axis=2)
@@ -180,7 +186,7 @@ class SampledPeaks:
 
 
 def _peaks(passage: ErrorSamples, part: slice) -> tuple[Floats, Floats]:
-    """The greatest of `signed` errors and rates in a part of a stretch, and the turns there, (outputs, 4)."""
+    """Return the maxima of `signed` errors and rates in a part of a stretch, and their turns, (outputs, 4)."""
     found, turns = [], []
     for each in (passage.error[:, part], passage.rate[:, part]):
         for sign, at in ((1, np.argmax(each, axis=1)), (-1, np.argmin(each, axis=1))):
@@ -192,10 +198,10 @@ def _peaks(passage: ErrorSamples, part: slice) -> tuple[Floats, Floats]:
 def count_extremes(
     search: ExtremeSearch, turns: float, step: float, peaks: SampledPeaks, tallies: Sequence[RunningStatistics]
 ) -> None:
-    """Let the extremes of a run count, wherever they are, and say what is left open.
+    """Include the extremes between sampled positions in the statistics, with bounds on their uncertainty.
 
-    step, peaks    turns between the positions at which the run was sampled, and the extremes there: around them is
-                   searched where the run is too long to be searched whole
+    step, peaks    turns between sampled positions, and the sampled extremes; the search is limited to their
+                   neighbourhood if the run is too long to be searched completely
     """
     low, high = sorted((0.0, turns))
     search.over(low, high)

@@ -1,9 +1,9 @@
-"""Cheap estimates of ripple, equation (6) of docs/motion.md, and how far off they are: sums over pairs.
+"""Fast estimates of transmission error, equation (6) of docs/motion.md, and their accuracy: sums over pairs.
 
-No pair reacts on another here. To first order an output's error is the sum of its sensitivities times the pairs'
-errors. The sum of their ranges bounds its range, and with phases that nothing relates the squares of their rms values
-add. Superposed in phase, the sum follows the motion itself as far as the drivers' own errors may be left out of their
-angles; counting by how much the mean of these errors differs from turn 0 brings part of the rest.
+The estimates neglect the effect of pairs on each other. To first order an output's error is the sum of its
+sensitivities times the pairs' errors. The sum of their ranges bounds its range. For independent phases the squares of
+their rms values add. Superposition in phase approximates the motion as far as the errors of drivers do not change their
+angles. Including the mean of these errors relative to turn 0 (lag) corrects a part of the rest.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class Superposition:
-    """The ripple of a composition to first order: each pair at the angle its driver has on average."""
+    """First-order errors of a composition, with each pair at the mean angle of its driver."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used
@@ -38,28 +38,28 @@ class Superposition:
 
     @cached_property
     def ranges(self) -> Floats:
-        """Range of each pair's error (rad of its driven side)."""
+        """Range of each pair's error [rad of its driven side]."""
         ends = [source.transmission.error_range() for source in self.sources]
         return np.array([high - low for low, high in ends])
 
     @cached_property
     def moments(self) -> Floats:
-        """Mean and rms of each pair's error (rad of its driven side), (2, pairs)."""
+        """Mean and rms of each pair's error [rad of its driven side], (2, pairs)."""
         return np.array([source.transmission.error_moments() for source in self.sources]).reshape(-1, 2).T
 
     @property
     def bounds(self) -> list[float]:
-        """The range of each output's error is at most this (rad)."""
+        """Upper bound on the range of each output's error [rad]."""
         return [float(row) for row in np.abs(self.response) @ self.ranges]
 
     @property
     def independent(self) -> list[float]:
-        """Rms of each output's error (rad) where nothing relates the phases of the pairs."""
+        """Rms of each output's error for independent phases of the pairs [rad]."""
         return [hypot(*row) for row in self.response * self.moments[1]]
 
     @cached_property
     def lags(self) -> Floats:
-        """What the mean errors of all pairs add to each driver's forward angle (rad)."""
+        """Change of each driver's forward angle due to the mean errors of all pairs [rad]."""
         spread, senses = self.composition.spread, np.array([float(source.sense) for source in self.sources])
         deltas = np.zeros((len(spread.pairs), 1))
         deltas[[source.pair for source in self.sources], 0] = senses * self.moments[0]
@@ -67,7 +67,7 @@ class Superposition:
         return np.array([self.composition.driver_shift(source, error) for source in self.sources])
 
     def at(self, turns: Floats, lagged: bool = True) -> Floats:
-        """Errors of the outputs (rad), (outputs, n), the mean lags counted in the phases or not."""
+        """Return errors of the outputs [rad], (outputs, n), with or without mean lags in the phases."""
         angle = InputPhase(turns)
         found = np.zeros((len(self.response), len(turns)))
         for at, source in enumerate(self.sources):
@@ -79,7 +79,7 @@ class Superposition:
 
 @dataclass(frozen=True)
 class SuperpositionEstimate(Result):
-    """One way to superpose, beside the truth: tallies of its own error, and of its difference from composition."""
+    """Estimate by superposition: statistics of its own error, and of its difference from the composed motion."""
 
     KEYS = (
         Key("peak_to_peak", "own.peak_to_peak"),
@@ -92,17 +92,17 @@ class SuperpositionEstimate(Result):
 
     @property
     def maximum(self) -> float:
-        """Greatest difference from the composed motion, about its mean (rad)."""
+        """Maximum difference from the composed motion, about its mean [rad]."""
         return max(self.off.centre - self.off.minimum, self.off.most - self.off.centre)
 
 
 @dataclass(frozen=True)
 class ErrorEstimates(Result):
-    """Cheap estimates of one output's error beside the truth: equation (6) of docs/motion.md.
+    """Fast estimates of one output's error, with the exact result: equation (6) of docs/motion.md.
 
     See Also
     --------
-    MotionRun.estimate : what gives these.
+    MotionRun.find_estimates : Method that computes these.
     """
 
     KEYS = (
@@ -113,11 +113,11 @@ class ErrorEstimates(Result):
     )
 
     true: RunningStatistics
-    """The exact composition over the same positions."""
+    """Exact composition over the same positions."""
     bound: float
-    """Sum over pairs of sensitivity times range: the range of the error is at most this [rad]."""
+    """Sum over pairs of sensitivity times range, an upper bound on the range of the error [rad]."""
     independent: float
-    """Root mean square of the error if nothing relates the phases of the pairs [rad]."""
+    """Root mean square of the error for independent phases of the pairs [rad]."""
     nominal: SuperpositionEstimate
     """Sum of the errors with each driver at its mean angle."""
     lagged: SuperpositionEstimate
@@ -125,19 +125,19 @@ class ErrorEstimates(Result):
 
     @property
     def bound_error(self) -> float:
-        """By how much the bound is off, over the true range."""
+        """Relative error of the bound."""
         return (self.bound - self.true.peak_to_peak) / (self.true.peak_to_peak or 1.0)
 
     @property
     def independent_error(self) -> float:
-        """By how much the rms of independent phases is off, over the true one."""
+        """Relative error of the rms for independent phases."""
         return (self.independent - self.true.rms) / (self.true.rms or 1.0)
 
 
 def find_estimates(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, ErrorEstimates]:
-    """Every estimate of every output's ripple with its true error, over `samples` positions."""
+    """Return all estimates of every output's error with their true accuracy, over `samples` positions."""
     superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))
     for passage in motion._stretches(turns, samples):

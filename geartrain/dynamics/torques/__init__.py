@@ -1,11 +1,11 @@
-"""Mean torques: balances of links, the flow of power, verdicts.
+"""Mean torques: balances of links, power flow, verdicts.
 
-load_case                            a train in one case, as torques see it; the check by virtual work
-torque_balance, flow_patterns        the balance of every link; the patterns of power flow that agree with its losses
-mean_efficiencies                    what each pair loses on the mean, by which of its torques is constant
+load_case                            a train in one case with its loads; the check by virtual work
+torque_balance, flow_patterns        the balance of every link; patterns of power flow consistent with the losses
+mean_efficiencies                    mean losses of each pair, depending on which of its torques is constant
 torque_analysis                      from a declared train to its torques and their verdict
-torque_results                       the answer; torques on single links and pairs
-power_flow                           the powers of an answer: in a chart, circulating in loops
-drivers                              who drives each pair
-neglected_effects                    what a balance of means does not count
+torque_results                       the results; torques on single links and pairs
+power_flow                           power flow of a result: streams and recirculating power
+drivers                              driving side of each pair
+neglected_effects                    effects that a balance of mean torques neglects
 """

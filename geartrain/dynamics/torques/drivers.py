@@ -1,15 +1,16 @@
-"""Which side drives each gear pair and coupling: from which power flows through it, seen from its carrier.
+"""Driving side of each gear pair and coupling, from the power that flows through it relative to its carrier.
 
-"Who drives a pair" in docs/torques.md, section 3. Where loads are declared the torques decide, for all pairs that a
-load reaches. Else every pointer on a dial is taken to resist its motion, with a torque that is not known: without
-loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0, so if all c_o of a pair have
-one sign power flows one way whatever the pointers weigh, and else the way is open. For pairs through which no pointer
-takes power, resistance is assumed at the outputs on shafts, then at all outputs, all shafts, and at last every joint.
-The order of declaration has no part in it.
+"Who drives a pair" in docs/torques.md, section 3. If loads are declared, the torques decide for all pairs that a load
+reaches. Otherwise every pointer on a dial is assumed to resist its motion with an unknown torque. Without loss the
+multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0. If all c_o of a pair have one sign, the
+power flows in one direction for any torques of the pointers; otherwise the direction is undetermined. For pairs through
+which no pointer takes power, resistance is assumed at the outputs on shafts, then at all outputs, all shafts, and
+finally every joint. The order of declaration does not matter.
 
-The coefficients c_o are exact (point 3 there): one elimination for all loads at once, each load a symbol, and every
-unknown torque a linear form of symbols. Where loads go on through one torque only, and with one sign, only their sum
-matters from there on: it becomes a symbol of its own, so that long trains stay cheap and their numbers short.
+The coefficients c_o are exact (point 3 there). One elimination treats all loads at once, with a symbol for each load
+and every unknown torque as a linear form of symbols. Where loads continue through a single torque, with one sign, only
+their sum matters beyond it. That sum becomes a symbol, which keeps the cost of long trains and the length of their
+numbers small.
 """
 
 from __future__ import annotations
@@ -37,14 +38,14 @@ if TYPE_CHECKING:
 
 
 UnitLoads = Mapping[str, Mapping[str, Fraction]]
-"""Who resists -> link -> torque at a load of one."""
+"""Torques by link under a unit load, by the name of the resisting output or link."""
 
-_NAMED = 3  # loads named; of the others it is said how many they are
+_NAMED = 3  # loads listed by name; the others are only counted
 
 
 @dataclass(frozen=True)
 class LoadGroup:
-    """Loads summed up: how many, and the first of their names in alphabetical order."""
+    """Sum of loads: their number, and their first names in alphabetical order."""
 
     count: int
     names: tuple[str, ...]
@@ -55,7 +56,7 @@ class LoadGroup:
         return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
     def joined(self, other: LoadGroup) -> LoadGroup:
-        """Both together; what is in both counts once as far as it is named."""
+        """Return the union of two groups. Common members count once if both groups name them."""
         names = sorted({*self.names, *other.names})
         twice = len({*self.names} & {*other.names})
         return LoadGroup(self.count + other.count - twice, tuple(names[:_NAMED]))
@@ -65,7 +66,7 @@ NOTHING = LoadGroup(0, ())
 
 
 class LoadInfluence(NamedTuple):
-    """Which loads act on one mesh: those that make its multiplier positive, and negative; `open` if nothing tells."""
+    """Loads that make the multiplier of a mesh positive or negative. `open` is True if it is undetermined."""
 
     plus: LoadGroup = NOTHING
     minus: LoadGroup = NOTHING
@@ -73,9 +74,9 @@ class LoadInfluence(NamedTuple):
 
 
 def find_load_influence(balance: TorqueBalance, loads: UnitLoads) -> dict[str, LoadInfluence] | None:
-    """The influence of loads on every mesh; None where no torques balance the loads.
+    """Return the influence of loads on every mesh, or None if no torques balance the loads.
 
-    balance   without losses; its known torques only tell which links are loaded
+    balance   without losses; its known torques only mark the loaded links
     """
     weighing = _InfluenceSolver(balance, loads)
     return weighing.found if weighing.go() else None
@@ -87,9 +88,9 @@ class _InfluenceSolver:
         self.found: dict[str, LoadInfluence] = {}
 
     def _start(self) -> None:
-        self.takers: dict[int, LoadGroup] = {}
+        self.groups: dict[int, LoadGroup] = {}
         self.rows: dict[int, LinearForm] = {row: {} for row in self.balance.rows}
-        self.holders: dict[int, set[int]] = {}
+        self.holding_rows: dict[int, set[int]] = {}
         at = {link: row for row, link in enumerate(self.balance.links)}
         for name in sorted(self.loads):
             symbol = self._symbol(LoadGroup(1, (name,)))
@@ -97,20 +98,20 @@ class _InfluenceSolver:
                 if at.get(link) in self.rows:
                     self._add(at[link], {symbol: torque}, 1)
 
-    def _symbol(self, taker: LoadGroup) -> int:
-        symbol = -1 - len(self.takers)
-        self.takers[symbol] = taker
-        self.holders[symbol] = set()
+    def _symbol(self, group: LoadGroup) -> int:
+        symbol = -1 - len(self.groups)
+        self.groups[symbol] = group
+        self.holding_rows[symbol] = set()
         return symbol
 
     def _add(self, row: int, form: LinearForm, factor: Fraction | int) -> None:
         own = self.rows[row]
         add_into(own, form, factor)
         for symbol in form:
-            (self.holders[symbol].add if symbol in own else self.holders[symbol].discard)(row)
+            (self.holding_rows[symbol].add if symbol in own else self.holding_rows[symbol].discard)(row)
 
     def go(self) -> bool:
-        """Solve block by block, or all at once where a block leaves open what a later one may need."""
+        """Solve block by block, or all at once if a block leaves open what a later one may need."""
         self._start()
         done = self._through(self.balance.parts)
         if done is None:
@@ -131,27 +132,31 @@ class _InfluenceSolver:
         return True
 
     def _solve(self, block: Block) -> dict[int, LinearForm | None] | None:
-        """Every unknown of a block as a form of symbols, None where it stays open; None for all if nothing balances."""
+        """Solve a block for its unknowns as linear forms of symbols, None if undetermined.
+
+        The result as a whole is None if nothing balances.
+        """
         known = {row: self.rows.pop(row) for row in block.rows}
         for row, form in known.items():
             for symbol in form:
-                self.holders[symbol].discard(row)
+                self.holding_rows[symbol].discard(row)
         found = solve_block(self.balance.columns, block, dict.fromkeys(block.columns, 0), known)
         if found is None or len(block.rows) > 1 or len(block.columns) > 1:
             return found
         return {column: None if form is None else self._merged(form) for column, form in found.items()}
 
     def _merged(self, form: LinearForm) -> LinearForm:
-        """One symbol for loads of one sign that are told apart nowhere else."""
+        """Replace loads of one sign by a single symbol, if they are not needed separately elsewhere."""
+        # symbols in no remaining row are not needed separately; only their sum continues
         signs = {value > 0 for value in form.values()}
-        if len(signs) != 1 or any(self.holders[symbol] for symbol in form):
+        if len(signs) != 1 or any(self.holding_rows[symbol] for symbol in form):
             return form
         return {self._symbol(self._sum(form)): Fraction(1 if signs.pop() else -1)}
 
     def _sum(self, symbols: Sequence[int] | LinearForm) -> LoadGroup:
         found = NOTHING
         for symbol in symbols:
-            found = found.joined(self.takers[symbol])
+            found = found.joined(self.groups[symbol])
         return found
 
     def _take(self, at: int, form: LinearForm | None) -> None:
@@ -170,29 +175,29 @@ class _InfluenceSolver:
 
 
 class FlowDirections(NamedTuple):
-    """What takes power that flows from a pair's first wheel to its second, and what takes it the other way."""
+    """Loads that take power flowing from a pair's first wheel to its second, and those that take it in reverse."""
 
     ahead: LoadGroup = NOTHING
     back: LoadGroup = NOTHING
     shared: bool = False
-    """Redundant pairs share the power in no certain way."""
+    """True if redundant pairs share the power in an undetermined way."""
     note: str = ""
-    """What takes no power through this pair."""
+    """Note on outputs that take no power through this pair."""
 
     def __bool__(self) -> bool:
         return bool(self.ahead.count or self.back.count or self.shared)
 
     def joined(self, other: FlowDirections) -> FlowDirections:
-        """What either says."""
+        """Return the union of two directions."""
         ahead, back = self.ahead.joined(other.ahead), self.back.joined(other.back)
         return FlowDirections(ahead, back, self.shared or other.shared, self.note)
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """The driver of every pair, and of every coupling, in one case: a wheel, or a link. Each is found when it is read.
+    """Return the driving wheel of every pair and the driving link of every coupling in one case, found when first read.
 
-    circuits   those that are in; `setting` may have more
-    setting    the case with its speeds; None where they are not determined, and only what is declared tells
+    circuits   those that are included; `setting` may have more
+    setting    the case with its speeds; None if they are undetermined, which leaves only declared drivers
     """
     if setting is None:
         return _undetermined(train, circuits, "the speeds of the train are not determined")
@@ -200,10 +205,12 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
 
 
 def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
-    """The drivers where no speeds are known: those that are declared, and no others."""
+    """Return the drivers without known speeds: only declared drivers are certain."""
     declared = _declared(train)
     text = f"undetermined: {why}"
-    return {each.id: declared.get(each.id) or MeshDriver(_lesser(train, each), text, False) for each in circuits}
+    return {
+        each.id: declared.get(each.id) or MeshDriver(_assumed_driver(train, each), text, False) for each in circuits
+    }
 
 
 def _declared(train: Train) -> dict[str, MeshDriver]:
@@ -211,7 +218,7 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """The drivers in one case with its speeds; efficiencies, which need teeth, enter only where a load acts."""
+    """Drivers in one case with its speeds. Efficiencies, which need teeth, are computed only where a load acts."""
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting
@@ -225,11 +232,11 @@ class _Drivers:
         if name not in self._idle and name in self._loaded:
             return self._loaded[name]
         source = " and ".join(sorted(power_inputs(self.setting)))
-        return _judged(self.setting, self.circuits[name], self._ways.get(name, FlowDirections()), source)
+        return _driver_of(self.setting, self.circuits[name], self._ways.get(name, FlowDirections()), source)
 
     @cached_property
     def _idle(self) -> Collection[str]:
-        """The pairs that no load reaches: efficiencies do not matter. Sought only where these need teeth."""
+        """Pairs that no load reaches, whose efficiencies do not matter. Searched only if efficiencies need teeth."""
         return find_idle_pairs(self.setting) if self.setting.meshes else ()
 
     @cached_property
@@ -246,37 +253,40 @@ class _Drivers:
 
 
 def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
-    why = "power flows so under the loads"
+    why = "power flow under the loads"
     if loaded.verdict.kind == "ambiguous":
-        why += ", in the flow that loses least"
+        why += ", in the pattern with minimum loss"
     return {name: MeshDriver(pair.driver, why) for name, pair in loaded.pairs.items() if pair.driver and not pair.loose}
 
 
-# ------------------------------------------------------------------------------------------------------- what resists
+# ----------------------------------------------------------------------------------------------- assumed resistances
 
 
 def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
-    """The way of power through pairs that roll: as pointers take it, else outputs, shafts, joints."""
+    """Return the directions of power through pairs that roll, from resisting pointers, outputs, shafts or joints."""
     found: dict[str, FlowDirections] = {}
     note = ""
     for loads, missed in _RESISTING:
         left = {name for name in wanted if name not in found}
         if not left or not (resisting := loads(setting)):
             continue
-        found |= {name: way._replace(note=note) for name, way in _weighed(setting, resisting).items()
+        found |= {name: way._replace(note=note) for name, way in _flow_directions(setting, resisting).items()
                   if way and name in left}  # fmt: skip
         note = f"{missed} takes power through it; " if missed else note
     return found
 
 
 def _pointers(setting: LoadCase) -> UnitLoads:
-    """Every output on a dial, against its own motion."""
+    """Return unit loads on every output with a dial, against its motion."""
     outputs = setting.case.outputs
     return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
 
 
-def _outer(setting: LoadCase) -> UnitLoads:
-    """Every output that is a shaft in the frame: what turns on a carrier, or is seen from one, is a reading."""
+def _output_shafts(setting: LoadCase) -> UnitLoads:
+    """Return unit loads on every output shaft in the frame.
+
+    Outputs on carriers, or relative to one, are only readings.
+    """
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     outer = {name for name, (of, base) in ends.items() if base == frame == setting.bearer(of)}
@@ -284,52 +294,52 @@ def _outer(setting: LoadCase) -> UnitLoads:
 
 
 def _outputs(setting: LoadCase) -> UnitLoads:
-    """Every output, against its own motion."""
+    """Return unit loads on every output, against its motion."""
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     return {name: drag for name, (of, base) in ends.items() if (drag := _drag(setting, of, base))}
 
 
 def _shafts(setting: LoadCase) -> UnitLoads:
-    """Every link that turns in the frame."""
+    """Return unit loads on every link that turns in the frame."""
     return {link: drag for link, drag in _joints(setting).items() if setting.bearer(link) == setting.train.frame}
 
 
 def _joints(setting: LoadCase) -> UnitLoads:
-    """Every link, against its turning on what bears it."""
+    """Return unit loads on every link, against its rotation in its bearing."""
     links = (link for link in setting.train.links if link != setting.train.frame)
     return {link: drag for link in links if (drag := _drag(setting, link, setting.bearer(link)))}
 
 
 _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_pointers, "no dial"),
-    (_outer, "no output shaft"),
+    (_output_shafts, "no output shaft"),
     (_outputs, "no output"),
     (_shafts, ""),
     (_joints, ""),
 )
-"""What is asked in turn, and what is said of pairs through which it takes no power."""
+"""Assumed resistances in order of precedence, and the words for pairs through which they take no power."""
 
 
 def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
-    """A unit of torque between two links, against their turning on each other; nothing where they do not."""
+    """Return a unit torque between two links against their relative rotation, or nothing if it is 0."""
     own, other = setting.sense(of), setting.sense(base)
     relative = setting.relative(of, base) or Fraction(0)
     sign = (relative > 0) - (relative < 0)
     return {of: Fraction(-sign * own), base: Fraction(sign * other)} if sign else {}
 
 
-# ----------------------------------------------------------------------------------------------------- where power goes
+# ----------------------------------------------------------------------------------------------------- power directions
 
 
-def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """The way of every pair under any mixture of some loads."""
+def _flow_directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
+    """Return the direction of power in every pair under any positive combination of loads."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting) if loads else ():
-        like = _peers(build_balance(setting, {}, requested))
+        like = _equal_planets(build_balance(setting, {}, requested))
         spread = {name: _spread(each, like) for name, each in loads.items()}
         loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
-        # equal planets stay equal under equal loads; the numbers only tell apart what is loaded
+        # equal planets remain equal under equal loads; the numbers only distinguish the loaded links
         number = {peer: Fraction(at) for at, link in enumerate(loaded, 2) for peer in like.get(link, (link,))}
         shares = find_load_influence(balance := build_balance(setting, number, requested), spread)
         for mesh in balance.meshes if shares is not None else ():
@@ -340,18 +350,18 @@ def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """The links whose torques are unknown, as many as inputs: every choice, where a crank stands beside inputs."""
+    """Yield the links of unknown torque, as many as inputs: every combination if there is a crank besides inputs."""
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
-        links = inputs  # a crank at rest
+        links = inputs  # the crank is at rest and passes no power
     if len(links) == len(inputs):
         yield links
     else:
         yield from ((links[0], *rest) for rest in combinations(links[1:], len(inputs) - 1))
 
 
-def _peers(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
-    """The equal planets of each, itself among them."""
+def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
+    """Return the equal planets of each planet, including itself."""
     ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
     found: dict[str, tuple[str, ...]] = {}
     for group in balance.ties:
@@ -362,7 +372,7 @@ def _peers(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """The same load on every planet that is like the one it acts on, and as often on what bears them."""
+    """Apply a load equally to all planets equal to the loaded one, and as often to their carrier."""
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)
@@ -374,35 +384,36 @@ def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -
 # ------------------------------------------------------------------------------------------------------------- verdicts
 
 
-def _judged(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: str) -> MeshDriver:
+def _driver_of(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: str) -> MeshDriver:
     first, second = circuit.wheels
     if way.shared:
-        return _open(setting, circuit, "redundant pairs share the load in no certain way; `share` or `loads` decide")
+        why = "redundant pairs share the load in an unknown ratio; declare `share` or `loads`"
+        return _open(setting, circuit, why)
     if way.ahead.count and way.back.count:
-        # the way that more of them would have it is taken; else nothing speaks for either
+        # the direction with more loads is assumed; with equal numbers neither is preferred
         ways = sorted([(-way.ahead.count, first, second, way.ahead), (-way.back.count, second, first, way.back)])
         (more, likely, other, most), (less, *_, rest) = ways
-        why = f"{way.note}power flows from {likely} to {other} for {most}, the other way for {rest}; `loads` decide"
+        why = f"{way.note}power flows from {likely} to {other} for {most}, and back for {rest}; declare `loads`"
         found = _open(setting, circuit, why)
         return replace(found, wheel=likely) if more < less else found
     if way:
-        taker = way.ahead if way.ahead.count else way.back
-        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flows so from {source} to {taker}")
+        group = way.ahead if way.ahead.count else way.back
+        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flow {source} -> {group}")
     turn = setting.turn(circuit)
     if turn is None:
-        return _open(setting, circuit, "nothing says how fast its two sides turn against each other")
+        return _open(setting, circuit, "the relative speed of its two sides is not determined")
     if not turn:
-        what = "its slot swings and stays" if circuit.swings else "its two sides do not turn against each other"
+        what = "its slot only oscillates" if circuit.swings else "its two sides have no relative motion"
         return _open(setting, circuit, f"{what}, so no power flows on average")
     return _open(setting, circuit, "no power flows through it")
 
 
 def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
-    return MeshDriver(_lesser(setting.train, circuit), f"undetermined: {why}", False)
+    return MeshDriver(_assumed_driver(setting.train, circuit), f"undetermined: {why}", False)
 
 
-def _lesser(train: Train, circuit: Circuit) -> str:
-    """A wheel to go on with where nothing says which drives: that of fewer teeth, then by name; a pin."""
+def _assumed_driver(train: Train, circuit: Circuit) -> str:
+    """Return the assumed driver where it is undetermined: the wheel of fewer teeth, then by name; or the pin."""
     if circuit.kind != "gear":
         return circuit.j
     return min(

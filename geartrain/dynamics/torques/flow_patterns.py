@@ -1,9 +1,10 @@
-"""Patterns of power flow that agree with the losses, equations (5), (7) and (8) of docs/torques.md, block by block.
+"""Patterns of power flow consistent with the losses, equations (5), (7) and (8) of docs/torques.md, block by block.
 
-The balance is piecewise linear, one piece a pattern. Where all pieces have one orientation there is exactly one
-solution (Samelson, Thrall and Wesler); else none (self-locking) or several. Most torques follow one after another: in
-block triangular form an ordinary train has one unknown a block, and only the meshes of one block need their patterns
-tried together. In a block with too many the iteration's answer stands, and it is said that it was not checked.
+The balance is piecewise linear, with one piece per pattern. If all pieces have the same orientation there is exactly
+one solution (Samelson, Thrall and Wesler); otherwise there is none (self-locking) or there are several. In block
+triangular form an ordinary train has one unknown per block, and only the patterns of coupled meshes in one block are
+enumerated together. In a block with too many lossy meshes, a fixed-point iteration gives one pattern, and the result is
+marked as not exhaustively checked.
 """
 
 from __future__ import annotations
@@ -23,26 +24,26 @@ if TYPE_CHECKING:
 
 
 Sides = Mapping[int, int]
-"""Column -> the side that drives in it: see `TorqueUnknown`."""
+"""Driving side by column; see `TorqueUnknown`."""
 
 KnownTorques = Mapping[int, LinearForm]
-"""Row -> the torques known there, as a form of symbols: columns below 0."""
-_MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried: 2^14 small solutions
-_MOST_OPEN = 10  # the same where torques stay open anyway, and the iteration has found some that balance
-_FEW = 4  # lossy torques whose patterns are not worth a trial in floats
-_CHUNK = 2**21  # numbers in the matrices tried at once: 16 MB of float64
-_MOST_ROUNDS = 50  # of the iteration; a pattern that comes again ends it sooner
-_MOST_FLOWS = 256  # kept while blocks are gone through
+"""Known torques by row, as linear forms of symbols (columns below 0)."""
+_MOST_TRIED = 14  # lossy torques of a block with exhaustive enumeration: 2^14 small systems
+_MOST_OPEN = 10  # the same if torques remain undetermined anyway and the iteration has found a solution
+_FEW = 4  # with fewer lossy torques, a floating-point filter does not pay
+_CHUNK = 2**21  # matrix entries solved at once: 16 MB of float64
+_MOST_ROUNDS = 50  # maximum iterations; a repeated pattern ends them sooner
+_MOST_FLOWS = 256  # maximum number of partial solutions
 NEAR = 1e-9
-"""Of the greatest torque: a direction this faint may be either."""
-_KNOWN = -1  # the column in which known torques stand
+"""Fraction of the maximum torque below which a torque may have either sign."""
+_KNOWN = -1  # column of the known torques
 
 Values = dict[int, Fraction | None]
-"""Torque by column; None where nothing determines it."""
+"""Torque by column; None if it is undetermined."""
 
 
 def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Echelon:
-    """The rows of a block, eliminated over the rationals: equation (3) under one pattern."""
+    """Eliminate the rows of a block over the rationals: equation (3) under one pattern."""
     rows = {row: dict(form) for row, form in known.items()}
     for column in block.columns:
         for row, value in columns[column].pieces[sides[column]].items():
@@ -54,11 +55,14 @@ def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides
 def solve_block(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques
 ) -> dict[int, LinearForm | None] | None:
-    """Every unknown of a block as a form of symbols, None where it stays open; None for all where nothing balances."""
+    """Solve a block for its unknowns as linear forms of symbols, None if undetermined.
+
+    The result as a whole is None if nothing balances.
+    """
     if len(block.rows) == len(block.columns) == 1:
-        # an ordinary train has thousands of such blocks: one division each
+        # fast path: an ordinary train may have thousands of such blocks
         (row,), (column,) = block.rows, block.columns
-        if coefficient := columns[column].pieces[sides[column]].get(row):
+        if coefficient := columns[column].pieces[sides[column]].get(row):  # else the general elimination decides
             return {column: {symbol: -value / coefficient for symbol, value in known[row].items()}}
     echelon = eliminate_block(columns, block, sides, known)
     if echelon.conditions:
@@ -69,7 +73,7 @@ def solve_block(
 
 @dataclass(frozen=True)
 class FlowPattern:
-    """One consistent pattern with its torques."""
+    """Consistent pattern of power flow, with its torques."""
 
     pattern: DrivingSides
     solved: SolvedTorques
@@ -77,7 +81,7 @@ class FlowPattern:
 
 @dataclass
 class _Partial:
-    """What is found so far: sides and torques by column, and what these add to each row."""
+    """Partial solution: sides and torques by column, and their sum in each row."""
 
     sides: dict[int, int]
     values: Values
@@ -88,21 +92,22 @@ class _Partial:
 
 
 def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
-    """All consistent flows, and whether all patterns were tried.
+    """Find all consistent patterns of power flow. Return them, and whether all patterns were tried.
 
-    Dulmage and Mendelsohn's blocks in order; in each, enumeration of the patterns of its own pairs, or iteration.
+    The blocks of the Dulmage-Mendelsohn decomposition are solved in order, each by enumeration of its patterns or by
+    fixed-point iteration.
     """
-    found = _through(balance, balance.parts)
+    found = _solve_blocks(balance, balance.parts)
     if found is None:
-        found = _through(balance, [balance.whole])
+        found = _solve_blocks(balance, [balance.whole])
     partials, complete = found or ([], True)
     return tuple(_flow(balance, each) for each in partials), complete
 
 
-def _through(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """All ways through the blocks, in their order, and whether all were tried.
+def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
+    """Solve the blocks in order. Return all combinations of their solutions, and whether all patterns were tried.
 
-    None where a block leaves a torque open that a later one may need or settle.
+    The result is None if a block leaves a torque open that a later block may need or determine.
     """
     partials, complete = [_Partial({}, {}, dict(balance.rows))], True
     for block in blocks:
@@ -121,7 +126,7 @@ def _through(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Par
 def _branches(
     columns: Sequence[TorqueUnknown], partial: _Partial, found: Sequence[tuple[Sides, Values]]
 ) -> Iterator[_Partial]:
-    """`partial` with each of the solutions of one block; the last takes its place."""
+    """Yield `partial` extended by each solution of one block. The last solution reuses `partial` itself."""
     for at, (sides, values) in enumerate(found):
         branch = partial.copy() if at + 1 < len(found) else partial
         branch.sides.update(sides)
@@ -135,7 +140,7 @@ def _branches(
 
 
 def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
-    """Torques by name."""
+    """Return the torques of a complete solution, by name."""
     pattern: dict[str, int] = {}
     found: dict[str, Fraction | None] = {}
     for at, column in enumerate(balance.columns):
@@ -164,12 +169,12 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """All consistent sides and torques of one block, and whether all sides were tried."""
+    """Return all consistent sides and torques of one block, and whether all sides were tried."""
     known = {row: rows[row] for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
     if not any(known.values()):
-        # nothing acts: nothing answers, whoever might drive
+        # without known torques all torques of a regular block are 0, for any driving sides
         values = _solve(columns, block, base, known)
         if values is not None and None not in values.values():
             return [(base, values)], True
@@ -182,7 +187,7 @@ def _solutions(
         values = _solve(columns, block, sides, known)
         if values is None or not _is_consistent(columns, block, sides, values, known):
             continue
-        # an idle mesh may be taken either way: the torques are the same
+        # both sides of an idle mesh give the same torques
         if all(values != each for _, each in found):
             found.append((sides, values))
     return found, tried
@@ -191,7 +196,7 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
 ) -> bool:
-    """True if power flows as the sides say, equation (7); where torques are open, if some exist with which it does."""
+    """Return whether power flows in the assumed directions, equation (7), for some values of undetermined torques."""
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
         return False
     bound = [column for column, value in values.items() if value is None and (sides[column] or columns[column].barred)]
@@ -211,7 +216,7 @@ def _is_consistent(
 def _solve(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]
 ) -> Values | None:
-    """All torques of a block, or None where none balance the known ones."""
+    """Return all torques of a block, or None if none balance the known ones."""
     found = solve_block(columns, block, sides, _forms(known))
     if found is None:
         return None
@@ -225,13 +230,13 @@ def _forms(known: Mapping[int, Fraction]) -> dict[int, LinearForm]:
 def _candidates(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Iterator[Sides]:
-    """Sides that may be consistent: all of them, or, with several lossy torques, those that are so in floats."""
+    """Yield sides that may be consistent. If several torques are lossy, floating-point solutions filter them."""
     every = ({**base, **dict(zip(lossy, sides, strict=True))}
              for sides in product(*(columns[column].sides for column in lossy)))  # fmt: skip
     if len(lossy) < _FEW or len(block.rows) != len(block.columns):
         yield from every
         return
-    floats = _Floats(columns, block, known)
+    floats = _FloatBlock(columns, block, known)
     while chunk := list(islice(every, max(1, _CHUNK // len(block.rows) ** 2))):
         yield from floats.likely(chunk)
 
@@ -239,14 +244,17 @@ def _candidates(
 def _iterate(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Sides | None:
-    """Begin without losses, and turn round every mesh through which power flows against its direction; repeat."""
+    """Find a consistent pattern by fixed-point iteration, starting without losses.
+
+    Every mesh through which power flows against its assumed direction is reversed, until none is or a pattern repeats.
+    """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []
     for _ in range(_MOST_ROUNDS):
         values = _solve(columns, block, sides, known)
         if values is None:
             return None
-        # the first round is without losses, which is no pattern
+        # the first round has no losses, so it is not a pattern
         if seen and _is_consistent(columns, block, sides, values, known):
             return sides
         wanted = {column: -1 if (values[column] or 0) * columns[column].turn > 0 else 1 for column in lossy}
@@ -257,15 +265,15 @@ def _iterate(
     return None
 
 
-class _Floats:
-    """A square block in floats, to sort out the many patterns that contradict themselves."""
+class _FloatBlock:
+    """Square block in floating point, to filter the many patterns that contradict themselves."""
 
     def __init__(self, columns: Sequence[TorqueUnknown], block: Block, known: Mapping[int, Fraction]) -> None:
         import numpy as np
 
         self.block = block
         self.turns = np.array([columns[column].turn for column in block.columns])
-        # patterns depend on signs alone; loads of any size are brought within the range of floats
+        # patterns depend only on signs, so loads of any magnitude are scaled into the range of floats
         maximum = max(map(abs, known.values()))
         self.right = np.array([-float(known[row] / maximum) for row in block.rows])
         size = len(block.rows)
@@ -275,7 +283,7 @@ class _Floats:
                 self.pieces[side, :, at] = [float(piece.get(row, 0)) for row in block.rows]
 
     def likely(self, chunk: Sequence[Sides]) -> Iterator[Sides]:
-        """Those whose torques do not contradict them; all of them if one cannot be solved so."""
+        """Yield the patterns not contradicted by their torques, or all patterns if a matrix is singular."""
         import numpy as np
 
         sides = np.array([[each[column] for column in self.block.columns] for each in chunk])
@@ -285,15 +293,15 @@ class _Floats:
         except np.linalg.LinAlgError:
             yield from chunk
             return
-        # a direction that fails by rounding only is left to the fractions
+        # a sign that fails only by rounding is left to exact arithmetic
         against = contradicts(found.T, -(self.turns * sides).T)
         yield from (each for each, bad in zip(chunk, against.tolist(), strict=True) if not bad)
 
 
 def contradicts(torques: Floats, signs: Floats | Ints) -> Bools:
-    """Where torques (columns, n) have other signs than a pattern asks of them, rounding forgiven: equation (7).
+    """Return where torques (columns, n) contradict the signs of a pattern beyond rounding: equation (7).
 
-    signs   1, -1, or 0 where any will do
+    signs   1, -1, or 0 for any sign
     """
     import numpy as np
 

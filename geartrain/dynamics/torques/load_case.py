@@ -1,9 +1,8 @@
-"""A train in one case, as torques see it: speeds as far as they are determined, real teeth and pins, loads.
+"""A train in one load case: determined speeds, real teeth and pins, loads.
 
-Equilibrium by virtual work: equations (14) to (16) of docs/torques.md.
-
-Loads balance if they do no work in any motion that the known constraints leave. Speeds do not enter: a link may turn as
-it likes and its torque be determined all the same.
+Equilibrium by virtual work: equations (14) to (16) of docs/torques.md. Loads balance if they do no work in any motion
+compatible with the constraints. Speeds do not enter, so the torque on a link may be determined even if its speed is
+not.
 """
 
 from __future__ import annotations
@@ -24,28 +23,28 @@ from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train
 
 PRESCRIBED = -1
-"""The column of a form in which prescribed numbers stand."""
+"""Column of a linear form that has prescribed numbers."""
 
 
 @dataclass(frozen=True)
 class VirtualMotion:
-    """One way in which the train may be displaced, speeds by link, and the power of the loads in it."""
+    """Virtual displacement of the train: speeds by link, and the power of the loads."""
 
     speeds: Mapping[str, Fraction]
     power: Fraction
 
 
 def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
-    """The speed of every link in terms of those that are free; what is prescribed stands in the column `PRESCRIBED`."""
+    """Return the speed of every link as a linear form of the free speeds and the column `PRESCRIBED`."""
     return _forms(system.links, system.equations)
 
 
 def unbalanced_motions(
     system: WillisSystem, loads: Mapping[str, Fraction], still: Collection[str]
 ) -> list[VirtualMotion]:
-    """Independent motions in one of which at least the loads do work, equation (15); none if they balance.
+    """Return a basis of virtual motions if loads do work in at least one, equation (15); an empty list if they balance.
 
-    still   the links whose torque is unknown: they stand still in all these motions, and it does no work
+    still   links of unknown torque; they are at rest in all these motions, so that their torques do no work
     """
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
     forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
@@ -58,7 +57,7 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """The torque on one link that takes up what the loads do in every motion, equation (16); None where none does."""
+    """Return the torque on one link that balances the loads in every motion, equation (16), or None."""
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))
@@ -93,21 +92,22 @@ class MeanEfficiencies:
     """Efficiencies of one pair with the first link driving, then with the second."""
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Where the torque of the driver is constant over a turn."""
+    """Efficiencies if the driver's torque is constant over a turn."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Where the torque of the driven side is."""
+    """Efficiencies if the driven side's torque is constant over a turn."""
     exact: bool = True
-    """As declared; False for means over teeth, which are floats to 15 digits."""
+    """True for declared values; False for means over teeth, which are floats to 15 digits."""
 
     @property
     def differ(self) -> bool:
-        """True if it matters which torque is constant."""
+        """True if the efficiency depends on which torque is constant."""
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Forward and backward with the torque of the first link constant (1), of the second (-1), or of neither (0).
+        """Return forward and backward efficiency, depending on which torque is constant.
 
-        driving   for neither: the loads put power in, so that what drives is nearer to what is given
+        side      1 for the torque of the first link, -1 for that of the second, 0 for neither
+        driving   True if loads put power in; decides the case of neither
         """
         if side > 0:
             return self.driver[0], self.load[1]
@@ -118,7 +118,7 @@ class MeanEfficiencies:
 
 @dataclass(frozen=True)
 class LoadCase:
-    """A train in one case, solved for its speeds: everything torques need to know of it."""
+    """Train in one load case, solved for its speeds: all input of the torque analysis."""
 
     train: Train
     tree: Tree
@@ -126,14 +126,14 @@ class LoadCase:
     signs: Mapping[str, int]
     case: StateCase
     speeds: Mapping[str, Fraction]
-    """Of the links whose speed is determined."""
+    """Speeds of the links whose speed is determined."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
     """Pairs with real teeth by name."""
     pins: Sequence[PinMesh] = ()
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
-    """In a train that is free, the speeds of all links in terms of what is free; else empty."""
+    """Speeds of all links as linear forms of the free speeds, if the train is underdetermined; otherwise empty."""
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """What pairs and couplings lose on the mean, by name, as far as it has been asked for."""
+    """Cache of mean efficiencies by pair or coupling."""
 
     @cached_property
     def gears(self) -> Mapping[str, GearPair]:
@@ -142,17 +142,17 @@ class LoadCase:
 
     @cached_property
     def couplings(self) -> Mapping[str, Coupling]:
-        """Pins in slots by name."""
+        """Pin-and-slot couplings by name."""
         return {coupling.name: coupling for coupling in self.train.couplings}
 
     @cached_property
     def joints(self) -> Mapping[str, PinMesh]:
-        """Pins in slots with dimensions, by name."""
+        """Pin-and-slot couplings with dimensions, by name."""
         return {joint.coupling.name: joint for joint in self.pins}
 
     @cached_property
     def system(self) -> WillisSystem:
-        """The labelled rows of the case."""
+        """Labelled equations of the case."""
         return assemble_willis_system(tuple(self.train.links), self.train.frame, self.circuits, self.case, self.signs)
 
     @cached_property
@@ -161,28 +161,28 @@ class LoadCase:
         return Axes(self.train, self.tree)
 
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
-        """The axes of a circuit's first and second link, as its carrier holds them."""
+        """Return the axes of a circuit's first and second link in its carrier."""
         seen_from = self.tree.axis_seen_from
         return seen_from(circuit.carrier, circuit.i), seen_from(circuit.carrier, circuit.j)
 
     def helix_angles(self, circuit: Circuit) -> tuple[float, float] | None:
-        """Helix angles (rad) of two wheels that slide along each other; None on parallel axes, or where unknown."""
+        """Return the helix angles [rad] of a pair on skew axes; None for parallel axes or unknown angles."""
         first, second = (self.train.wheels[name][1] for name in circuit.wheels)
         return self.axes.helix_angles(self.axis_labels(circuit), (first, second))
 
     @property
     def open(self) -> tuple[str, ...]:
-        """Links whose speed is not determined."""
+        """Links whose speed is undetermined."""
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """1, or -1 where the link's axis points against its parallels."""
+        """Return -1 if the link's axis points against its parallels, else 1."""
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:
-        """Speed of a link seen from another, both about the direction of their parallels; None where that is free.
+        """Return the speed of a link relative to another, about the direction of their parallels; None if undetermined.
 
-        Two links that are free may still have one speed between them.
+        The relative speed of two links may be determined even if neither speed is.
         """
         own = self.sense(link)
         found = relative_speed(link, carrier, self.speeds.get, self.signs)
@@ -194,28 +194,31 @@ class LoadCase:
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
     def rubs(self, part: GearPair | Coupling) -> bool:
-        """True for a pair or coupling whose coefficient of friction is above 0, or follows a law of speed."""
+        """Return whether the friction of a pair or coupling is above 0 or depends on speed."""
         friction = self.train.friction_of(part)
         return friction is not None and friction.rubs
 
     def bearer(self, link: str) -> str:
-        """What bears the axis that a link turns about, however its coaxial joints are declared."""
+        """Return the link that carries the axis of a link, regardless of how its coaxial joints are declared."""
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
-        """What takes the reaction of a torque asked for at a link: pallets ride on what bears the escape wheel."""
+        """Return the link that takes the reaction of an unknown torque: usually the frame.
+
+        Pallets react on the link that carries the escape wheel.
+        """
         escapement = self.train.escapement
         return self.train.frame if escapement is None or link != escapement.link else self.bearer(link)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
-        """Speed of a circuit's first link seen from its carrier: where it is 0 no power flows between the two."""
+        """Return the speed of a circuit's first link relative to its carrier. If it is 0 no power passes the pair."""
         return self.relative(circuit.i, circuit.carrier)
 
     @cached_property
     def bearings(self) -> tuple[BearingTorque, ...]:
-        """Friction of every bearing that has one, against the turning of its link in it: equation (10).
+        """Friction of every bearing that has any, against the rotation of its link: equation (10).
 
-        Nothing where the speed in the joint is 0 or not determined.
+        It is 0 if the speed in the joint is 0 or undetermined.
         """
         found = []
         for link in self.train.links:
@@ -229,7 +232,7 @@ class LoadCase:
         return tuple(found)
 
     def bearing(self, link: str) -> Fraction:
-        """Friction torque of a link's bearing, N m or plain."""
+        """Return the friction torque of a link's bearing [N m, or plain]."""
         friction = self.train.links[link].bearing
         if friction is None or link == self.train.frame:
             return Fraction(0)
@@ -237,7 +240,10 @@ class LoadCase:
 
 
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
-    """The one input and the one link that power leaves by: an output, loaded or alone; None if that is not plain."""
+    """Return the only input and the link at which power leaves, or None if they are not unique.
+
+    Power leaves at the only loaded link, or at the only output.
+    """
     if len(case.inputs) != 1:
         return None
     source = train.crank or next(iter(case.inputs))

@@ -1,8 +1,9 @@
-"""What a pair loses: as declared, or the mean efficiency of its teeth or of its pin, equations (17) to (20).
+"""Mean efficiency of a pair: declared, or computed from its teeth or its pin, equations (17) to (20).
 
-docs/torques.md, section 12. Over a turn the torques on the two sides of a pair cannot both be constant. Where that of
-the driver is, a part mean(eta) of the work arrives; where that of the driven side is, mean(tau)/mean(tau/eta). Which of
-the two is given follows from the balance: the link whose own row determines the pair.
+docs/torques.md, section 12. Over a turn the torques on the two sides of a pair cannot both be constant. If the driver's
+torque is constant, the mean efficiency is mean(eta). If the driven side's torque is constant, it is
+mean(tau)/mean(tau/eta). The balance determines which of the two is given: it is the torque on the link whose own row
+determines the pair.
 """
 
 from __future__ import annotations
@@ -19,24 +20,24 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.pair_results import SlidingEfficiency
 
 NORMAL_ANGLE = radians(20)
-"""Pressure angle (rad) across the teeth where no form says it."""
-_ROUNDING = 1e-9  # by so much the quadrature of a mean may pass 1
+"""Normal pressure angle [rad] if no tooth form specifies it."""
+_ROUNDING = 1e-9  # amount by which rounding in the quadrature may make a mean exceed 1
 
 
 def all_mean_efficiencies(setting: LoadCase) -> Mapping[str, MeanEfficiencies]:
-    """What each pair and coupling loses, by name."""
+    """Return the mean efficiencies of every pair and coupling, by name."""
     return {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
 
 
 def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """What one pair or coupling loses, worked out once a case: it is the same whatever is loaded."""
+    """Return the mean efficiencies of one pair or coupling. They are cached because they do not depend on the loads."""
     if circuit.id not in setting.means:
         setting.means[circuit.id] = _of_circuit(setting, circuit)
     return setting.means[circuit.id]
 
 
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Nothing where nothing is declared, or it has no dimensions."""
+    """Return the efficiencies of a circuit: 1 if no loss is declared or dimensions are unknown."""
     if circuit.kind != "gear":
         return _of_pin(setting, circuit)
     gear = setting.gears[circuit.id]
@@ -57,7 +58,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Of a worm or of helical wheels on skew axes, where helix angles and a coefficient of friction are known."""
+    """Return the efficiencies of a worm or of crossed helical gears, or None if angles or friction are unknown."""
     gear = setting.gears[circuit.id]
     friction = setting.train.friction_of(gear)
     if friction is None or friction.sliding is None:
@@ -72,7 +73,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """The slot is first. A follower passes no power on average: what its pin loses is no share of anything."""
+    """Return the efficiencies of a pin and slot, slot first. They are 1 for a follower, which passes no mean power."""
     joint = setting.joints.get(circuit.id)
     if joint is None or not joint.transmission.friction or not circuit.b:
         return MeanEfficiencies()
@@ -86,17 +87,20 @@ def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficienc
 
 
 def _mean(efficiency: float | None) -> Fraction:
-    """A mean over teeth, to 15 digits; 0 where friction locks."""
+    """Return a mean over teeth as a fraction to 15 digits, or 0 if friction locks."""
     if efficiency is None:
         return Fraction(0)
-    # rounding of a quadrature may pass 1 by a little; digits in decimal, so that 0.98 stays 49/50
+    # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
     return Fraction(1) if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")
 
 
-def settle_mean_efficiencies(
+def apply_mean_efficiencies(
     balance: TorqueBalance, means: Mapping[str, MeanEfficiencies], driving: bool
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
-    """The balance with the right mean efficiency of each pair, and the pairs neither torque of which is constant."""
+    """Insert the applicable mean efficiency of each pair into a balance.
+
+    The result is the balance, and the pairs neither of whose torques is constant.
+    """
     if not any(each.differ for each in means.values()):
         return balance, ()
     given = _given(balance)
@@ -111,14 +115,14 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """By pair, 1 where the balance of its first link alone determines its torque, -1 where that of its second does."""
+    """Return the link whose own balance determines a pair: 1 for its first link, -1 for its second, by pair."""
     found: dict[str, int] = {}
     for block in balance.parts:
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):
             continue
         link, column = balance.links[block.rows[0]], balance.columns[block.columns[0]]
         side = next((_side(mesh, link) * mesh.turn for mesh in column.meshes if link in mesh.links), 0)
-        # equal planets have one torque between them, and may name their wheels in another order
+        # equal planets share one unknown torque, and may name their wheels in different orders
         found |= {mesh.id: side * mesh.turn for mesh in column.meshes}
     return found
 
@@ -131,22 +135,23 @@ def _side(mesh: LoadedPair, link: str) -> int:
 
 
 def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
-    """Share of the power that arrives, equation (12c) of docs/theory.md; 0 or less locks.
+    """Compute the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less locks.
 
-    Only sliding along the teeth counts, at the pitch point; what they slide up and down each other is small beside it.
+    Only sliding along the teeth counts, at the pitch point. Sliding along the profile is small compared with it.
 
     Parameters
     ----------
     driving, driven : float
-        Helix angles of the driver and of the driven wheel (rad), of right hands above 0; their sum is the shaft angle.
+        Helix angles of the driving and of the driven wheel [rad], right hand positive. Their sum is the shaft angle.
     friction : float
         Coefficient of friction, 0 or more.
     pressure_angle : float
-        Across the teeth (rad).
+        Normal pressure angle [rad].
 
     Examples
     --------
-    A worm with a lead angle of 5 degrees and friction of 0.1: tan(lead) / tan(lead + angle of friction), and backwards.
+    A worm with a lead angle of 5 degrees and a coefficient of friction of 0.1 has the efficiency
+    tan(lead angle) / tan(lead angle + friction angle). It does not run backwards:
 
     >>> round(screw_efficiency(radians(85), radians(5), 0.1 * cos(NORMAL_ANGLE)), 6)
     0.462552

@@ -1,9 +1,10 @@
-"""What a balance of mean torques does not count, by name: the table in section 13 of docs/torques.md.
+"""Effects that a balance of mean torques neglects, by name: the table in section 13 of docs/torques.md.
 
-Bearings that turn back within a turn, though their mean speed does not show it, are found by interval bounds, equation
-(21). To the mean speed of every link each uneven pair adds g (tau(S) - m) w: g its gain there, tau its speed ratio at
-the angle S of its driver, m the mean of that, w the speed of its driver seen from the carrier. Gains are exact, and w
-lies within bounds that widen from pair to pair; so a bearing named here may turn back, and one not named does not.
+Some bearings reverse within a turn although their mean speed does not change. Interval bounds find them, equation (21).
+Each nonuniform pair adds g (tau(S) - m) w to the mean speed of every link. Here g is its gain at the link, tau its
+speed ratio at the angle S of its driver, m the mean ratio, and w the speed of its driver relative to the carrier. Gains
+are exact, and the bounds of w widen from pair to pair. A bearing named here may therefore reverse; a bearing not named
+does not.
 """
 
 from __future__ import annotations
@@ -25,52 +26,54 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 
-_MOST_UNEVEN = 300  # pairs followed: the gains of n pairs at n links are n squared numbers
+_MOST_NONUNIFORM = 300  # nonuniform pairs: the gains of n pairs at n links are n squared numbers
 _SAMPLES = 1 << 14  # angles at which a speed is averaged, for three digits
-_SLACK = 1e-12  # of a speed: less than this backwards is rounding
-_NO_FORM = "these teeth have no form of which it could take anything: give a `tooth_form`, or an `efficiency`"
-_NO_LEAD = (
-    "these teeth slide along each other: declare the `helix_angle` of the worm, or of both wheels, on axes that cross, "
-    "and a constant `friction`; or an `efficiency`"
+_SLACK = 1e-12  # of a speed: smaller reversals are rounding
+_NO_FORM = (
+    "the loss of these teeth depends on their form, which is not declared: give a `tooth_form` or an `efficiency`"
+)
+_NO_HELIX = (
+    "these teeth slide along their length, and their helix angles or their friction are not known: declare the "
+    "`helix_angle` of the worm, or of both wheels on crossed axes, and a constant `friction`; or an `efficiency`"
 )
 _MEAN = "the torques given are means over a turn"
 
 
 @dataclass(frozen=True)
 class SpeedBounds:
-    """Least and greatest speed of a bearing."""
+    """Bounds of a speed, such as that of a bearing."""
 
     low: float
     high: float
     magnitude: float | None = None
-    """Mean and greatest of its magnitude, where one pair alone makes it uneven."""
+    """Mean magnitude of the speed, if a single pair causes its variation."""
     most: float | None = None
-    """Mean and greatest of its magnitude, where one pair alone makes it uneven."""
+    """Maximum magnitude of the speed, if a single pair causes its variation."""
 
     @property
-    def turns_back(self) -> bool:
-        """True if there are speeds of both signs between them."""
+    def reverses(self) -> bool:
+        """True if the bounds include speeds of both signs."""
         return self.low < -_SLACK * abs(self.high) and self.high > _SLACK * abs(self.low)
 
     def plus(self, other: SpeedBounds) -> SpeedBounds:
-        """Of the sum of two speeds."""
+        """Return the bounds of the sum of two speeds."""
         return SpeedBounds(self.low + other.low, self.high + other.high)
 
     def times(self, other: SpeedBounds) -> SpeedBounds:
-        """Of the product of two numbers."""
+        """Return the bounds of the product of two numbers."""
         ends = [_product(x, y) for x in (self.low, self.high) for y in (other.low, other.high)]
         return SpeedBounds(min(ends), max(ends))
 
 
 @dataclass(frozen=True)
-class _Uneven:
-    """A pair whose speed ratio is not constant: its row has factor (tau - m) times the speed of its driver."""
+class _NonuniformPair:
+    """Pair with a variable speed ratio. Its row has factor (tau - m) times the speed of its driver."""
 
     id: str
     transmission: TransmissionFunction | None
-    """None where it is not known: a pin without dimensions, teeth that cannot turn."""
+    """Transmission function; None if unknown, as for a pin without dimensions or teeth that cannot turn."""
     driver: str
-    """Seen from the carrier; `mean` is m."""
+    """Driver, moving relative to `carrier`. `mean` is m."""
     carrier: str
     factor: Fraction
     mean: Fraction
@@ -85,28 +88,28 @@ class _Uneven:
 
 
 def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, SpeedBounds] | None:
-    """The links among these that may turn back in their joints; None where there is too much to follow."""
-    uneven = list(_uneven(setting))
-    if len(uneven) > _MOST_UNEVEN:
+    """Return speed bounds of the links that may reverse in their bearings; None if there are too many pairs."""
+    nonuniform = list(_nonuniform_pairs(setting))
+    if len(nonuniform) > _MOST_NONUNIFORM:
         return None
-    if not uneven or not links:
+    if not nonuniform or not links:
         return {}
-    gains = _gains(setting, uneven)
-    added = _added(setting, uneven, gains)
+    gains = _gains(setting, nonuniform)
+    added = _added(setting, nonuniform, gains)
     found = {}
     for link in links:
         bounds = _bounds(setting, gains, added, link, setting.tree.parent[link][0])
-        if bounds.turns_back:
-            found[link] = _with_mean(setting, uneven, gains, link, bounds)
+        if bounds.reverses:
+            found[link] = _with_mean(setting, nonuniform, gains, link, bounds)
     return found
 
 
-def _uneven(setting: LoadCase) -> Iterator[_Uneven]:
+def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
     for circuit in setting.circuits:
         if circuit.swings:
             joint = setting.joints.get(circuit.id)
             transmission = joint.transmission if joint else None
-            yield _Uneven(
+            yield _NonuniformPair(
                 circuit.id, transmission, circuit.j, circuit.carrier, Fraction(circuit.a), Fraction(-circuit.b)
             )
             continue
@@ -116,21 +119,21 @@ def _uneven(setting: LoadCase) -> Iterator[_Uneven]:
         first = tooth.driver == circuit.wheels[0]
         driver, own = (circuit.i, circuit.a) if first else (circuit.j, circuit.b)
         mean = Fraction(tooth.transmission.ratio)
-        yield _Uneven(
+        yield _NonuniformPair(
             circuit.id, tooth.transmission if tooth.verdict else None, driver, circuit.carrier, -own / mean, mean
         )
 
 
-def _gains(setting: LoadCase, uneven: Sequence[_Uneven]) -> Mapping[str, Mapping[int, float]]:
-    """What a unit of each pair's deviation, by number, adds to each link's speed; inputs keep theirs."""
-    number = {each.id: at for at, each in enumerate(uneven)}
+def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Mapping[int, float]]:
+    """Return the speed that a unit of each pair's deviation, by index, adds to each link, with input speeds fixed."""
+    number = {each.id: at for at, each in enumerate(nonuniform)}
     system = setting.system
     column = {link: at for at, link in enumerate(system.links)}
     rows: list[LinearForm] = []
     for row in system.equations:
         form: LinearForm = {column[link]: Fraction(value) for link, value in row.terms}
         if row.kind not in ("input", "fixed", "lock", "frame") and row.label in number:
-            form[-1 - number[row.label]] = -uneven[number[row.label]].factor
+            form[-1 - number[row.label]] = -nonuniform[number[row.label]].factor
         rows.append(form)
     forms = eliminate(rows).forms()
     return {
@@ -140,7 +143,7 @@ def _gains(setting: LoadCase, uneven: Sequence[_Uneven]) -> Mapping[str, Mapping
 
 
 def _between(gains: Mapping[str, Mapping[int, float]], link: str, carrier: str) -> dict[int, float]:
-    """Gains at a link seen from another."""
+    """Return the gains at a link relative to another."""
     found = dict(gains[link])
     for number, gain in gains[carrier].items():
         found[number] = found.get(number, 0.0) - gain
@@ -150,7 +153,7 @@ def _between(gains: Mapping[str, Mapping[int, float]], link: str, carrier: str) 
 def _bounds(
     setting: LoadCase, gains: Mapping[str, Mapping[int, float]], added: Sequence[SpeedBounds], link: str, carrier: str
 ) -> SpeedBounds:
-    """Bounds of a link's speed seen from another."""
+    """Return the bounds of a link's speed relative to another."""
     mean = setting.relative(link, carrier)
     found = SpeedBounds(-inf, inf) if mean is None else SpeedBounds(_number(mean), _number(mean))
     for number, gain in _between(gains, link, carrier).items():
@@ -159,30 +162,30 @@ def _bounds(
 
 
 def _added(
-    setting: LoadCase, uneven: Sequence[_Uneven], gains: Mapping[str, Mapping[int, float]]
+    setting: LoadCase, nonuniform: Sequence[_NonuniformPair], gains: Mapping[str, Mapping[int, float]]
 ) -> Sequence[SpeedBounds]:
-    """Bounds of what each pair adds, its driver's speed being bounded by what the others add."""
-    swings = [each.swing for each in uneven]
-    added = [SpeedBounds(0.0, 0.0)] * len(uneven)
-    # where no pairs depend on each other in a circle each round settles one more, and the last sees no change
-    for _ in range(len(uneven) + 1):
-        turning = [_bounds(setting, gains, added, each.driver, each.carrier) for each in uneven]
+    """Return bounds of the speed that each pair adds, from the bounds of its driver's speed."""
+    swings = [each.swing for each in nonuniform]
+    added = [SpeedBounds(0.0, 0.0)] * len(nonuniform)
+    # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
+    for _ in range(len(nonuniform) + 1):
+        turning = [_bounds(setting, gains, added, each.driver, each.carrier) for each in nonuniform]
         wider = [swing.times(speed) for swing, speed in zip(swings, turning, strict=True)]
         if wider == added:
             return added
         added = wider
-    # pairs that depend on each other in a circle: no bound was found
-    return [SpeedBounds(-inf, inf)] * len(uneven)
+    # cyclic dependencies: no bound was found
+    return [SpeedBounds(-inf, inf)] * len(nonuniform)
 
 
 def _with_mean(
     setting: LoadCase,
-    uneven: Sequence[_Uneven],
+    nonuniform: Sequence[_NonuniformPair],
     gains: Mapping[str, Mapping[int, float]],
     link: str,
     bounds: SpeedBounds,
 ) -> SpeedBounds:
-    """With the mean magnitude, where one pair alone makes the link uneven and that pair's driver turns evenly."""
+    """Add the mean magnitude, if a single pair causes the variation of the link and its driver turns uniformly."""
     import numpy as np
 
     carrier = setting.tree.parent[link][0]
@@ -191,18 +194,18 @@ def _with_mean(
     if len(own) != 1 or mean is None:
         return bounds
     ((number, gain),) = own.items()
-    pair = uneven[number]
+    pair = nonuniform[number]
     speed = setting.relative(pair.driver, pair.carrier)
     if pair.transmission is None or speed is None or _between(gains, pair.driver, pair.carrier):
         return bounds
-    # midpoint rule: for a periodic function with kinks as good as any
+    # the midpoint rule is as accurate as any other for a periodic function with kinks
     S = (np.arange(_SAMPLES) + 0.5) * (pair.transmission.period / _SAMPLES)
     found = np.abs(_number(mean) + gain * (pair.transmission.speed(S) - float(pair.mean)) * _number(speed))
     return SpeedBounds(bounds.low, bounds.high, float(found.mean()), max(-bounds.low, bounds.high))
 
 
 def _number(value: Fraction) -> float:
-    """The nearest float, infinite where there is none."""
+    """Return the nearest float, or an infinity if it overflows."""
     number = as_float(value)
     if number is not None:
         return number
@@ -210,8 +213,8 @@ def _number(value: Fraction) -> float:
 
 
 def _product(x: float, y: float) -> float:
-    """x times y, 0 where one of them is 0 and the other has no bound."""
-    return x * y if x and y else 0.0
+    """Return x times y, with 0 times infinity equal to 0."""
+    return x * y if x and y else 0.0  # IEEE arithmetic would give NaN for 0 times infinity
 
 
 def find_neglected_effects(
@@ -221,11 +224,11 @@ def find_neglected_effects(
     idle: Sequence[str],
     bearings: bool,
 ) -> tuple[NeglectedEffect, ...]:
-    """Everything that the torques of one case leave out.
+    """Return everything that the torques of one case neglect.
 
-    neither   pairs of whose torques neither is constant over a turn
-    idle      pairs that carry nothing: what they might lose is not missed
-    bearings  False where friction of bearings was not asked for
+    neither   pairs neither of whose torques is constant over a turn
+    idle      pairs without torque, whose losses are not neglected
+    bearings  False if friction of bearings was not requested
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
@@ -233,49 +236,51 @@ def find_neglected_effects(
     shared = tuple(circuit.id for circuit in busy if circuit.id in set(neither))
     if shared:
         why = (
-            "neither torque of these pairs is constant within a turn, so that their mean efficiency depends on the "
-            "others; the one at a constant load, or a constant driver's torque where loads drive, is taken"
+            "neither torque of these pairs is constant within a turn, so their mean efficiency depends on other pairs; "
+            "the value for a constant load torque is used, or for a constant driving torque where loads drive"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
-    return (*found, *_drag(setting), *_swing(setting, busy), *_inertia(setting))
+    return (*found, *_drag(setting), *_variation(setting, busy), *_inertia(setting))
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Viscous drag, which a balance of exact means does not count."""
+    """Yield viscous drag, which a balance of exact means does not include."""
     if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
         yield NeglectedEffect(
-            "viscous drag", links, "it is by speed: torques over a turn count it where speeds are real"
+            "viscous drag", links, "it depends on speed: torques over a turn include it if speeds have units"
         )
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
-    """What torques over a turn leave out: nothing of pins, bearings and swing, where what they need is declared.
+    """Return the effects neglected by torques over a turn.
 
-    at_means   pairs with real teeth that lose their mean share everywhere
+    Friction of pins and bearings and variation within a turn are included there, as far as their data are declared.
+
+    at_means   pairs with real teeth that have their mean efficiency at every position
     """
     found = [
-        *_bare_pins(setting, setting.circuits),
+        *_pins_without_dimensions(setting, setting.circuits),
         *_teeth(setting, setting.circuits, all_mean_efficiencies(setting)),
         *_inertia(setting),
     ]
     if at_means:
-        why = "they are redundant, and nothing says at which part of its pitch each of them works: the mean is taken"
-        found.append(NeglectedEffect("swing within a turn", tuple(at_means), why))
+        why = "these pairs are redundant, so the phase of their teeth is not known: mean efficiencies are used"
+        found.append(NeglectedEffect("variation within a turn", tuple(at_means), why))
     return tuple(found)
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Friction of pins that is no share of the power that passes."""
+    """Yield friction of pins that is not a fraction of the transmitted power."""
     couplings = setting.couplings
     rubbing = [circuit for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
     if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
-        why = "a follower only swings: it passes no power on average, of which its friction could be a share"
+        why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
-    yield from _bare_pins(setting, [circuit for circuit in rubbing if circuit.b])
+    yield from _pins_without_dimensions(setting, [circuit for circuit in rubbing if circuit.b])
 
 
-def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Friction declared on pins that have no dimensions."""
+def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
+    """Yield friction declared on pins without dimensions."""
     couplings = setting.couplings
     rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
     if bare := tuple(name for name in rubbing if name not in setting.joints):
@@ -286,22 +291,22 @@ def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Friction declared on teeth that have no form, and on worms of unknown lead."""
-    bare: dict[str, list[str]] = {_NO_FORM: [], _NO_LEAD: []}
+    """Yield friction declared on teeth without a form, and on worms of unknown helix angle."""
+    bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: []}
     for circuit in busy:
         gear = setting.gears.get(circuit.id)
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
         rubs = setting.rubs(gear) and means[circuit.id] == MeanEfficiencies()
         if rubs and setting.relative(circuit.i, circuit.carrier) != 0:
-            bare[_NO_LEAD if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
+            bare[_NO_HELIX if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
     for why, names in bare.items():
         if names:
             yield NeglectedEffect("friction of teeth", tuple(names), why)
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """True for worms, and helical wheels on axes that are not parallel: no tooth form of theirs has a mean loss."""
+    """Return whether a pair is a worm or crossed helical gears, whose tooth forms have no mean loss."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
@@ -310,7 +315,7 @@ def _slides(setting: LoadCase, circuit: Circuit) -> bool:
 def _open(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Losses of pairs whose direction of rolling is not determined."""
+    """Yield losses of pairs whose direction of rolling is undetermined."""
     found = tuple(
         circuit.id
         for circuit in busy
@@ -318,11 +323,11 @@ def _open(
         and setting.relative(circuit.i, circuit.carrier) is None
     )
     if found:
-        yield NeglectedEffect("losses of pairs", found, "who drives there depends on speeds that are not determined")
+        yield NeglectedEffect("losses of pairs", found, "their driving side depends on speeds that are not determined")
 
 
 def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
-    """True for teeth whose friction asks for a speed, which has no means where none is determined."""
+    """Return whether the friction of teeth depends on a speed."""
     tooth = setting.meshes.get(circuit.id)
     declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
     return tooth is not None and not declared and tooth.wheels.friction_law is not None
@@ -334,44 +339,44 @@ def _rubbing(setting: LoadCase) -> list[str]:
 
 def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
     if rubbing := _rubbing(setting):
-        why = "it does not grow with the load, and is no share of it"
+        why = "it does not depend on the load, so it is not part of an efficiency"
         yield NeglectedEffect("friction of bearings", tuple(rubbing), why)
 
 
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Bearings whose direction of turning is not determined, or changes within a turn."""
+    """Yield bearings whose sense of rotation is undetermined or changes within a turn."""
     rubbing = _rubbing(setting)
     free = tuple(link for link in rubbing if setting.relative(link, setting.tree.parent[link][0]) is None)
     if free:
-        yield NeglectedEffect("friction of bearings", free, "which way they turn is not determined")
+        yield NeglectedEffect("friction of bearings", free, "their sense of rotation is not determined")
     known = [link for link in rubbing if link not in free]
     back = find_reversing_bearings(setting, known)
     if back is None:
-        why = "it is counted at the mean speeds; too many uneven pairs stand before them to ask whether they turn back"
-        yield NeglectedEffect("friction of bearings that turn back", tuple(known), why)
+        why = "it is computed at the mean speeds; the train has too many nonuniform pairs to find reversing bearings"
+        yield NeglectedEffect("friction of bearings that reverse", tuple(known), why)
         return
     for link, bounds in back.items():
         mean = setting.relative(link, setting.tree.parent[link][0])
-        yield NeglectedEffect("friction of bearings that turn back", (link,), _turns(bounds, mean or Fraction(0)))
+        yield NeglectedEffect("friction of bearings that reverse", (link,), _turns(bounds, mean or Fraction(0)))
 
 
 def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
-    """How far a bearing's loss is from that at its mean speed."""
-    reach = f"the speed goes from {bounds.low:.4g} to {bounds.high:.4g}"
-    what = f"it is counted at the mean speed {decimal(mean, 4)}, and {reach}"
+    """Describe the ratio of a bearing's loss to its loss at mean speed."""
+    reach = f"the speed varies from {bounds.low:.4g} to {bounds.high:.4g} within a turn"
+    what = f"it is computed at the mean speed {decimal(mean, 4)}, but {reach}"
     if bounds.magnitude is None or bounds.most is None:
-        return f"{what} within a turn"
+        return what
     if not mean:
-        return f"{what} within a turn: nothing is counted of a mean magnitude of {bounds.magnitude:.4g}"
+        return f"{what}: it counts as 0, although the mean magnitude of the speed is {bounds.magnitude:.4g}"
     size = abs(as_float(mean) or inf)
     return (
-        f"{what} within a turn: what it takes is {bounds.magnitude / size:.3f} times as much on average, and "
-        f"{bounds.most / size:.3f} times at its greatest"
+        f"{what}: the actual loss is {bounds.magnitude / size:.3f} times as large on average, and "
+        f"{bounds.most / size:.3f} times at its maximum"
     )
 
 
-def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Pairs whose torques are not the same at every angle."""
+def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
+    """Yield pairs whose torques depend on their position."""
     found = []
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
@@ -379,14 +384,12 @@ def _swing(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffe
         if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.rubs and not declared))):
             found.append(circuit.id)
     if found:
-        yield NeglectedEffect("swing within a turn", tuple(found), f"{_MEAN}: at single angles they are more and less")
+        yield NeglectedEffect("variation within a turn", tuple(found), f"{_MEAN}, about which they vary with position")
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Masses that uneven pairs set swinging."""
+    """Yield links with inertia that nonuniform pairs accelerate."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
-    uneven = any(circuit.swings for circuit in setting.circuits)
-    if heavy and (uneven or any(not tooth.rigid for tooth in setting.meshes.values())):
-        yield NeglectedEffect(
-            "inertia", heavy, "torques are those of slow turning: no acceleration and no blow is counted"
-        )
+    nonuniform = any(circuit.swings for circuit in setting.circuits)
+    if heavy and (nonuniform or any(not tooth.rigid for tooth in setting.meshes.values())):
+        yield NeglectedEffect("inertia", heavy, "torques are quasi-static: accelerations and impacts are neglected")

@@ -1,8 +1,8 @@
-"""Where power flows: absolute powers from shaft to pair to shaft, what each pair sheds, and what runs in circles.
+"""Power flow: absolute powers from shaft to pair to shaft, the losses of each pair, and recirculating power.
 
-The power that a link gives to a pair is minus its torque there times its absolute speed. A pair takes in what it gives
-on and what it loses; a shaft gives on all it takes in. Links that are locked together are one shaft. A friction of a
-bearing stands between its link and the carrier like a pair that only loses.
+The power that a link gives to a pair is minus its torque there times its absolute speed. A pair takes in what it passes
+on plus its loss; a shaft passes on all it takes in. Links that are locked together are one shaft. The friction of a
+bearing acts between its link and the carrier like a pair that only has losses.
 """
 
 from __future__ import annotations
@@ -24,18 +24,20 @@ PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]
 
 
 class PowerNode(NamedTuple):
-    """A place that power passes.
+    """Node of the power flow.
 
     See Also
     --------
-    PowerFlow.nodes : all of them.
+    PowerFlow.nodes : All nodes.
     """
 
     kind: PowerNodeKind
-    """What it is: power enters the train at `in` and leaves it at `out`."""
+    """Kind of node. Power enters the train at `in` and leaves it at `out`."""
     name: str
-    """Of the link (`in`, `out`, and a bearing, by the link that turns in it), of the pair, or of a shaft: links that
-    are locked together are one, `a + b`."""
+    """Name of the link, pair or shaft.
+
+    A bearing has the name of the link that turns in it. Links that are locked together are one shaft, `a + b`.
+    """
 
 
 @dataclass(frozen=True)
@@ -44,62 +46,66 @@ class PowerStream(Result):
 
     See Also
     --------
-    PowerFlow.streams : all of them.
+    PowerFlow.streams : All streams.
     """
 
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
     source: PowerNode
-    """Where the power comes from."""
+    """Node from which the power comes."""
     target: PowerNode
-    """Where the power goes."""
+    """Node to which the power goes."""
     power: Fraction
-    """Above 0 [torque times the train's unit of speed]."""
+    """Power, above 0 [torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)
-    """The part of it that runs in closed loops."""
+    """Part of the power that recirculates in closed loops."""
 
 
 @dataclass(frozen=True)
 class RecirculatingPower(Result):
-    """Nodes that feed each other in closed loops, and the power that runs round in them without leaving.
+    """Nodes of closed power loops, and the power that recirculates in them.
 
     See Also
     --------
-    PowerFlow.loops : all of them.
+    PowerFlow.loops : All loops.
     """
 
     KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
 
     nodes: tuple[PowerNode, ...]
-    """The pairs and shafts of the loops."""
+    """Pairs and shafts of the loops."""
     power: Fraction
-    """What runs round [torque times the train's unit of speed]."""
+    """Recirculating power [torque times the train's unit of speed]."""
     power_in: Fraction
-    """What enters the train."""
+    """Power that enters the train."""
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Its power over that which enters the train; None where none does."""
+        """Recirculating power over the power that enters the train; None if none enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
     def pairs(self) -> tuple[str, ...]:
-        """The pairs of the loop."""
+        """Pairs of the loop."""
         return tuple(node.name for node in self.nodes if node.kind == "pair")
 
     @property
     def shafts(self) -> tuple[str, ...]:
-        """The shafts of the loop."""
+        """Shafts of the loop."""
         return tuple(node.name for node in self.nodes if node.kind == "shaft")
 
 
 def find_circulation(
     streams: Sequence[PowerStream], power_in: Fraction
 ) -> tuple[list[PowerStream], list[RecirculatingPower]]:
-    """Streams with the part that circles, and the loops: closed ways are taken out, the widest first."""
+    """Return streams with their recirculating part, and the power loops.
+
+    Cycles are removed in order of decreasing bottleneck power.
+    """
     left = [stream.power for stream in streams]
     rounds: list[tuple[PowerNode, Fraction]] = []
     while way := _widest(streams, left):
+        # subtracting the bottleneck empties at least one stream, so that the loop ends
         minimum = min(left[at] for at in way)
         for at in way:
             left[at] -= minimum
@@ -118,7 +124,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Bottleneck cycle: the closed way whose narrowest stream is widest, by bisection over widths; or none."""
+    """Find the cycle with the largest minimum power (bottleneck cycle) by bisection. Return it, or an empty list."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -132,14 +138,14 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """One closed way through the streams at these places, by depth-first search without recursion; or none."""
+    """Find one cycle in the selected streams by iterative depth-first search. Return it, or an empty list."""
     after: dict[PowerNode, list[int]] = {}
     for at in open_:
         after.setdefault(streams[at].source, []).append(at)
     done: set[PowerNode] = set()
     for start in after:
         way: list[int] = []
-        ahead = {start: iter(after[start])}  # the nodes of the way with what is still to be tried from each
+        ahead = {start: iter(after[start])}  # nodes on the current path, with the streams not yet tried from each
         while ahead:
             for at in ahead[next(reversed(ahead))]:
                 target = streams[at].target
@@ -156,7 +162,7 @@ def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
 
 
 def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerNode]:
-    """The strongly connected component of a node: all that power from it reaches and that reach it."""
+    """Return the strongly connected component of a node."""
     ways: list[set[PowerNode]] = []
     for pairs in (((s.source, s.target) for s in streams), ((s.target, s.source) for s in streams)):
         after: dict[PowerNode, list[PowerNode]] = {}
@@ -173,11 +179,11 @@ def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerN
 
 @dataclass(frozen=True)
 class PowerLoss(Result):
-    """What a pair or bearing loses, beside what enters the train and what is lost in all.
+    """Loss of a pair or bearing, with the power input of the train and its total loss.
 
     See Also
     --------
-    PowerFlow.shares : all of them.
+    PowerFlow.shares : All losses.
     """
 
     KEYS = (
@@ -186,30 +192,30 @@ class PowerLoss(Result):
     )
 
     node: PowerNode
-    """The pair, or the bearing."""
+    """Pair or bearing."""
     power: Fraction
-    """What it loses [torque times the train's unit of speed]."""
+    """Power it loses [torque times the train's unit of speed]."""
     power_in: Fraction
-    """What enters the train."""
+    """Power that enters the train."""
     loss: Fraction
-    """What is lost in all."""
+    """Total power lost."""
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Over the power that enters; None where none does."""
+        """Loss over the power that enters the train; None if none enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
     def of_loss(self) -> Fraction:
-        """Over all that is lost."""
+        """Loss over the total loss."""
         return self.power / self.loss
 
 
 @dataclass(frozen=True)
 class PowerFlow(Result):
-    """All streams of power of a train in one state: power is torque times absolute speed.
+    """All power streams of a train in one state. Power is torque times absolute speed.
 
-    So every shaft gives on all it takes in, and every pair all but what it loses.
+    Every shaft therefore passes on all power that it takes in, and every pair all but its loss.
 
     Examples
     --------
@@ -228,17 +234,17 @@ class PowerFlow(Result):
     KEYS = ("streams", "loops")
 
     power_in: Fraction = Fraction(0)
-    """What enters the train [torque times the train's unit of speed]."""
+    """Power that enters the train [torque times the train's unit of speed]."""
     streams: tuple[PowerStream, ...] = ()
-    """From `in` through shafts and pairs to `out`."""
+    """Streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """By pair and bearing, only where something is lost."""
+    """Losses by pair and bearing, where they are not 0."""
     loops: tuple[RecirculatingPower, ...] = ()
-    """Circulating power, the greatest first."""
+    """Recirculating power, largest first."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:
-        """Every node that power passes."""
+        """All nodes that power passes."""
         return tuple(dict.fromkeys(end for stream in self.streams for end in (stream.source, stream.target)))
 
     @property
@@ -248,16 +254,16 @@ class PowerFlow(Result):
 
     @property
     def shares(self) -> tuple[PowerLoss, ...]:
-        """The losses, with their shares of the whole."""
+        """Losses with their fractions of the total."""
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
     def surplus(self, node: PowerNode) -> Fraction:
-        """What a node takes in and neither gives on nor loses: 0 everywhere but at the ends.
+        """Return the power that a node takes in but neither passes on nor loses: 0 except at `in` and `out`.
 
         Parameters
         ----------
         node : PowerNode
-            The node asked for.
+            Node of this power flow.
 
         Returns
         -------
@@ -270,17 +276,17 @@ class PowerFlow(Result):
 
 
 def find_power_flow(found: Torques) -> PowerFlow:
-    """The streams of power under some torques.
+    """Compute the power streams under given torques.
 
     Parameters
     ----------
     found : Torques
-        As `GearTrain.torques` and `GearTrain.driven` give them.
+        Result of `GearTrain.torques` or `GearTrain.driven`.
 
     Returns
     -------
     PowerFlow
-        Empty where no torques were found, or some are shared in no certain way.
+        Power flow, empty if torques are unknown or some pairs share load in an undetermined way.
 
     Examples
     --------
@@ -311,14 +317,14 @@ def find_power_flow(found: Torques) -> PowerFlow:
 
 
 def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
-    """The shaft of every link that is locked to another one, named by all its links."""
+    """Return the shaft of every locked link, named by all its links."""
     pairs = list(locks)
     groups = joined_groups(chain(*pairs), pairs)
     return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
 
 
 def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
-    """Pairs and bearings with the power that each of their links gives them."""
+    """Yield pairs and bearings with the power that each of their links gives them."""
     speed = found.speeds
     for pair in found.pairs.values():
         yield (
@@ -327,19 +333,20 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
         )
     for bearing in found.bearings:
         ends = ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction))
-        # a bearing that rests, or whose speed is open, has no torque, and need have no speed
+        # a bearing at rest or of undetermined speed has no torque, and its speed may be missing
         yield PowerNode("bearing", bearing.link), [(link, -torque * speed[link]) for link, torque in ends if torque]
 
 
 def has_torque_units(train: Train, state: str | None) -> bool:
-    """True if the loads and bearings of one state are given in units."""
+    """Return whether the loads and bearings of one state have units."""
     return train.has_torque_units(state)
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
-    """Watts in one unit of power: N m times the train's unit of speed; None where torques or speeds are plain numbers.
+    """Return the watts in one unit of power: N m times the train's unit of speed; None if either has no units.
 
-    Speeds are real where the train has a `rate`, that of the first input that turns, or its inputs have units.
+    Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
+    have units.
     """
     if not has_torque_units(train, case.state):
         return None

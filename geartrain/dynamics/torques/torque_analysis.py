@@ -1,6 +1,6 @@
-"""From a declared train in one case to its torques: what is known, requested and lost, and the verdict.
+"""Torques of a declared train in one case: known and unknown torques, losses, and the verdict.
 
-Verdicts state why nothing balances, which of several balances is given, and where the input must drive as well
+Verdicts state why nothing balances, which of several solutions is given, and where the input must drive as well
 (sections 5, 6, 8 and 11 of docs/torques.md).
 """
 
@@ -18,52 +18,55 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import decimal
 from geartrain.train import Train
 
-_GREAT = 10**12  # lambda of section 6: beside a load so many times as great, constant friction hardly matters
+_GREAT = 10**12  # lambda of section 6: factor of the load that makes constant friction negligible
 
 
 @dataclass(frozen=True)
 class LoadedBalance:
-    """A balance with what stands behind its known torques: loads, and friction of bearings."""
+    """Balance with the two sources of its known torques: loads, and friction of bearings."""
 
     balance: TorqueBalance
     speeds: Mapping[str, Fraction]
     loads: Mapping[str, Fraction]
     rubbing: Mapping[str, Fraction]
     enough: bool = True
-    """As many torques are unknown as the train has freedoms; else the loads must balance of themselves."""
+    """True if as many torques are unknown as the train has degrees of freedom.
+
+    Otherwise the loads must balance by themselves.
+    """
     open: tuple[str, ...] = ()
-    """Links whose speed is not determined."""
+    """Links whose speed is undetermined."""
 
     @property
     def names(self) -> str:
-        """The links asked for."""
+        """Links of unknown torque, as text."""
         return ", ".join(self.balance.unknown) or "any link"
 
     @property
     def load(self) -> str:
-        """What the train works against, in words."""
+        """Load of the train, as text."""
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
     def driving(self) -> Fraction:
-        """Power that the loads put in, less what they take out."""
+        """Net power that the loads put in."""
         return self._power(self.loads)
 
     @property
     def rubs(self) -> bool:
-        """True if friction of bearings stands beside a load."""
+        """True if both a load and friction of bearings act."""
         return any(self.loads.values()) and any(self.rubbing.values())
 
     def power(self, flow: FlowPattern) -> Fraction:
-        """Power that the links asked for put in."""
+        """Return the power input of the unknown torques."""
         return self._power(flow.solved.external)
 
     def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
-        """Power at the links whose speed is determined."""
+        """Return the power of torques at the links of determined speed."""
         return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
-        """Flows where the load is so great that constant friction hardly matters."""
+        """Return the flows under a load so large that constant friction is negligible."""
         known = dict(self.rubbing)
         for link, torque in self.loads.items():
             known[link] = known.get(link, Fraction(0)) + _GREAT * torque
@@ -71,7 +74,7 @@ class LoadedBalance:
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
-    """The verdict on loads that the links asked for cannot hold, losses apart; None where they can."""
+    """Return the verdict on loads that the unknown torques cannot balance even without losses, or None."""
     motions = unbalanced_motions(setting.system, known, requested)
     if not motions:
         return None
@@ -84,14 +87,14 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
     amounts = [f"{decimal(torque, 6)} at {link}" for link, torque in helpful.items()] or [
         f"{decimal(torque, 6)} more at {link}" for link, torque in torques.items()
     ]
-    fix = f"; it would take {' or '.join(amounts[:3])}" if amounts else ""
-    held = f"with {', '.join(requested)} held still they" if requested else "they"
-    text = f"the loads do not balance: {held} set {_some(likely or sorted(moving))} turning{fix}"
+    fix = f"; a torque of {' or '.join(amounts[:3])} would balance them" if amounts else ""
+    held = f"with {', '.join(requested)} at rest, they" if requested else "they"
+    text = f"the loads do not balance: {held} set {_some(likely or sorted(moving))} in motion{fix}"
     return TorqueVerdict("unbalanced", text, tuple(helpful))
 
 
 def _some(links: Sequence[str]) -> str:
-    """Some links by name, and how many more."""
+    """Format up to three links by name, and the number of the others."""
     more = f" and {len(links) - 3} more" if links[3:] else ""
     return ", ".join(links[:3]) + more
 
@@ -99,62 +102,64 @@ def _some(links: Sequence[str]) -> str:
 def find_torque_verdict(
     question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, left_out: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
-    """The verdict on flows, the first of which is the one given: with least left open, and least lost."""
+    """Return the verdict on flows, sorted by undetermined torques and losses. The first flow is the one given."""
     if not flows:
-        return _none(question, complete)
-    but = _but(left_out)
+        return _unbalanced(question, complete)
+    but = _neglected_note(left_out)
     if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
-        verdict = _open(flows, question)
+        verdict = _indeterminate(flows, question)
         return replace(verdict, text=verdict.text + but)
     if len(flows) > 1:
-        verdict = _several(question, flows)
+        verdict = _ambiguous(question, flows)
         return replace(verdict, text=verdict.text + but)
     sure = "" if complete else "; other patterns of power flow were not tried"
     source = "the loads" if question.loads else question.load
     free = f"; {_some(question.open)} turn freely: torques do not depend on their speeds" if question.open else ""
     return TorqueVerdict(
         "incomplete" if left_out else "determined",
-        f"every torque follows from {source}{but}{_help(question, flows[0])}{free}{sure}",
+        f"every torque follows from {source}{but}{_driving_note(question, flows[0])}{free}{sure}",
     )
 
 
-def _but(left_out: Sequence[NeglectedEffect]) -> str:
-    """What is not counted, in a few words."""
+def _neglected_note(left_out: Sequence[NeglectedEffect]) -> str:
+    """Summarise the neglected effects in a few words."""
     uncounted: dict[str, list[str]] = {}
     for each in left_out:
         if each.counts:
             uncounted.setdefault(each.what, []).extend(each.where)
     if uncounted:
         named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
-        return f", but for {', '.join(named)}"
-    return ", as a mean over a turn" if left_out else ""
+        return f"; not included: {', '.join(named)}"
+    return " (mean over a turn)" if left_out else ""
 
 
-def _none(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Why no torques balance: shares, bearings, or teeth."""
+def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
+    """Explain why no torques balance: shares, bearings, or teeth."""
     names = question.names
     if not question.enough:
-        text = "the loads balance while nothing is lost, and do not with the losses: an unknown torque is lacking"
+        text = "the loads balance without losses, but not with them: one more unknown torque is needed"
         return TorqueVerdict("unbalanced", text)
     if shares := question.balance.shares:
         pairs = dict.fromkeys(name for _, parts in shares for name in parts)
         if find_flow_patterns(replace(question.balance, shares=()))[0]:
-            text = f"the declared shares of {', '.join(pairs)} contradict the balance, which holds without them"
+            text = (
+                f"the declared shares of {', '.join(pairs)} contradict the balance, which has a solution without them"
+            )
             return TorqueVerdict("contradictory", text)
     if question.rubs and question.heavily_loaded():
         text = (
-            f"the load is too small to overcome the friction of the bearings, and no torque on {names} makes up for "
-            "it while the train turns this way; its teeth do not lock: a greater load turns it"
+            f"the load is too small to overcome the friction of the bearings, and no torque on {names} compensates for "
+            "it while the train turns this way; the teeth do not lock: a larger load turns the train"
         )
         return TorqueVerdict("stalled", text)
     sure = "" if complete else " (not every pattern of power flow was tried)"
-    great = ", however great: its teeth lock, not its bearings" if question.rubs else ""
+    great = ", however large: the teeth lock, not the bearings" if question.rubs else ""
     text = f"no torque on {names} balances {question.load} while the train turns this way{great}{sure}"
     return TorqueVerdict("self-locking", text)
 
 
-def _help(question: LoadedBalance, flow: FlowPattern) -> str:
-    """What to say where the load drives, and yet does not do it alone."""
+def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
+    """Describe a load that puts power in but cannot drive the train alone."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.rubs else ()
@@ -162,52 +167,58 @@ def _help(question: LoadedBalance, flow: FlowPattern) -> str:
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
         )
-    return f"; no load this way round drives the train, for its teeth lose it all: {question.names} must drive as well"
+    return (
+        "; no load in this sense drives the train, because the teeth dissipate all of its power: "
+        f"{question.names} must drive as well"
+    )
 
 
-def _open(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdict:
-    """What redundant pairs, brakes and locks leave open."""
+def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdict:
+    """Return the verdict on torques that redundant pairs, brakes and locks leave undetermined."""
     loose = tuple(dict.fromkeys(name for flow in flows for name in flow.solved.loose))
     links = list(flows[0].solved.open)
     locks = zip(question.balance.locks, flows[0].solved.locks, strict=True)
     links += [f"the lock of {a} and {b}" for ((a, _), (b, _)), torque in locks if torque is None]
     if not loose:
-        text = f"the torque on {', '.join(links)} is not determined: brakes and locks share it in no certain way"
+        text = f"the torque on {', '.join(links)} is not determined: brakes and locks share it in an unknown ratio"
         return TorqueVerdict("indeterminate", text, flows[0].solved.open)
     also = f", nor is the torque on {', '.join(links)}" if links else ""
-    text = f"how {', '.join(loose)} share their load is not determined{also}: redundant pairs; `share` declares it"
+    text = (
+        f"how {', '.join(loose)} share their load is not determined{also}: they are redundant, and `share` is not "
+        "declared"
+    )
     return TorqueVerdict("indeterminate", text, loose)
 
 
-def _several(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Name the flow that is given, and mention the others."""
+def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
+    """Return the verdict on several flows, which describes the given one and mentions the others."""
     given, *others = (question.power(flow) for flow in flows)
-    rest = " or ".join(_way(question, power, given < 0) for power in others)
+    rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
-        f"{len(flows)} patterns of power flow balance {question.load}: in the one given, which loses least, "
-        f"{_way(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
+        f"{len(flows)} patterns of power flow balance {question.load}: in the one given, with minimum loss, "
+        f"{_describe_flow(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
     )
     return TorqueVerdict("ambiguous", text)
 
 
-def _way(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """One flow in words; `resisted` is said where power leaves in the flow that is given."""
+def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
+    """Describe one flow. `resisted` is True if power leaves in the given flow."""
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
-    also = " as well, and all is lost" if resisted else ""
+    also = " as well, and all power is lost" if resisted else ""
     return f"{question.names} drives with power {decimal(power, 6)}{also}"
 
 
 _Key = tuple[object, ...]
-_EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits whose ratio is the same at every instant
+_EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits with a constant ratio
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
-    """Declared parts of the torque on each wheel that two or more such pairs have in common.
+    """Return declared fractions of the torque on each wheel that two or more sharing pairs have in common.
 
-    loaded   links with a torque of their own, or that are held
+    loaded   links with an external torque, or that are braked
 
-    An idler hands on what it gets: nothing is shared there, though its pairs may share on their other wheels.
+    An idler passes on its torque, so nothing is shared there, though its pairs may share on their other wheels.
     """
     by_wheel: dict[str, dict[str, Fraction]] = {}
     for gear in train.gears:
@@ -228,9 +239,9 @@ def find_ties(
     known: Mapping[str, Fraction],
     singled: Collection[str],
 ) -> tuple[tuple[str, ...], ...]:
-    """Pairs of equal planets share alike: one carrier, the same mates, counts, efficiencies and own torque.
+    """Group pairs of equal planets: same carrier, mates, tooth counts, efficiencies and external torque.
 
-    singled   links that are not like others: the frame, held, locked, asked for, or with declared shares
+    singled   links unlike others: the frame, braked, locked or requested links, or those with declared shares
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
     apart |= {link for circuit in circuits if circuit.kind not in _EVEN for link in (circuit.i, circuit.j)}
@@ -256,27 +267,27 @@ def find_ties(
 
 @dataclass(frozen=True)
 class UnknownLinks:
-    """The links whose torque is unknown."""
+    """Links of unknown torque."""
 
     links: tuple[str, ...]
     enough: bool = True
-    """As many as the train has freedoms; with fewer the loads have to balance of themselves."""
+    """True if they are as many as the degrees of freedom. With fewer, the loads must balance by themselves."""
     undecided: TorqueVerdict | None = None
-    """Why more are needed than it is plain which, where the loads do not."""
+    """Verdict that asks for more unknown torques, given if the loads do not balance without them."""
 
 
 @dataclass(frozen=True)
 class TorqueQuestion:
-    """What is asked in one case: loads that act, and the links whose torque is to be found."""
+    """Loads in one case, and the links of unknown torque."""
 
     loads: Mapping[str, Fraction]
     requested: UnknownLinks
 
 
 def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
-    """Torques under the declared loads, or under the friction of bearings alone: equations (3) to (8) and (10).
+    """Compute torques under the declared loads, or under friction of bearings only: equations (3) to (8) and (10).
 
-    flows_only   what is left out is not looked for, which would make the teeth of every pair
+    flows_only   skip the search for neglected effects, which would build the teeth of every pair
     """
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
@@ -285,9 +296,9 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
-    """The pairs that carry no torque under the declared loads, at any losses; empty where no torques follow.
+    """Return the pairs without torque under the declared loads at any losses; empty if torques are undetermined.
 
-    They are zero-force members (statics of trusses).
+    They correspond to zero-force members of trusses.
     """
     # proof: nothing but such pairs acts on the links beyond them, so the balance of these links is homogeneous for all
     # efficiencies, which only scale its coefficients: the multipliers are 0, or open between redundant pairs
@@ -299,26 +310,26 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """What acts and what is asked for; a verdict where nothing acts, or nothing can be asked."""
+    """Return the loads and the links of unknown torque, or a verdict if nothing acts or no torque can be requested."""
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
-        text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
+        text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     requested = _requested(setting, loads, solve_for)
-    verdict = _summed(setting, (*loads, *requested.links))
+    verdict = _without_axis(setting, (*loads, *requested.links))
     if verdict is None:
-        verdict = _still(setting, requested.links)
+        verdict = _at_rest(setting, requested.links)
     return TorqueQuestion(loads, requested) if verdict is None else verdict
 
 
 def torques_unknown(state: str | None) -> Torques:
-    """What is said where no torques can be asked for: the speeds of the state are not determined."""
+    """Return the result for a state whose speeds are undetermined."""
     return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Torques while a resisting unit of power leaves at `load` and `source` is to drive it; bearings left out."""
-    if (verdict := _summed(setting, (load, source))) is not None:
+    """Compute torques while a unit of power leaves at `load`, driven from `source`. Bearings are neglected."""
+    if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
         if not setting.speeds.get(link):
@@ -329,19 +340,19 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
-    """The links whose torque is unknown: as many as there are inputs, or fewer where that is all that is plain."""
+    """Choose the links of unknown torque: as many as inputs, or fewer if only those are certain."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
     if setting.forms and len(free) <= needed:
-        # what turns freely has no torque but what is declared, unless one is asked for
+        # a freely turning link has no torque except a declared or requested one
         named = (solve_for,) if solve_for is not None and solve_for not in free else ()
         return UnknownLinks((*free, *named), enough=False)
     if needed == 1 and solve_for is not None:
         free = (solve_for,)
     if len(free) == needed:
         return UnknownLinks(free)
-    if len(free) > needed:  # the crank, and inputs of which one has no torque
+    if len(free) > needed:  # a crank besides the inputs: one of the inputs has no torque
         certain, candidates = free[:1], free[1:]
     else:
         links = dict.fromkeys(output.of or name for name, output in setting.case.outputs.items())
@@ -352,35 +363,41 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
     if len(candidates) == lacking:
         return UnknownLinks(certain + candidates, enough=not setting.forms)
     loaded = ", ".join(link for link in enter if link in loads)
-    why = f"{loaded} carries a load" if loaded else f"power enters at {enter[0]}, which is no input"
+    why = f"{loaded} carries a load" if loaded else f"power enters at {enter[0]}, which is not an input"
     text = (
-        f"{why}, so {lacking} other torque{'s' if lacking > 1 else ''} must be unknown, and "
-        f"{len(candidates)} can be: name one with `solve_for`"
+        f"{why}, so {lacking} other torque{'s' if lacking > 1 else ''} must be unknown (number of candidates: "
+        f"{len(candidates)}): name one with `solve_for`"
     )
     certain += candidates if len(candidates) < lacking else ()
     return UnknownLinks(certain, False, TorqueVerdict("undecided", text, candidates))
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
-    """Where power may enter: the inputs, or, where only their speeds are given, the crank in place of one of them."""
+    """Return the links at which power may enter: the inputs, and the crank if it is another link.
+
+    A crank replaces a single input, which then only prescribes the speed.
+    """
     inputs, crank = tuple(setting.case.inputs), setting.train.crank
     if crank is None or crank in inputs:
         return inputs
     return (crank,) if len(inputs) == 1 else (crank, *inputs)
 
 
-def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """A torque about an axis that moves does no work with a sum of joint speeds, which is no rotation."""
+def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
+    """Return a verdict on links with moving axes, or None.
+
+    Their speed is a sum of joint speeds, which is not a rotation, so a torque has no unique power.
+    """
     sums = setting.axes.joint_sums
     for link in links:
         if link in sums:
-            why = "the axes between it and the frame are not parallel, and its sum of joint speeds is no rotation"
-            return TorqueVerdict("undecided", f"a torque on '{link}' has no one axis: {why}")
+            why = "the axes between it and the frame are not parallel, and its sum of joint speeds is not a rotation"
+            return TorqueVerdict("undecided", f"a torque on '{link}' has no unique axis: {why}")
     return None
 
 
-def _still(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
-    """A link at rest moves nothing; a single input at rest is a train at rest, which balances."""
+def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
+    """Return a verdict on a requested link at rest, unless the whole train is at rest."""
     speeds = setting.speeds
     if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
         return TorqueVerdict("still", f"'{requested[0]}' does not turn, so no torque on it does any work")
@@ -399,14 +416,14 @@ def _balanced(
     state = setting.case.state
     if not requested.enough and (lacking := find_imbalance(setting, known, requested.links)) is not None:
         return Torques(state, _with_reason(requested, lacking), requested.links)
-    from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies, settle_mean_efficiencies
+    from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies, apply_mean_efficiencies
 
     means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
-    balance, neither = settle_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
+    balance, neither = apply_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
     question = LoadedBalance(balance, setting.speeds, loads, rubbing, requested.enough, setting.open)
-    # all else being known, the power asked for tells the order of losses
+    # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
@@ -424,7 +441,10 @@ def _balanced(
 
 
 def _with_reason(requested: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Which torque might be named, before what is lacking without it; the latter alone where naming one is no help."""
+    """Combine two verdicts: which torque could be requested, and what fails without it.
+
+    The first is omitted if no further torque could help.
+    """
     if requested.undecided is None:
         return lacking
     untried = [link for link in requested.undecided.candidates if link not in requested.links]
@@ -440,7 +460,7 @@ def build_balance(
     requested: tuple[str, ...],
     means: Mapping[str, MeanEfficiencies] | None = None,
 ) -> TorqueBalance:
-    """The balance of a train with some torques known and some asked for; as if nothing rubbed where no means are."""
+    """Build the balance of a train with known and unknown torques, without losses if `means` is None."""
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
     locks = _locks(setting)
@@ -469,25 +489,26 @@ def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """A circuit as a path of power, with what its teeth lose; without loss where the way it rolls is not determined."""
+    """Return a circuit as a power path with its losses, or without loss if its rolling direction is undetermined."""
     i, j, k = circuit.i, circuit.j, circuit.carrier
     senses = (setting.sense(i), setting.sense(j), setting.sense(k))
     relative = setting.relative(i, k) or Fraction(0)
     forward, backward = means.given(0, driving=False) if means else (Fraction(1), Fraction(1))
     a, b = circuit.a, circuit.b
-    # the sign of a row is free: one for both orders of a planet and its ring, and for planets whose axes point apart
+    # the sign of a row is arbitrary: normalised, so that equal planets have equal rows for either order of their
+    # wheels and for opposite axes
     if min(a * senses[0], b * senses[1], key=abs) < 0:
         a, b = -a, -b
     return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
 
 
 def _acting(loads: Mapping[str, Fraction], rubbing: Mapping[str, Fraction]) -> dict[str, Fraction]:
-    """What is known of the torque on each link."""
+    """Return the known torque on each link."""
     return {link: loads.get(link, Fraction(0)) + rubbing.get(link, Fraction(0)) for link in {**loads, **rubbing}}
 
 
 def _rubbing(setting: LoadCase) -> dict[str, Fraction]:
-    """What bearings do to each link: the one it turns in, and those of what turns on it."""
+    """Return the total friction torque of bearings on each link, whether it turns in a bearing or carries one."""
     found: dict[str, Fraction] = {}
     for bearing in setting.bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -509,7 +530,7 @@ def _torques(
     for found in (solved.external, solved.brakes):
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
-    # friction of a bearing is no power from outside; what it takes depends on the speeds in the joints alone
+    # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
     for link, torque in rubbing.items():
         external[link] -= torque
     return Torques(
@@ -546,7 +567,10 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 
 
 def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Brakes and locks with what they exert: on a link about its own axis, on the second of two the reaction."""
+    """Return brakes and locks with their torques, each about the link's own axis.
+
+    A lock exerts the reaction on its second link.
+    """
     solved = flow.solved
     found = []
     for link in _brakes(setting):

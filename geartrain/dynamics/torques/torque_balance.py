@@ -1,9 +1,9 @@
 """Torque balance of every link, A^T x + T = 0: the transpose of the Willis system, exact, with losses.
 
 Equations (1) to (7) of docs/torques.md. A mesh of links i and j with carrier k and the row a (w_i - w_k) +
-b (w_j - w_k) = 0 carries one multiplier x: without loss its torques are a x on i, b x on j, and minus their sum on k.
-Where i drives in the carrier's frame, j gets the share eta of its torque; where j drives, i does. The loss is the
-driver's power in that frame times 1 - eta: never negative.
+b (w_j - w_k) = 0 has one multiplier x. Without loss its torques are a x on i, b x on j, and minus their sum on k. If i
+drives in the carrier's frame, the torque on j is reduced by the efficiency eta; if j drives, the torque on i is. The
+loss is the driver's power in that frame times 1 - eta, which is never negative.
 """
 
 from __future__ import annotations
@@ -18,115 +18,115 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Mesh id -> 1 where its first link drives in the carrier's frame, -1 where the second does, 0 without loss."""
+"""Driving side by mesh: 1 if its first link drives in the carrier's frame, -1 if the second does, 0 without loss."""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
-"""A link, and the meshes on one wheel of it with the parts of a torque that they carry."""
-_SCALES = 1_000_003, 1_414_213  # of the coefficients of a row, so that nothing in it cancels by chance
+"""Link, and the meshes on one of its wheels with their fractions of its torque."""
+_SCALES = 1_000_003, 1_414_213  # factors of the coefficients of a row, so that nothing cancels by chance
 
 
 @dataclass(frozen=True)
 class LoadedPair:
-    """One gear pair or coupling as a path of power: equations (1), (2), (4) and (5) of docs/torques.md."""
+    """Gear pair or coupling as a power path: equations (1), (2), (4) and (5) of docs/torques.md."""
 
     id: str
     links: tuple[str, str, str]
-    """I, j, k, and 1 or -1 for the sense of each link's axis."""
+    """Links i, j and k: first link, second link, carrier."""
     senses: tuple[int, int, int]
-    """I, j, k, and 1 or -1 for the sense of each link's axis."""
+    """Senses of the axes of these links, 1 or -1."""
     a: int
-    """Coefficients of its row."""
+    """Coefficient of the first link in the pair's row."""
     b: int
-    """Coefficients of its row."""
+    """Coefficient of the second link in the pair's row."""
     rolling: Fraction
-    """A (w_i - w_k), which is -b (w_j - w_k): 0 where the two do not roll on each other."""
+    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), 0 without relative motion."""
     forward: Fraction = Fraction(1)
-    """Efficiency with i driving, `backward` with j driving; at most 1, 0 or less locks."""
+    """Efficiency with i driving; `backward` is that with j driving. It is at most 1; 0 or less locks."""
     backward: Fraction = Fraction(1)
 
     def __post_init__(self) -> None:
-        """Raises `GearTrainError` for a pair that would give more than it takes."""
+        """Raise `GearTrainError` if an efficiency exceeds 1."""
         if max(self.forward, self.backward) > 1:
             what = f"pair '{self.id}' has an efficiency of {float(max(self.forward, self.backward)):g}"
             raise GearTrainError(Problem(what, "above 1 it would create power", "give an efficiency of at most 1"))
 
     @property
     def loses(self) -> bool:
-        """True if it matters which of the two drives."""
+        """True if the losses depend on which side drives."""
         return bool(self.rolling) and (self.forward != 1 or self.backward != 1)
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling: power flows from i to j where the multiplier has the other sign."""
+        """Sign of the rolling speed. Power flows from i to j if the multiplier has the opposite sign."""
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """The ways power may flow: one that locks can only idle, which the other way tells as well."""
+        """Driving sides to be tried. A side that locks is covered by the other side without torque."""
         if not self.loses:
             return (0,)
         return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
 
     def efficiency(self, side: int) -> Fraction:
-        """Efficiency with i driving (1) or j (-1)."""
+        """Return the efficiency with i driving (1) or j driving (-1)."""
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, Fraction, Fraction]:
-        """Torques on i, j, k per unit of the multiplier: equation (5)."""
+        """Return the torques on i, j, k per unit of the multiplier: equation (5)."""
         left = self.a * (self.backward if side < 0 else Fraction(1))
         right = self.b * (self.forward if side > 0 else Fraction(1))
         return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
 
-    def signs_beside(self, lead: LoadedPair, alike: bool) -> tuple[int, int]:
-        """Signs of the torques on both links beside those of a pair that bears as much, for one unknown of both.
+    def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
+        """Return the signs of the torques on both links relative to those of a tied pair with the same unknown.
 
-        alike   both name their links in the same order; a planet whose axis points the other way has another sign
+        alike   True if both name their links in the same order; a planet with reversed axis changes the sign
         """
-        led = (lead.a, lead.b) if alike else (lead.b, lead.a)
-        first, second = (-1 if own * other < 0 else 1 for own, other in zip((self.a, self.b), led, strict=True))
+        coefficients = (other.a, other.b) if alike else (other.b, other.a)
+        first, second = (-1 if a * b < 0 else 1 for a, b in zip((self.a, self.b), coefficients, strict=True))
         return first, second
 
     def power(self, multiplier: Fraction) -> Fraction:
-        """Power p that flows from i to j in the carrier's frame, before losses where i drives: equation (4)."""
+        """Return the power p from i to j in the carrier's frame, before losses if i drives: equation (4)."""
         return -multiplier * self.rolling
 
 
 @dataclass(frozen=True)
 class TorqueUnknown:
-    """One unknown torque, the same in all its meshes, and what a unit of it does to each row."""
+    """Unknown torque, common to all its meshes, with its coefficients in each row."""
 
     pieces: Mapping[int, LinearForm]
-    """Side of the first mesh that loses -> row -> coefficient; side 0 is without loss."""
+    """Coefficients by row, for each side of the first lossy mesh; side 0 is without loss."""
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
-    """Which of them are tried."""
+    """Sides to be tried."""
     turn: int = 0
-    """Sign of that mesh's rolling."""
+    """Sign of the rolling speed of that mesh."""
     barred: bool = False
-    """No power can pass: the torque must vanish."""
+    """True if no power can pass, so that the torque must vanish."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
-        """True if power flows the way `side` says, or not at all."""
+        """Return whether a torque transmits power in the direction of `side`, or no power."""
         if self.barred and torque:
             return False
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """The side of one of its meshes: they have one multiplier, but may name their wheels in another order."""
+        """Return the side of one of its meshes, which may name their wheels in different orders."""
         return side * mesh.turn * self.turn if mesh.loses else 0
 
 
 @dataclass(frozen=True)
 class TorqueBalance:
-    """What is known and what is not in one case.
+    """Known and unknown torques in one case.
 
     links     all links but the frame
-    known     external torque by link: loads and friction of bearings; links not named have none
-    unknown   links whose external torque is asked for
-    reactions by such a link, what takes the reaction of its torque if not the frame, and that of a torque of 1
-    held      links held to the frame; `locks`, pairs of links that turn together, with the senses of both axes
+    known     external torque by link: loads and friction of bearings; 0 for other links
+    unknown   links of unknown external torque
+    reactions by such a link, the link that takes the reaction if it is not the frame, and the reaction to a unit torque
+    held      links braked to the frame; `locks` are pairs of links locked together, with the senses of both axes
     ties      groups of meshes with equal multipliers, as of equal planets
-    shares    declared parts of the torque on a wheel
+    shares    declared fractions of the torque on a wheel
     """
 
     links: tuple[str, ...]
@@ -141,7 +141,7 @@ class TorqueBalance:
 
     @cached_property
     def columns(self) -> tuple[TorqueUnknown, ...]:
-        """All unknowns: torques of meshes, then external ones, brakes and locks."""
+        """All unknowns: torques of meshes, then external torques, brakes and locks."""
         tied = {name: group for group in self.ties for name in group}
         groups: dict[tuple[str, ...], list[LoadedPair]] = {}
         for mesh in self.meshes:
@@ -159,9 +159,9 @@ class TorqueBalance:
 
     @cached_property
     def rows(self) -> Mapping[int, Fraction]:
-        """Rows that must vanish, each with its known torque: one a link and one a share.
+        """Known torque of each row that must vanish: one row per link and one per share.
 
-        Rows of equal planets are proportional: one of them is enough.
+        Rows of equal planets are proportional, and only one of them is kept.
         """
         links, shared = len(self.links), sum(len(parts) - 1 for _, parts in self.shares)
         known = {row: self.known.get(link, Fraction(0)) for row, link in enumerate(self.links)}
@@ -176,13 +176,14 @@ class TorqueBalance:
                 alike.setdefault(tuple(at for at, _, _ in entries), []).append(row)
         kept: list[int] = []
         for group in alike.values():
+            # of proportional rows the first is kept
             said = {_direction(held[row], known.get(row, Fraction(0))): row for row in reversed(group)}
             kept += said.values() if len(group) > 1 else group
         return {row: known.get(row, Fraction(0)) for row in sorted(kept)}
 
     @cached_property
     def parts(self) -> Sequence[Block]:
-        """Blocks of rows and columns in the order in which they can be solved, the same for every pattern."""
+        """Blocks of rows and columns in an order of solution that is the same for every pattern."""
         held: dict[int, set[int]] = {row: set() for row in self.rows}
         for at, column in enumerate(self.columns):
             for piece in column.pieces.values():
@@ -192,7 +193,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """All of it as one block, for a balance in which a block leaves open what a later one needs."""
+        """Whole balance as one block, used if a block leaves open what a later one needs."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -201,7 +202,7 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """By mesh, the rows of shares it stands in: its torque on a link, by its share, equals that of the first."""
+        """Rows of shares by mesh. Its torque on a link, over its share, equals that of the first mesh."""
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
         for link, shares in self.shares:
@@ -224,7 +225,7 @@ class TorqueBalance:
         return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
-        """Where the torques of a mesh stand: the row, which of its three links it is of, and a factor."""
+        """Yield the entries of a mesh's torques: row, index of its link (0 to 2), and factor."""
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
 
@@ -234,13 +235,13 @@ class TorqueBalance:
 
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
-    """A row up to a factor."""
-    lead = entries[0][2] if entries else known
-    return (known / lead, *((at, side, value / lead) for at, side, value in entries))
+    """Return a row normalised by its first entry."""
+    scale = entries[0][2] if entries else known
+    return (known / scale, *((at, side, value / scale) for at, side, value in entries))
 
 
 def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
-    """Entries of one row summed up, zeros left out."""
+    """Sum the entries of one row, and omit zeros."""
     row: LinearForm = {}
     for at, value in entries:
         row[at] = row.get(at, Fraction(0)) + value
@@ -249,21 +250,21 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques under one pattern: multipliers by mesh, external torques asked for, and on brakes and locks."""
+    """Torques under one pattern: multipliers by mesh, unknown external torques, and torques on brakes and locks."""
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
     brakes: Mapping[str, Fraction]
     locks: tuple[Fraction | None, ...]
-    """By lock, the torque it exerts on its first link about the direction of the parallels; None where it is open."""
+    """Torque of each lock on its first link, about the direction of the parallels; None if undetermined."""
     loose: tuple[str, ...]
-    """Meshes whose torque is not determined, as between planets; they count 0."""
+    """Meshes whose torque is undetermined, as between planets; their multiplier is 0 here."""
     open: tuple[str, ...]
-    """Links asked for or held whose external torque is not determined for that; left out."""
+    """Requested or braked links whose external torque is therefore undetermined and omitted."""
 
 
 def idle_pairs(balance: TorqueBalance) -> set[str]:
-    """The pairs through which no torque passes at any position: nothing beyond them asks for one."""
+    """Return the pairs without torque at any position, because nothing beyond them needs one."""
     rows = {row for row, torque in balance.rows.items() if torque}
     idle: set[str] = set()
     for block in balance.parts:
@@ -276,7 +277,7 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
 
 
 def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
-    """The balance of the rest."""
+    """Return the balance without some pairs."""
     return replace(
         balance,
         meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),
@@ -285,7 +286,7 @@ def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """The balance with numbers of which nothing cancels by chance, as at single positions: for the order in it."""
+    """Return the balance with generic coefficients, which do not cancel by chance. It gives the order of solution."""
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(

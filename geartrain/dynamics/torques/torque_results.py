@@ -1,4 +1,4 @@
-"""Torques of a train in one case: what acts on each link and pair, where power flows, and what is lost."""
+"""Torques of a train in one case: torques on each link and pair, power flow, and losses."""
 
 from __future__ import annotations
 
@@ -15,47 +15,49 @@ from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief,
 
 @dataclass(frozen=True)
 class LinkTorque(Result):
-    """An external torque on a link, its power (None where the speed is open), and whether it was asked for."""
+    """External torque on a link, and its power."""
 
     KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "requested")
 
     torque: Fraction
     """External torque on the link."""
     power: Fraction | None
-    """Power that it puts into the train; None where the speed is not determined."""
+    """Power that it puts into the train; None if the speed is undetermined."""
     requested: bool
     """True if the torque was requested, False if it was given."""
 
 
 @dataclass(frozen=True)
 class HoldingTorque(Result):
-    """A brake on one link, or a lock of two, with the torques it exerts on them.
+    """Brake on one link, or lock of two links, with the torques it exerts.
 
     See Also
     --------
-    Torques.held : where these stand.
+    Torques.held : All brakes and locks.
     """
 
     KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
 
     links: tuple[str, ...]
-    """The link that is held, or the two that turn together."""
+    """Link that is braked, or the two links that turn together."""
     torques: tuple[Fraction, ...] | None
-    """On each of the links about its own axis [N m, or plain]; None where they are open."""
+    """Torque on each of the links about its own axis [N m, or plain]; None if undetermined."""
     clutch: str | None = None
-    """Its name, if it has one."""
+    """Name of the brake or clutch, if it has one."""
     cause: tuple[str, ...] = ()
-    """The links that are declared to be held, where these follow from it: a rigid connection across several axes
-    closes every joint on its way."""
+    """Links declared to be held, if this brake or lock is a consequence.
+
+    A rigid connection across several axes closes every joint along its path.
+    """
 
     @property
     def declared_cause(self) -> tuple[str, ...] | None:
-        """The cause; None where what is held is what is declared."""
+        """Declared links that cause this brake or lock; None if it is declared itself."""
         return self.cause or None
 
     @property
     def by_link(self) -> Mapping[str, Fraction] | None:
-        """The torques by link; None where they are open."""
+        """Torques by link; None if undetermined."""
         return None if self.torques is None else dict(zip(self.links, self.torques, strict=True))
 
 
@@ -63,11 +65,11 @@ class MemberTorques(NamedTuple):
     """Torques on the members of a gear pair or coupling."""
 
     first: Fraction
-    """On the first wheel."""
+    """Torque on the first wheel."""
     second: Fraction
-    """On the second wheel."""
+    """Torque on the second wheel."""
     carrier: Fraction
-    """On the carrier."""
+    """Torque on the carrier."""
 
 
 class BearingTorque(NamedTuple):
@@ -75,29 +77,28 @@ class BearingTorque(NamedTuple):
 
     See Also
     --------
-    Torques.bearings : where these stand.
+    Torques.bearings : All bearings with friction.
     """
 
     link: str
-    """The link that turns in the bearing."""
+    """Link that turns in the bearing."""
     carrier: str
-    """The link that bears it."""
+    """Link that carries the bearing."""
     torque: Fraction
-    """Torque on the link about its own axis [N m, or plain]; 0 where the bearing rests or its speed is not
-    determined."""
+    """Torque on the link about its own axis [N m, or plain]; 0 if the bearing is at rest or its speed undetermined."""
     reaction: Fraction
-    """Torque on the carrier about its own axis [N m, or plain]; 0 also where the frame bears it."""
+    """Torque on the carrier about its own axis [N m, or plain]; also 0 if the carrier is the frame."""
     loss: Fraction
-    """Power it takes, 0 or more [torque times the train's unit of speed]."""
+    """Power loss, 0 or more [torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
 class PairTorque(Result):
-    """One gear pair or coupling under load: equations (2) and (4) to (6) of docs/torques.md.
+    """Gear pair or coupling under load: equations (2) and (4) to (6) of docs/torques.md.
 
     See Also
     --------
-    Torques.pairs : where these stand.
+    Torques.pairs : All pairs and couplings.
     """
 
     KEYS = (
@@ -111,44 +112,49 @@ class PairTorque(Result):
     id: str
     """Name of the pair."""
     driver: str
-    """The wheel (or link) that drives in the carrier's frame; "" where no power flows."""
+    """Wheel (or link) that drives in the carrier's frame; "" if no power flows."""
     links: tuple[str, str, str]
     """First link, second link, carrier."""
     torques: tuple[Fraction, Fraction, Fraction]
-    """On these three, each about its own axis [N m, or plain]."""
+    """Torques on these three links, each about its own axis [N m, or plain]."""
     multiplier: Fraction
-    """The unknown x of the pair's row."""
+    """Unknown x of the pair's row."""
     rolling: Fraction | None
-    """A (w_i - w_k), so that -x times it is the power from the first link to the second; None where the wheels roll
-    on each other at a speed that is not determined."""
+    """Rolling speed a (w_i - w_k); None if undetermined.
+
+    Minus x times it is the power from the first link to the second.
+    """
     share: Fraction
-    """Part of the power that is left behind the pair, the carrier held; 1 without loss."""
+    """Efficiency of the pair with the carrier at rest; 1 without loss."""
     loose: bool = False
-    """True where the balance does not determine the torque."""
+    """True if the balance does not determine the torque."""
     exact: bool = True
-    """False where `share` is a mean over teeth, a float to 15 digits."""
+    """False if `share` is a mean over teeth, a float to 15 digits."""
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Part of the power that is left behind the pair; a float where it follows from a mean over teeth."""
+        """Efficiency of the pair with the carrier at rest; a float if it follows from a mean over teeth."""
         return self.share if self.exact else float(self.share)
 
     @property
     def on_members(self) -> MemberTorques:
-        """The torques by name."""
+        """Torques by member."""
         return MemberTorques(*self.torques)
 
     @cached_property
     def power(self) -> Fraction | None:
-        """Power that the driver puts in, in the carrier's frame: torque times the train's speeds; None where open."""
-        # worked out when asked for: both factors have many digits in a long train
+        """Power input of the driver in the carrier's frame; None if undetermined.
+
+        It is a torque times the train's unit of speed.
+        """
+        # computed on demand, because both factors have many digits in a long train
         if self.rolling is None:
             return None if self.multiplier else Fraction(0)
         return abs(self.multiplier * self.rolling)
 
     @property
     def loss(self) -> Fraction:
-        """Power lost; where the speed is open nothing is counted."""
+        """Power lost; 0 if the speed is undetermined."""
         return (self.power or Fraction(0)) * (1 - self.share)
 
 
@@ -169,23 +175,23 @@ TorqueVerdictKind = Literal[
 
 @dataclass(frozen=True)
 class TorqueVerdict(Result):
-    """Whether the torques follow from the loads: see sections 5, 8, 11 and 13 of docs/torques.md.
+    """Verdict on whether torques follow from the loads: see sections 5, 8, 11 and 13 of docs/torques.md.
 
-    True where torques are given: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
+    It is true if torques are given: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
 
     Kinds:
 
-    - `determined`: they follow, and nothing that is declared is left out.
-    - `incomplete`: they follow, but for what `Torques.left_out` names.
-    - `self-locking`: no torques balance the load, however great, while the train turns this way.
-    - `stalled`: none balance this load, which is too small to overcome the friction of bearings.
-    - `ambiguous`: several patterns of power flow do; the one that loses least is given.
-    - `indeterminate`: some tooth torques share a load in proportions that nothing declared decides.
-    - `contradictory`: declared shares of pairs do not go with the balance.
-    - `unbalanced`: the loads set the train moving, and no torque of the links asked for can hold them.
-    - `undecided`: it is not plain which torque is to be found.
+    - `determined`: torques follow, and no declared effect is neglected.
+    - `incomplete`: torques follow, but `Torques.left_out` lists neglected effects.
+    - `self-locking`: no torques balance the load, however large, while the train turns this way.
+    - `stalled`: no torques balance this load, which is too small to overcome the friction of bearings.
+    - `ambiguous`: several patterns of power flow balance; the one with minimum loss is given.
+    - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
+    - `contradictory`: declared shares of pairs contradict the balance.
+    - `unbalanced`: the loads set the train in motion, and no torques on the requested links can balance them.
+    - `undecided`: the link of unknown torque is not unique.
     - `unloaded`: no load and no friction of a bearing is declared.
-    - `still`: the train, or the link asked for, does not turn, or at a speed that is not determined.
+    - `still`: the train or the requested link is at rest, or its speed is undetermined.
 
     Examples
     --------
@@ -195,11 +201,11 @@ class TorqueVerdict(Result):
     """
 
     kind: TorqueVerdictKind
-    """One of the kinds above."""
+    """Kind of the verdict, one of the above."""
     text: str
-    """The verdict in a sentence."""
+    """The verdict as a sentence."""
     candidates: tuple[str, ...] = ()
-    """Links whose torque may be requested (`solve_for`) or would balance the loads; pairs that share a load openly."""
+    """Links whose torque may be requested (`solve_for`) or would balance the loads, or pairs of undetermined torque."""
 
     def _summary(self) -> str:
         return f"{self.kind}: {self.text}"
@@ -210,24 +216,24 @@ class TorqueVerdict(Result):
 
 @dataclass(frozen=True)
 class NeglectedEffect(Result):
-    """Something that is declared and does not stand in the torques given: the table in section 13 of docs/torques.md.
+    """Declared effect that the torques do not include: the table in section 13 of docs/torques.md.
 
     See Also
     --------
-    Torques.left_out : where these stand.
+    Torques.left_out : All neglected effects.
     """
 
     what: str
-    """What is left out, such as `friction of bearings` or `swing within a turn`."""
+    """Neglected effect, such as `friction of bearings` or `variation within a turn`."""
     where: tuple[str, ...]
-    """The pairs or links concerned."""
+    """Pairs or links concerned."""
     why: str
-    """The reason in words."""
+    """Reason, as text."""
 
     @property
     def counts(self) -> bool:
-        """False for what changes no mean: a swing, and the choice between two means."""
-        return self.what not in ("swing within a turn", "mean efficiency")
+        """False for effects that change no mean: variation within a turn, and the choice between two means."""
+        return self.what not in ("variation within a turn", "mean efficiency")
 
     def __str__(self) -> str:
         return f"{self.what} ({', '.join(self.where)})"
@@ -238,28 +244,28 @@ class DrivenWay(NamedTuple):
 
     See Also
     --------
-    geartrain.GearTrain.driven : gives the torques of one way.
+    geartrain.GearTrain.driven : Computes the torques of one direction.
     """
 
     torques: Torques
-    """What answers; its `efficiency` is that of this way."""
+    """Torques of the driven train; their `efficiency` is that in this direction."""
     source: str
-    """The link at which power enters."""
+    """Link at which power enters."""
     load: str
-    """The link at which power leaves."""
+    """Link at which power leaves."""
 
 
 @dataclass(frozen=True)
 class Torques(FrozenFields, Tabular, TrainResult):
     """Torques and powers of a train in one state, all exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
-    Torques are in N m where loads have units, else in the plain unit of the loads; powers are torques times the train's
-    unit of speed. Power is positive into the train.
+    Torques are in N m if loads have units, else in the plain unit of the loads. Powers are torques times the train's
+    unit of speed, positive into the train.
 
     Examples
     --------
-    Both pairs of a planetary set have an efficiency of 0.98, and its ring is held. From sun to carrier
-    (1 + p e) / (1 + p) comes out, with p = 60/24 and e = 0.98^2 (the table in section 10 of docs/torques.md):
+    Both pairs of a planetary set have an efficiency of 0.98, and the ring is fixed. The efficiency from sun to carrier
+    is (1 + p e) / (1 + p), with p = 60/24 and e = 0.98^2 (the table in section 10 of docs/torques.md):
 
     >>> import geartrain
     >>> found = geartrain.load('''
@@ -296,23 +302,23 @@ class Torques(FrozenFields, Tabular, TrainResult):
     )
 
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Whether the torques follow from the loads. Where they do not, nothing but this and `left_out` is given."""
+    """Verdict on whether the torques follow from the loads. If they do not, only this and `left_out` are given."""
     requested: tuple[str, ...] = ()
-    """The links whose torque was found."""
+    """Links whose torque was computed."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
-    """Torque from outside on every link that has one: loads, what was asked for, brakes."""
+    """External torque on every link that has one: loads, requested torques, brakes."""
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
     """Speeds of the links whose speed is determined."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
     """Gear pairs and couplings by name."""
     bearings: tuple[BearingTorque, ...] = ()
-    """Friction of bearings; empty where it was not asked for."""
+    """Friction of bearings; empty if it was not requested."""
     held: tuple[HoldingTorque, ...] = ()
     """Brakes and locks with the torques they exert."""
     left_out: tuple[NeglectedEffect, ...] = ()
-    """What is not counted."""
+    """Neglected effects."""
 
     def _meaning(self, column: str) -> str:
         text = self.MEANINGS[column]
@@ -336,7 +342,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def powers(self) -> Mapping[str, Fraction]:
-        """External power by link, positive into the train; of links whose speed is determined."""
+        """External power by link, positive into the train, for links whose speed is determined."""
         return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
 
     @property
@@ -349,7 +355,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each link with a torque from outside: its torque, speed and power as floats; None where open."""
+        """Table with a row for each external torque: torque, speed and power as floats, None if undetermined."""
         speeds, powers = ((each.get(link) for link in self.external) for each in (self.speeds, self.powers))
         return {
             "link": [*self.external],
@@ -359,22 +365,22 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """The flow of power under these torques, as a figure that notebooks show: `geartrain.drawing.power_figure`."""
+        """Return the power flow under these torques as a figure for notebooks: `geartrain.drawing.power_figure`."""
         return picture_maker("drawing", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:
-        """Links with a torque from outside whose speed, and so whose power, is not determined."""
+        """Links with an external torque whose speed, and therefore power, is undetermined."""
         return tuple(link for link, torque in self.external.items() if torque and link not in self.speeds)
 
     @property
     def uncounted(self) -> tuple[NeglectedEffect, ...]:
-        """What is left out of the powers and the efficiency; a swing leaves their means as they are."""
+        """Neglected effects that change powers and efficiency. Variation within a turn does not change their means."""
         return tuple(each for each in self.left_out if each.counts)
 
     @property
     def power_in(self) -> Fraction:
-        """Power that enters."""
+        """Power that enters the train."""
         return sum((power for power in self.powers.values() if power > 0), Fraction(0))
 
     @property
@@ -384,25 +390,27 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in pairs and bearings; what goes in and does not come out, where some pairs are open."""
+        """Power lost in pairs and bearings. If some pairs are undetermined, it is the net external power."""
         if any(pair.loose for pair in self.pairs.values()):
             return self._missing
         return sum((pair.loss for pair in self.pairs.values()), self.bearing_loss)
 
     @property
     def known_power_in(self) -> Fraction | None:
-        """Power that enters; None where the speed of a loaded link is open."""
+        """Power that enters the train; None if the speed of a loaded link is undetermined."""
         return None if self.open_speeds else self.power_in
 
     @property
     def known_loss(self) -> Fraction | None:
-        """Power lost; None where the speed of a loaded link is open."""
+        """Power lost; None if the speed of a loaded link is undetermined."""
         return None if self.open_speeds else self.loss
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power out over power in, a float where pairs have means over teeth; None where nothing goes in, or an asked
-        torque or a loaded link's speed is open."""
+        """Power output over power input; a float if pairs have means over teeth.
+
+        It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
+        """
         if not self.power_in or self.open_speeds or any(link not in self.external for link in self.requested):
             return None
         found = 1 - self._missing / self.power_in
@@ -414,7 +422,10 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def circulating(self) -> Fraction | None:
-        """The greatest power through a pair over the power put in; above 1 power circulates. None where one is open."""
+        """Maximum power through a pair over the power input; None if a power is undetermined.
+
+        Power recirculates if it exceeds 1.
+        """
         powers = [None if pair.loose else pair.power for pair in self.pairs.values()]
         known = [power for power in powers if power is not None]
         if not self.power_in or self.open_speeds or len(known) < len(powers):

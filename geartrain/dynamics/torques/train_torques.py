@@ -1,4 +1,4 @@
-"""Torques of a train at mean speeds: under the declared loads, or while it is driven from one link by another."""
+"""Torques of a train at mean speeds, under the declared loads or with one link driven from another."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 def solve(train: TrainMechanics, state: str | None) -> Torques:
-    """Torques on links and pairs under the loads of one state; loads are shared among equal planets."""
+    """Compute torques on links and pairs under the loads of one state. Equal planets share loads."""
     found = train.unfolded.load_case(state)
     return torques_unknown(state) if found is None else find_torques(found)
 
 
 def solve_driven(train: TrainMechanics, load: str, source: str, state: str | None) -> Torques:
-    """Torques while a unit of power leaves at `load`, driven from `source`."""
+    """Compute torques while a unit of power leaves at `load`, driven from `source`."""
     train = train.unfolded
     for link in (load, source):
         check_choice("link", link, tuple(train.declaration.links))
@@ -30,9 +30,9 @@ def solve_driven(train: TrainMechanics, load: str, source: str, state: str | Non
 
 
 def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]:
-    """The train driven from its input, and from its output, a unit of power leaving at the other.
+    """Compute torques driven from the input, and driven from the output, with a unit of power leaving at the other.
 
-    Empty where it is not plain which link is the output. By default in the first state.
+    The default is the first state. The list is empty if the output link is not unique.
     """
     train = train.unfolded
     declared = train.declaration

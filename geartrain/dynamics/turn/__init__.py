@@ -1,1 +1,1 @@
-"""Torque over a turn: the balance of every position, with its real ratio and friction (docs/torques.md, section 16)."""
+"""Torque over a turn: balance at every position with its actual ratio and friction (docs/torques.md, section 16)."""

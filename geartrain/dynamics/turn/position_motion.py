@@ -1,7 +1,7 @@
-"""How every link of a train turns at each position, and where the driver of each pair stands: the motion of all links.
+"""Motion of all links at each position: speeds of the links and driver angles of the pairs.
 
-Where the torque through a pair presses on its coast flanks the law of those gives its error there: a position may have
-another flank in each pair.
+Where torque presses a pair on its coast flanks, their transmission function gives its error. Every pair may therefore
+have another flank in contact at each position.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 
 
 class FlankChoice(DerivedTransmission):
-    """At each angle it is asked at, the law of the flanks that touch there; of a period, that of the drive flanks.
+    """Transmission function of the touching flanks, by angle. Its means over a period are those of the drive flanks.
 
-    coasting   where the coast flanks touch: one for each angle
+    coasting   for each angle, whether the coast flanks touch
     """
 
     def __init__(self, transmission: TransmissionFunction, coasting: Bools) -> None:
@@ -40,11 +40,11 @@ class FlankChoice(DerivedTransmission):
         self.coasting, self.friction = coasting, transmission.friction
 
     def picked(self, columns: Ints) -> FlankChoice:
-        """For some of the angles."""
+        """Return the function for a selection of the angles."""
         return FlankChoice(self.transmission, self.coasting[columns])
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Of either flank where it touches: the play lies between them."""
+        """Return error and speed of the touching flanks, including the backlash between them."""
         S = np.asarray(S, dtype=float)
         error, speed = np.empty_like(S), np.empty_like(S)
         for transmission, where in (
@@ -56,46 +56,46 @@ class FlankChoice(DerivedTransmission):
         return error, speed
 
     def error(self, S: ArrayLike) -> Floats:
-        """Of either flank where it touches."""
+        """Return the error of the touching flanks."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Of either flank where it touches."""
+        """Return the speed of the touching flanks."""
         return self.error_and_speed(S)[1]
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Of the drive flanks."""
+        """Return the efficiency of the drive flanks."""
         return self.transmission.efficiency(S)
 
     def efficiency_mean(self) -> float:
-        """Of the drive flanks."""
+        """Return the mean efficiency of the drive flanks."""
         return self.transmission.efficiency_mean()
 
     def efficiency_at_constant_load(self) -> float:
-        """Of the drive flanks."""
+        """Return the efficiency of the drive flanks at constant load."""
         return self.transmission.efficiency_at_constant_load()
 
     def efficiency_minimum(self) -> float:
-        """Of the drive flanks."""
+        """Return the minimum efficiency of the drive flanks."""
         return self.transmission.efficiency_minimum()
 
 
 class LinkMotion(NamedTuple):
-    """How links turn at some positions of the input."""
+    """Motion of the links at some positions of the input."""
 
     turns: Floats
-    """Of the input, (n,)."""
+    """Turns of the input, (n,)."""
     speeds: Floats
-    """Of links about the direction of their parallels, over the magnitude of the input's, (links, n)."""
+    """Speeds of links about the direction of their parallels, over the magnitude of the input's, (links, n)."""
     angles: Mapping[str, Floats]
-    """By pair that is followed, forward angle of its law's driver (rad), (n,)."""
+    """Forward angle of the driver of each evaluated pair [rad], by name, (n,)."""
 
 
 class PositionMotion:
-    """The motion of the links of a train that torque passes through.
+    """Motion of the links of a train that transmit torque.
 
-    motion     of links, each seen from the frame
-    pairs      those whose position is wanted, as far as their ratio or what they lose depends on it
+    motion     of links, each relative to the frame
+    pairs      names of the pairs whose position is needed if their ratio or losses depend on it
     """
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
@@ -108,37 +108,37 @@ class PositionMotion:
 
     @cached_property
     def links(self) -> Mapping[str, int]:
-        """The row of each link."""
+        """Row of each link."""
         return {link: row for row, link in enumerate(self.motion.outputs)}
 
     @cached_property
     def _columns(self) -> list[int]:
-        """The number of each link in the solved order."""
+        """Index of each link in the order of solution."""
         at = {link: number for number, link in enumerate(self.motion._propagation.links)}
         return [at[link] for link in self.links]
 
     @property
     def period(self) -> Fraction | None:
-        """Turns of the input after which every pair that is followed stands as at the start; None where none is."""
+        """Turns of the input after which every evaluated pair repeats its position; None without such pairs."""
         return common_period(self.composition.used)
 
     @property
     def way(self) -> int:
-        """-1 where the input turns backwards about its own axis: motion counts in its own sense."""
+        """Sign of the input's speed about its own axis. Motion counts in the input's sense."""
         return self.motion._problem.way
 
     @cached_property
     def senses(self) -> Floats:
-        """Of each link: 1 or -1, that of its axis over the input's own."""
+        """Sense of each link's axis relative to the input's motion, 1 or -1."""
         return np.array([float(self.way * self.motion._problem.signs.get(link, 1)) for link in self.links])
 
     @cached_property
     def means(self) -> Floats:
-        """Mean speed of each link over the input's."""
+        """Mean speed of each link over the input speed."""
         return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
-        """Speeds and angles at some positions, at most a chunk of them.
+        """Return speeds and angles at some positions, at most one chunk.
 
         coasting   by pair, the positions at which its coast flanks touch
         """
@@ -146,7 +146,7 @@ class PositionMotion:
             {name: FlankChoice(self.sources[name].transmission, where) for name, where in coasting.items()}
         )
         found = composition.at(turns)
-        # a pointer that is set turns no driver
+        # the offset of a set pointer does not turn any driver
         own = found.error - np.array(composition.offsets or (0.0,))[:, None]
         error = dict(zip(self._columns, own, strict=True))
         phase = InputPhase(turns)
@@ -154,14 +154,17 @@ class PositionMotion:
         return LinkMotion(turns, self.senses[:, None] * (self.means[:, None] + found.rate), angles)
 
     def kinks(self, coasting: frozenset[str], span: float) -> Floats:
-        """Turns of the input, from 0 to `span`, at which a law has a corner while some pairs coast all along."""
+        """Return the turns of the input, from 0 to `span`, at which a transmission function has a kink.
+
+        coasting   pairs whose coast flanks touch throughout
+        """
         if (coasting, span) not in self._kinks:
             composition = self.coasting_all_along(coasting)
             self._kinks[coasting, span] = KinkSearch(composition).over(0.0, span).turns
         return self._kinks[coasting, span]
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
-        """The composition with the coast flanks of some pairs touching everywhere."""
+        """Return the composition with the coast flanks of some pairs touching everywhere."""
         return self._with_transmissions({name: self.sources[name].transmission.reversed_motion() for name in pairs})
 
     def _with_transmissions(self, transmissions: Mapping[str, TransmissionFunction]) -> ErrorComposition:

@@ -1,4 +1,4 @@
-"""What torque over a turn answers: the torque at every position, energies over the run, extremes and where they are."""
+"""Results of torque over a turn: torque at every position, energies over the run, extremes and their positions."""
 
 from __future__ import annotations
 
@@ -16,27 +16,29 @@ if TYPE_CHECKING:
 
 
 class TorqueExtreme(NamedTuple):
-    """A torque, and where in the run it is needed.
+    """Extreme torque, and its position in the run.
 
     See Also
     --------
-    TorqueCycle.greatest, TorqueCycle.least, TorqueCycle.starting : where these stand.
+    TorqueCycle.maximum, TorqueCycle.minimum, TorqueCycle.starting : Fields that have one.
     """
 
     torque: float
-    """At the link asked for, positive where it drives the way the link turns on average [N m, or plain]."""
+    """Torque at the requested link, positive where it drives in the link's mean sense of rotation [N m, or plain]."""
     turns: float
     """Turns of the input from the start of the run."""
     days: float | None = None
-    """Time from the start of the run; None where the train's speeds are not by a time."""
+    """Time from the start of the run [days]; None if the train's speeds have no unit of time."""
 
 
 class CycleFigures(NamedTuple):
-    """What trials are told of a run: mean, greatest and starting torque, efficiency; None where there is none.
+    """Figures of a run for tolerance trials: mean, maximum and starting torque, and efficiency.
+
+    Figures that do not exist are None.
 
     See Also
     --------
-    TorqueCycle : everything.
+    TorqueCycle : The complete result of a run.
     """
 
     mean: float | None
@@ -46,28 +48,28 @@ class CycleFigures(NamedTuple):
 
 
 class PlaceInRun(NamedTuple):
-    """Where in a run something is.
+    """Position in a run.
 
     See Also
     --------
-    TorqueCycle.locked : where these stand.
+    TorqueCycle.locked : Field with such positions.
     """
 
     turns: float
     """Turns of the input from the start of the run."""
     days: float | None = None
-    """Time from there; None where the train's speeds are not by a time."""
+    """Time from the start of the run [days]; None if the train's speeds have no unit of time."""
 
 
 @dataclass(frozen=True)
 class CycleEnergy(Result):
     """Energies over a run [J, or plain torque times radians].
 
-    What goes in comes out or is lost: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
+    Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
 
     See Also
     --------
-    TorqueCycle.energy : where this stands.
+    TorqueCycle.energy : Field that has these.
     """
 
     KEYS = (
@@ -76,13 +78,13 @@ class CycleEnergy(Result):
     )
 
     put_in: float
-    """What the unknown torques (the crank's) put in, over the stretches in which they do."""
+    """Energy put in by the unknown torques (such as the crank's), where their power is positive."""
     returned: float
-    """What they take back where loads drive them."""
+    """Energy taken back by the unknown torques, where the loads drive them."""
     taken_out: float
-    """What loads take out, over the stretches in which they do."""
+    """Energy taken out by loads, where their power is negative."""
     loads_put_in: float
-    """What loads put in."""
+    """Energy put in by loads."""
     mesh: float
     """Energy lost in gear pairs, 0 or more."""
     pin: float
@@ -92,64 +94,66 @@ class CycleEnergy(Result):
 
     @property
     def net_in(self) -> float:
-        """What the unknown torques put in, less what they take back."""
+        """Net energy input of the unknown torques."""
         return self.put_in - self.returned
 
     @property
     def net_out(self) -> float:
-        """What loads take out, less what they put in."""
+        """Net energy output to the loads."""
         return self.taken_out - self.loads_put_in
 
     @property
     def efficiency(self) -> float | None:
-        """Energy out over energy in; None where nothing is put in on the whole."""
+        """Energy output over energy input; None if the net energy input is not positive."""
         if self.net_in > 0:
             return max(self.net_out, 0.0) / (self.net_in + max(-self.net_out, 0.0))
         return -self.net_in / -self.net_out if self.net_out < 0 else None
 
     @property
     def lost(self) -> float:
-        """What is lost in pairs, pins and bearings."""
+        """Energy lost in pairs, pins and bearings."""
         return self.mesh + self.pin + self.bearing
 
 
 @dataclass(frozen=True)
 class PairCycle(Result):
-    """One gear pair, coupling or bearing over a run.
+    """Figures of one gear pair, coupling or bearing over a run.
 
     See Also
     --------
-    TorqueCycle.parts : where these stand.
+    TorqueCycle.parts : Field that has these.
     """
 
     KEYS = ("kind", "loss", "passed", "flank_changes", "maximum")
 
     kind: str
-    """`mesh`, `pin` or `bearing`."""
+    """Kind of part: `mesh`, `pin` or `bearing`."""
     loss: float
     """Energy lost [J, or plain torque times radians]."""
     passed: float
-    """Energy that its driving side put in, in its carrier's frame; of a bearing the same as the loss."""
+    """Energy input of its driving side, in the frame of its carrier. For a bearing it equals the loss."""
     flank_changes: int = 0
-    """How often the torque through it changes its sense: each time the play of real teeth is crossed. In a run of
-    whole periods the change from its end to its start counts."""
+    """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each.
+
+    In a run of whole periods, a change from its end to its start counts too.
+    """
     maximum: float = 0.0
-    """Greatest torque on its driven side at any position, whichever its sense [N m, or plain]; of a bearing 0."""
+    """Maximum magnitude of the torque on its driven side [N m, or plain]; 0 for a bearing."""
 
 
 @dataclass(frozen=True)
 class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 16 to 18.
 
-    Positions are about `samples` even ones, every corner and jump of the laws with a position on either side of it,
-    those at which something turns back or changes its flank, and more where integrals ask for them; arrays over them
-    are read-only. Where nothing balances the train is locked: the torque is NaN there. A torque of 1 N m over one turn
-    of its own link is 2 pi J.
+    The run has about `samples` even positions. More are added at both sides of every kink and jump of the transmission
+    functions, where a motion reverses or the touching flank changes, and where integrals need them. Arrays over
+    positions are read-only. Where nothing balances the train is locked, and the torque is NaN. A torque of 1 N m over
+    one turn of its own link does 2 pi J of work.
 
     Examples
     --------
-    A pin at 10 mm drives a slot whose axis is 8 mm off, with friction, against 10 N m. The mean has a closed form,
-    10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the torque goes up to five times as much:
+    A pin at 10 mm drives a slot whose axis is offset by 8 mm, with friction, against 10 N m. The mean has a closed
+    form, 10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the maximum torque is five times as large as the load:
 
     >>> import geartrain
     >>> found = geartrain.load('''
@@ -184,60 +188,65 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     )
 
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Whether torques follow: `determined`; `incomplete` where something is left out; `ambiguous` where several
-    patterns of power flow balance somewhere; `self-locking` where nothing balances at some position. Where redundant
-    pairs share a load in no certain way it is `indeterminate`, and the least torques that balance are given. Where
-    the question itself has no answer it is the verdict of `Torques`, and nothing else is given."""
+    """Verdict on the torques.
+
+    `determined`: all torques follow. `incomplete`: some effects are neglected. `ambiguous`: several patterns of power
+    flow balance at some position. `self-locking`: nothing balances at some position. `indeterminate`: redundant pairs
+    share a load in an undetermined way, and the minimum-norm torques are given. If the question itself has no answer,
+    this is the verdict of `Torques`, and the result has nothing else.
+    """
     link: str = ""
-    """The link whose torque is asked for."""
+    """Link whose torque is requested."""
     newton_metres: bool = True
-    """True where torques are in N m, False where they are in the plain unit of the loads."""
+    """True if torques are in N m, False if they are in the plain unit of the loads."""
     span: float = 0.0
     """Turns of the input in the run."""
     period: float | None = None
-    """Turns after which everything stands as at the start; None where nothing ripples."""
+    """Turns of the input after which all positions repeat; None if nothing varies."""
     turns: Floats | None = None
-    """Positions of the input, in ascending order; the two sides of a jump stand at one position. Shape (n,)."""
+    """Positions of the input [turns], ascending, shape (n,). The two sides of a jump have the same position."""
     torque: Floats | None = None
-    """Torque at the link, positive where it drives the way the link turns on average (about its own axis, if it
-    turns nowhere on average); where several patterns balance, of the one that loses least [N m, or plain]. Shape
-    (n,)."""
+    """Torque at the link in the solution with minimum loss [N m, or plain], shape (n,).
+
+    It is positive where it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed
+    is 0.
+    """
     highest: Floats | None = None
-    """The same with the pattern that loses most. Shape (n,)."""
+    """Torque at the link in the solution with maximum loss [N m, or plain], shape (n,)."""
     standing: Floats | None = None
-    """The torque that starts the train at each position, static friction everywhere. Shape (n,)."""
+    """Torque that starts the train at each position, with static friction everywhere [N m, or plain], shape (n,)."""
     speeds: LabelledArray | None = None
-    """Speeds of links over the input's, (link, position)."""
+    """Speeds of links over the input speed, (link, position)."""
     powers: LabelledArray | None = None
-    """Power that each torque from outside puts in, over the speed of the input, (link, position) [N m, or plain]."""
+    """Power input of each external torque, over the speed of the input, (link, position) [N m, or plain]."""
     losses: LabelledArray | None = None
     """Power lost over the speed of the input, (part, position) [N m, or plain]."""
     mean: float | None = None
-    """Mean of the torque over the run; None where the train locks."""
+    """Mean torque over the run; None if the train locks."""
     maximum: TorqueExtreme | None = None
-    """Greatest torque, of all patterns where several balance; None where the train locks."""
+    """Maximum torque over all solutions that balance; None if the train locks."""
     minimum: TorqueExtreme | None = None
-    """Least torque, of all patterns where several balance."""
+    """Minimum torque over all solutions that balance."""
     starting: TorqueExtreme | None = None
-    """What starts the train at the worst position; None where it locks there."""
+    """Torque that starts the train at the worst position; None if it locks there."""
     energy: CycleEnergy | None = None
-    """Over the run; None where the train locks."""
+    """Energies over the run; None if the train locks."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
-    """Gear pairs, couplings, and bearings by `bearing LINK`."""
+    """Figures of gear pairs and couplings by name, and of bearings by `bearing LINK`."""
     locked_share: float = 0.0
-    """Share of the run in which nothing balances."""
+    """Fraction of the run in which nothing balances."""
     held_share: float = 0.0
-    """Share of the run in which loads and link both put power in, and all of it is lost."""
+    """Fraction of the run in which loads and the requested link both put power in, and all of it is lost."""
     ambiguous_share: float = 0.0
-    """Share of the run in which several patterns balance."""
+    """Fraction of the run in which several patterns of power flow balance."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()
-    """Beginning and end of each stretch in which nothing balances."""
+    """Start and end of each stretch in which nothing balances."""
     complete: bool = True
-    """False where there were too many patterns of power flow to try them all."""
+    """False if there were too many patterns of power flow to try them all."""
     left_out: tuple[NeglectedEffect, ...] = ()
-    """What is not counted."""
+    """Neglected effects."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -263,71 +272,71 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each position: turns of the input, and torques at the link as the attributes of these names say."""
+        """Table with a row for each position: `turns`, `torque`, `highest` and `standing`."""
         names = ("turns", "torque", "highest", "standing")
         return {name: getattr(self, name).tolist() for name in names}
 
     @property
     def unit(self) -> str:
-        """`N m`, or nothing for plain numbers."""
+        """Unit of torques: `N m`, or empty for plain numbers."""
         return "N m" if self.newton_metres else ""
 
     @property
     def maximum_torque(self) -> float | None:
-        """The greatest torque."""
+        """Maximum torque; None if the train locks."""
         return None if self.maximum is None else self.maximum.torque
 
     @property
     def maximum_place(self) -> PlaceInRun | None:
-        """Where the torque is greatest."""
+        """Position of the maximum torque."""
         return _place(self.maximum)
 
     @property
     def minimum_torque(self) -> float | None:
-        """The least torque; below 0 the loads drive there."""
+        """Minimum torque. The loads drive where it is negative."""
         return None if self.minimum is None else self.minimum.torque
 
     @property
     def minimum_place(self) -> PlaceInRun | None:
-        """Where the torque is least."""
+        """Position of the minimum torque."""
         return _place(self.minimum)
 
     @property
     def starting_torque(self) -> float | None:
-        """What starts the train at the worst position; None where it locks."""
+        """Torque that starts the train at the worst position; None if it locks."""
         return None if self.starting is None else self.starting.torque
 
     @property
     def starting_place(self) -> PlaceInRun | None:
-        """The worst position to start from."""
+        """Worst position to start from."""
         return _place(self.starting)
 
     @property
     def efficiency(self) -> float | None:
-        """Energy out over energy in, over the run; None where the train locks, or nothing is put in on the whole."""
+        """Energy output over energy input in the run; None if the train locks or has no net energy input."""
         return None if self.energy is None else self.energy.efficiency
 
     @property
     def flank_changes(self) -> Mapping[str, int]:
-        """How often the play is crossed, by pair and coupling."""
+        """Number of backlash crossings, by pair and coupling."""
         return {name: part.flank_changes for name, part in self.parts.items() if part.kind != "bearing"}
 
     @property
     def loses_most(self) -> str | None:
-        """The pair, coupling or bearing that loses most energy; None where nothing is lost."""
+        """Pair, coupling or bearing with the largest energy loss; None if nothing is lost."""
         name = max(self.parts, key=lambda each: self.parts[each].loss, default=None)
         return None if name is None or not self.parts[name].loss else name
 
     @property
     def recirculating(self) -> Mapping[str, float]:
-        """Pairs through which more energy passes than is put into the train, with how many times as much."""
+        """Pairs through which more energy passes than is put into the train, with the ratio of the two."""
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}
         shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}
         return {name: share for name, share in shares.items() if share > 1 + 1e-9}
 
     def at(self, turns: float) -> float:
-        """The torque at a position between those of the run, by a straight line between its neighbours.
+        """Interpolate the torque linearly at a position between those of the run.
 
         Parameters
         ----------
@@ -337,7 +346,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         Returns
         -------
         float
-            At the link asked for [N m, or plain]; NaN where the train is locked.
+            Torque at the requested link [N m, or plain]; NaN where the train is locked.
         """
         import numpy as np
 

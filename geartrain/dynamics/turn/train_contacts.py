@@ -1,9 +1,11 @@
-"""From a declared train in one case to the contacts of all its pairs: which law, which friction, which side drives.
+"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side.
 
-Section 17 of docs/torques.md. The multiplier x of a pair is the torque that presses its driven side forward: at x >= 0
-the drive flanks touch, at x <= 0 the coast flanks. With tau the ratio of that flank at this position the driven side
-gets x n and the driver gives x tau d, where n and d are 1 without friction. Friction turns round with the sliding, so
-that of one flank eta'(f) = 1/eta(-f) when it is turned the other way (23).
+They follow section 17 of docs/torques.md.
+
+The multiplier x of a pair is the torque that presses its driven side forward. At x >= 0 the drive flanks touch, at
+x <= 0 the coast flanks. Let tau be the ratio of the touching flank at this position. The driven side then gets x n and
+the driver gives x tau d, where n and d are 1 without friction. Friction reverses with the sliding velocity, so a flank
+that is driven from the other side has the efficiency eta'(f) = 1/eta(-f) (23).
 """
 
 from __future__ import annotations
@@ -34,82 +36,80 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques per unit of the multiplier, (n,) each: on the driven side, and from the driver, in their forward
-    senses."""
+    """Torques per unit of the multiplier, (n,) each: on the driven side, and from the driver, in forward senses."""
 
     driven: Floats
     driver: Floats
     barred: Bools | None = None
-    """Where no power can pass; None for nowhere."""
+    """Positions at which no power can pass; None if there are none."""
 
 
 class PairForce(NamedTuple):
-    """Torques on a circuit's first and second link for a unit of the multiplier, about the parallels' direction,
-    (n,)."""
+    """Torques on both links of a circuit per unit of the multiplier, about the parallels' direction, (n,)."""
 
     first: Floats
     second: Floats
     barred: Bools | None
-    """Where no power can pass; None for nowhere."""
+    """Positions at which no power can pass; None if there are none."""
 
 
 class DriverState(NamedTuple):
-    """How a pair stands and turns at some positions, (n,) each."""
+    """Position and speed of the driver of a pair, shape (n,) each."""
 
     S: Floats
-    """Forward angle of the law's driver (rad); empty where nothing of the pair depends on it."""
+    """Forward angle of the driver [rad]. Empty if nothing in the pair depends on it."""
     turning: Floats
-    """Its forward speed, seen from the carrier, over the input's."""
+    """Forward speed of the driver relative to the carrier, over the speed of the input."""
 
 
 class ContactLosses(ABC):
-    """What friction does to the torques of a contact."""
+    """Effect of friction on the torques of a contact."""
 
     @property
     def rubs(self) -> bool:
-        """True if something is lost."""
+        """True if the contact has losses."""
         return True
 
     @property
     def starts_harder(self) -> bool:
-        """True if friction at rest is another than in motion."""
+        """True if static friction differs from sliding friction."""
         return False
 
     @abstractmethod
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Torques per unit of the multiplier.
+        """Return the torques per unit of the multiplier.
 
-        tau   ratio of the flank that touches, and `transmission` what gives it
-        way   1 where the law's driver drives, -1 where the other side does, 0 where they do not turn against each other
+        tau   ratio of the touching flank, given by `transmission`
+        way   1 if the driver of the transmission function drives, -1 if the other side does, 0 without relative motion
         """
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Something whose sign changes where torques have a kink of which the law does not tell; None by default."""
+        """Return values whose sign changes at kinks of torques that are not kinks of the ratio; None by default."""
         del at
         return None
 
 
 class NoLosses(ContactLosses):
-    """Nothing is lost."""
+    """Contact without losses."""
 
     @property
     def rubs(self) -> bool:
-        """False."""
+        """Always False."""
         return False
 
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """As the ratio has it."""
+        """Return the torques given by the ratio."""
         del transmission, at, way, static
         return ContactTorques(np.ones_like(tau), tau)
 
 
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
-    """A declared efficiency: with the law's driver driving, and with the other side driving. 0 or less locks."""
+    """Declared efficiencies, for either driving side. A value of 0 or less locks the pair in that direction."""
 
     driver: float
     driven: float
@@ -117,7 +117,7 @@ class BasicEfficiency(ContactLosses):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """The part that arrives."""
+        """Return the torques scaled by the efficiency of the driving side."""
         del transmission, at, static
         ahead, back = way > 0, way < 0
         barred = (ahead & (self.driver <= 0)) | (back & (self.driven <= 0))
@@ -128,30 +128,32 @@ class BasicEfficiency(ContactLosses):
 
 @dataclass(frozen=True)
 class ToothFriction(ContactLosses):
-    """Friction of real teeth: each contact passes (1 + f out)/(1 + f into), f < 0 where its flanks slide back."""
+    """Friction of real teeth: each contact transmits (1 + f out)/(1 + f into), f < 0 where flanks slide back."""
 
     sliding: float | Callable[[Floats, Floats], Floats]
-    """Coefficient in motion, at any speed; or at a speed of sliding over that of the pitch line, and the driver's
-    speed over the input's."""
+    """Coefficient of sliding friction: a number, or a function of two speeds.
+
+    Its arguments are the sliding speed over the pitch-line speed, and the driver's speed over the input speed.
+    """
     static: float
-    """Coefficient at rest."""
+    """Coefficient of static friction."""
 
     @property
     def starts_harder(self) -> bool:
-        """True if there is another coefficient at rest."""
+        """True if static friction differs from sliding friction."""
         return self.sliding != self.static
 
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Contacts at once take equal shares of the torque of the side that drives."""
+        """Return the torques; simultaneous contacts share the torque of the driving side equally."""
         assert transmission is not None
         sliding, into, out = transmission.rubbing(at.S)
-        touching = ~np.isnan(out)
+        touching = ~np.isnan(out)  # NaN marks pairs of teeth that do not touch at this position
         f = (self.static if static else self._coefficient(sliding, at.turning)) * way
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + f * into, 1 + f * out
-            # the side that drives: a contact whose force it cannot press together locks the pair
+            # driving side: if friction exceeds the driving component of the contact force, the pair locks
             driving = np.where(way > 0, into, out)
             given = np.where(way > 0, out, into) / driving
         locks = (touching & (driving <= 0)).any(axis=0) | ((way > 0) & (touching & (given <= 0)).any(axis=0))
@@ -175,75 +177,78 @@ class PinFriction(ContactLosses):
 
     @property
     def rubs(self) -> bool:
-        """True if there is friction at all."""
+        """True if either coefficient of friction is not 0."""
         return bool(self.sliding or self.static)
 
     @property
     def starts_harder(self) -> bool:
-        """True if there is another coefficient at rest."""
+        """True if static friction differs from sliding friction."""
         return self.static != self.sliding
 
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """By arms, which hold through dead points too."""
+        """Return the torques from lever arms, which are finite at dead points too."""
         del transmission
         r, e = self.transmission.r, self.transmission.e
         half = np.sin(at.S / 2)
-        # rho^2 as a sum: near r = e the difference would cancel
+        # rho^2 as a sum of squares, because the difference cancels near r = e
         square = (r - e) ** 2 + 4 * r * e * half**2
         arm = r * e * np.abs(np.sin(at.S)) / square
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """The pin on the line through both axes: there its sliding turns round."""
+        """Return sin S: it is 0 with the pin on the line through both axes, where the sliding velocity reverses."""
         return np.sin(at.S) if self.rubs else None
 
 
 @dataclass(frozen=True)
 class PairContact:
-    """One gear pair or coupling as torque passes through it."""
+    """Torque transmission of one gear pair or coupling."""
 
     circuit: Circuit
     first: bool
-    """True where the law's driver is the circuit's first link."""
+    """True if the driver of the transmission function is the circuit's first link."""
     way: int
-    """Sense of its mean motion seen from the carrier, about the parallels' direction; `sense`, the driven side's."""
+    """Sense of the driver's mean motion relative to the carrier, about the parallels' direction.
+
+    `sense` is the sense of the driven side.
+    """
     sense: int
     ratio: float
-    """Constant ratio, driven over driver without sign, where there is no source."""
+    """Magnitude of the constant ratio, driven over driver. It is used if `source` is None."""
     losses: ContactLosses
     source: PairErrorSource | None = None
-    """Of the error of its law; None for a pair of constant ratio, whose position does not matter."""
+    """Source of the transmission error. None for a pair of constant ratio, whose position does not matter."""
 
     @property
     def name(self) -> str:
-        """The pair's."""
+        """Name of the pair."""
         return self.circuit.id
 
     @property
     def kind(self) -> str:
-        """`mesh` or `pin`."""
+        """Kind of the pair: `mesh` or `pin`."""
         return "mesh" if self.circuit.kind == "gear" else "pin"
 
     @property
     def ends(self) -> tuple[str, str]:
-        """The law's driver, and the driven side."""
+        """Driver of the transmission function, and the driven side."""
         i, j = self.circuit.i, self.circuit.j
         return (i, j) if self.first else (j, i)
 
     @property
     def two_sided(self) -> bool:
-        """True if its flanks differ, or friction makes it matter who drives."""
+        """True if its flanks differ, or if friction depends on the driving side."""
         return self.losses.rubs or self.has_flanks
 
     @property
     def has_flanks(self) -> bool:
-        """True for teeth with play: a pin has none."""
+        """True for teeth with backlash. Pins have none."""
         return self.source is not None and self.source.transmission.reversed_motion() is not self.source.transmission
 
     def torques(self, side: int, at: DriverState, static: bool = False) -> PairForce:
-        """What a unit of the multiplier does.
+        """Return the torques on both links per unit of the multiplier.
 
         side   1 for the drive flanks, -1 for the coast flanks
         """
@@ -261,7 +266,7 @@ class PairContact:
 
 
 def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> set[str]:
-    """The pairs that have to be followed: their ratio depends on their position, or what they lose does."""
+    """Return the names of the pairs whose ratio or losses depend on their position."""
     names = {circuit.id for circuit in setting.circuits}
     uneven = {name for name, mesh in teeth.items() if not mesh.rigid or _by_friction(setting, mesh)}
     return names & {*uneven, *setting.joints}
@@ -270,10 +275,10 @@ def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> set[str]
 def find_contacts(
     setting: LoadCase, positions: PositionMotion, teeth: Mapping[str, GearMesh]
 ) -> dict[str, PairContact]:
-    """The contact of every pair and coupling, by name.
+    """Return the contact of every pair and coupling, by name.
 
-    positions   with the pairs that are followed position by position; others have a constant ratio
-    teeth       real teeth with the wheel driving whose law is followed
+    positions   motion of the pairs that are evaluated at every position; other pairs have a constant ratio
+    teeth       real teeth, with the driver of the transmission function that is used
     """
     found = {}
     for circuit in setting.circuits:
@@ -288,7 +293,7 @@ def find_contacts(
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """The pairs whose friction is counted by its mean: redundant ones, of whose position the motion does not tell."""
+    """Yield the pairs with mean friction: redundant pairs, whose position does not follow from the motion."""
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
     return (name for name in teeth if name in names and _by_friction(setting, teeth[name]))
 
@@ -319,7 +324,7 @@ def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """What a gear pair loses: by its friction at each position, or the same part everywhere."""
+    """Return the losses of a gear pair: friction at each position, or a constant efficiency."""
     if source is not None and mesh is not None and _by_friction(setting, mesh):
         return _tooth_friction(setting, circuit, source, mesh)
     means = find_mean_efficiencies(setting, circuit).load
@@ -338,7 +343,7 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
 
 
 class BearingTorques(NamedTuple):
-    """Friction torque of a bearing while it turns, and at rest; and viscous drag for a unit of the input's speed."""
+    """Friction torque of a bearing in motion and at rest, and viscous drag per unit of the input's speed."""
 
     sliding: float
     static: float
@@ -346,7 +351,7 @@ class BearingTorques(NamedTuple):
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """The links whose bearing rubs, or that drag where it is known how fast they turn."""
+    """Return the friction of every link with bearing friction, or with drag if its absolute speed is known."""
     train, unit = setting.train, _radians_per_second(setting)
     found = {}
     for link, part in train.links.items():
@@ -360,13 +365,13 @@ def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
 
 
 def dragging_links(setting: LoadCase) -> tuple[str, ...]:
-    """Links whose viscous drag is not counted: nothing says how fast they turn, or torques are plain numbers."""
+    """Return the links whose viscous drag is neglected, because speeds or torques have no units."""
     links = tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.si)
     return () if _radians_per_second(setting) else links
 
 
 def _radians_per_second(setting: LoadCase) -> float | None:
-    """Of the input, by magnitude; None where speeds or torques are plain numbers."""
+    """Return the magnitude of the input speed [rad/s], or None if speeds or torques are plain numbers."""
     unit = radians_per_second(setting.train, setting.case)
     driving_speed = next((speed for speed in setting.case.inputs.values() if speed), None)
     if unit is None or driving_speed is None or not has_torque_units(setting.train, setting.case.state):

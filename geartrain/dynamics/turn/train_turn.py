@@ -1,9 +1,9 @@
-"""The torque of a train over turns of its input, with the ratio and the friction of every position.
+"""Torque of a train over turns of its input, with the ratio and the friction of every position.
 
-A friction study runs one train with other frictions each time; its motion, corners, tables and order of solution are
-found once. Friction moves nothing: at a position all links turn as the flanks that touch there say. It changes which
-flanks touch, and what passes. Who drives each pair may change with it, where torques of opposite senses meet; then
-nothing is kept.
+A friction study repeats one run with other coefficients of friction. Motion, kinks, tables and the order of solution
+are computed once, because friction does not change the motion for given flanks. It changes which flanks touch and the
+power that is transmitted. Where torques of opposite senses meet, friction may also change the driver of a pair; then
+nothing can be reused.
 """
 
 from __future__ import annotations
@@ -37,15 +37,15 @@ if TYPE_CHECKING:
 
 @dataclass
 class FrictionStudy:
-    """A run to be told with other coefficients of friction."""
+    """Run whose figures can be recomputed with other coefficients of friction."""
 
     run: TurnRun
     of: str | None = None
     certain: bool = False
-    """True where who drives each pair is the same with any friction that does not lock."""
+    """True if the driver of each pair is the same for any friction that does not lock the train."""
 
     def figures(self, friction: Mapping[str, FrictionInForce]) -> CycleFigures:
-        """Figures of the run with other frictions of some pairs and couplings."""
+        """Return the figures of the run with other friction in some pairs and couplings."""
         own = self.run.train
         contacts = {name: _rubbed(each, friction.get(name)) for name, each in own.contacts.items()}
         train = replace(own, contacts=contacts, complete=True)
@@ -55,7 +55,7 @@ class FrictionStudy:
 def find_friction_study(
     setting: LoadCase, problem: MotionProblem, turns: float, samples: int, of: str | None
 ) -> FrictionStudy | None:
-    """The study of one run; None where friction is counted by its mean, or goes by a law of speed."""
+    """Return the study of one run, or None if some friction is a mean value or depends on speed."""
     train = find_turn_balance(setting, problem, of)
     if isinstance(train, TorqueVerdict):
         return None
@@ -70,7 +70,7 @@ def find_friction_study(
 
 
 def _rubbed(contact: PairContact, friction: FrictionInForce | None) -> PairContact:
-    """A contact with another friction."""
+    """Return a contact with other coefficients of friction."""
     losses = contact.losses
     if friction is None or friction.sliding is None or not isinstance(losses, ToothFriction | PinFriction):
         return contact
@@ -78,10 +78,10 @@ def _rubbed(contact: PairContact, friction: FrictionInForce | None) -> PairConta
 
 
 def drivers_are_certain(train: TurnBalance) -> bool:
-    """Whether power flows one way through every pair, whatever friction takes on the way while nothing locks.
+    """Return whether the direction of power through every pair is the same for any friction that does not lock.
 
-    Each torque follows from one row, in which all that is known has one sense: then its own sense does not depend on
-    how much each of them is. Carriers that turn take a difference of torques, and are not certain.
+    This is certain if each torque follows from one row in which all known torques have the same sense. The sense of the
+    result then does not depend on their magnitudes. Moving carriers take a difference of torques and are not certain.
     """
     setting, balance = train.setting, train.balance
     frame, rows = setting.train.frame, {link: row for row, link in enumerate(balance.links)}
@@ -115,12 +115,12 @@ def drivers_are_certain(train: TurnBalance) -> bool:
 
 
 def _senses(mesh: LoadedPair) -> tuple[int, int, int]:
-    """Of the torques on the links of a pair in the frame, for a positive multiplier."""
+    """Return the senses of the torques on the links of a pair in the frame, for a positive multiplier."""
     return int(np.sign(mesh.a)) * mesh.senses[0], int(np.sign(mesh.b or -1)) * mesh.senses[1], 0
 
 
 SAMPLES = 20_000
-"""Positions of a run unless a number is given."""
+"""Default number of positions of a run."""
 
 
 def solve(
@@ -131,7 +131,7 @@ def solve(
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
-    """The torque at every position of some turns: see `GearTrain.torques`."""
+    """Compute the torque at every position of some turns. See `GearTrain.torques`."""
     check_numbers(turns=turns)
     check_whole_numbers(samples=samples)
     train = train.unfolded
@@ -146,9 +146,9 @@ def solve(
 def study_friction(
     train: TrainMechanics, turns: float, samples: int = SAMPLES, state: str | None = None, of: str | None = None
 ) -> FrictionStudy | None:
-    """A run that can be repeated with other coefficients of friction, in a part of the time of a new train.
+    """Return a run that can be repeated with other coefficients of friction, much faster than a new train.
 
-    None where friction is counted by its mean, or follows a law of speed: then each needs a train of its own.
+    It is None if some friction is a mean value or depends on speed. Each set of coefficients then needs a new train.
     """
     train = train.unfolded
     found = train.load_case(state)
@@ -156,26 +156,27 @@ def study_friction(
 
 
 def find_torque_period(train: TrainMechanics, state: str | None = None, of: str | None = None) -> Fraction | None:
-    """Turns of the input after which the torque over a turn repeats, exactly.
+    """Return the turns of the input after which the torque over a turn repeats, exactly.
 
     Parameters
     ----------
     train : TrainMechanics
-        `GearTrain.mechanics`.
+        Mechanics of the train, `GearTrain.mechanics`.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state. None is allowed only for a train without states.
     of : str, optional
-        The link whose torque is requested, by default the crank or input.
+        Link whose torque is requested, by default the crank or input.
 
     Returns
     -------
     Fraction or None
-        None where no pair that carries torque is uneven, so that the torque is one at all positions, or where torques
-        are not known.
+        Period [turns of the input]. None if no pair that carries torque has a variable ratio or friction, so that the
+        torque is constant, or if torques are unknown.
 
     Examples
     --------
-    A clock of even teeth, whose friction depends on the place of the tooth: all repeats after a quarter of an hour.
+    A clock with identical teeth, whose friction depends on the position of the contact, repeats after a quarter of an
+    hour:
 
     >>> import geartrain
     >>> train = geartrain.load('''

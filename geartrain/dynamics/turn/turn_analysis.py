@@ -1,4 +1,4 @@
-"""Torque over a turn, from a train in one case to its answer: docs/torques.md, sections 16 to 18."""
+"""Torque over a turn, from a load case to its results: docs/torques.md, sections 16 to 18."""
 
 from __future__ import annotations
 
@@ -44,20 +44,20 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_CELLS = 12  # cells that are looked at more closely
-_PARTS = 16  # of a cell, and then of what is left of it
-_ROUNDS = 6
+_CELLS = 12  # candidate cells in which an extreme is refined
+_PARTS = 16  # subdivisions per round of refinement
+_ROUNDS = 6  # rounds of refinement: each narrows the interval by 8
 DEFAULT_SAMPLES = 20_000
 MOST_TURNS = 1e9
-_ODD = Fraction(1_414_213, 1_000_003)
+_ODD = Fraction(1_414_213, 1_000_003)  # factor of friction that cancels no declared load
 
 
 def find_extreme(
     value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
 ) -> tuple[float, float] | None:
-    """Where a value is greatest (1) or least (-1), and the value; None where there is none anywhere.
+    """Return the position and value of a maximum (`way` 1) or minimum (-1), or None if no value is finite.
 
-    value_at   at some positions; `values`, those of the run, NaN where there are none
+    value_at   function from positions to values; `values` are those of the run, NaN where the train is locked
     """
     signed = np.where(np.isfinite(values), way * values, -np.inf)
     if not np.isfinite(signed).any():
@@ -76,8 +76,9 @@ def find_extreme(
             best = float(peak.max())
             at = float(grid[np.argmax(peak), which[np.argmax(peak)]])
         rows = np.arange(len(which))
+        # a smooth maximum lies between the neighbours of the best grid point
         low, high = grid[rows, np.maximum(which - 1, 0)], grid[rows, np.minimum(which + 1, _PARTS)]
-    return at, way * best + 0.0  # no negative zero
+    return at, way * best + 0.0  # avoids -0.0
 
 
 def find_torque_cycle(
@@ -88,51 +89,55 @@ def find_torque_cycle(
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
-    """Torques over some turns of the input.
+    """Compute torques over some turns of the input.
 
-    problem   what motion needs to know of the same case
-    of        the link whose torque is unknown, in place of that which the declaration tells
-    on_done   called with the number of positions that have been worked out since
+    problem   data for the motion of the same case
+    of        link whose torque is unknown, instead of the link that follows from the declaration
+    on_done   callback, called with the number of positions computed since the last call
     """
     if not 0 < turns <= MOST_TURNS:
-        what, why = f"torques over {turns:g} turns", "a run goes forward"
-        raise QuestionError(Problem(what, why, f"give turns above 0, up to {MOST_TURNS:g}"))
+        what, why = f"turns = {turns:g}", "a run has a positive number of turns"
+        raise QuestionError(Problem(what, why, f"pass turns above 0, up to {MOST_TURNS:g}"))
     if samples < 2:
         raise QuestionError(
-            Problem(f"{samples} positions of the input", "from one to the next it turns", "give 2 or more")
+            Problem(f"samples = {samples}", "at least two positions of the input are needed", "pass samples >= 2")
         )
     if of is not None and of in setting.case.loads:
         why = f"'{of}' carries a load of {setting.case.loads[of]}"
-        raise QuestionError(Problem(f"the torque at '{of}' is asked for", why, "ask at a link without a load"))
+        fix = "request the torque at a link without a load"
+        raise QuestionError(Problem(f"the torque at '{of}' is requested, but it is known", why, fix))
     train = find_turn_balance(setting, problem, of)
     if isinstance(train, TorqueVerdict):
         return TorqueCycle(setting.case.state, train, of or "")
     train.on_done = on_done
-    return tell_run(TurnRun(train, turns, samples), of)
+    return report_run(TurnRun(train, turns, samples), of)
 
 
-def tell_run(run: TurnRun, of: str | None) -> TorqueCycle:
-    """What a run answers; `of` is the link that is told of, by default the first whose torque is found."""
-    return _Answer(run).told(of)
+def report_run(run: TurnRun, of: str | None) -> TorqueCycle:
+    """Return the results of a run. `of` is the link to report, by default the first with an unknown torque."""
+    return _RunResults(run).cycle(of)
 
 
 def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
-    """A train to be asked at positions, or why it cannot be; `of` is the link whose torque is unknown."""
+    """Return the balance of a train for any positions, or the verdict if it has none.
+
+    of   link of unknown torque, by default that of the declaration
+    """
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return question
     if not question.requested.enough:
-        text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
+        text = "fewer torques are unknown than the train has degrees of freedom: loads cannot balance everywhere"
         return question.requested.undecided or TorqueVerdict("undecided", text)
     return build_turn_balance(setting, problem, question)
 
 
 def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: TorqueQuestion) -> TurnBalance:
-    """A train under load, to be asked at positions: only what torque passes through is followed."""
+    """Build the balance of a train at any positions. Only the parts that transmit torque are evaluated."""
     bearings, frame = find_bearings(setting), setting.train.frame
     known = dict(question.loads)
     for link, friction in bearings.items():
-        # only whether something acts there counts, whichever way it turns; it may not cancel a load by chance
+        # only the presence of friction matters here; the odd factor prevents it from cancelling a load by chance
         for end in (link, setting.tree.parent[link][0]):
             known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
@@ -157,18 +162,18 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
 
 
 def find_figures(run: TurnRun, of: str | None) -> CycleFigures:
-    """The figures of a run alone, as of `tell_run`."""
-    return _Answer(run).figures(of)
+    """Return only the figures of a run; see `report_run`."""
+    return _RunResults(run).figures(of)
 
 
 @dataclass
-class _Answer:
-    """What is told of a run."""
+class _RunResults:
+    """Results of a run."""
 
     run: TurnRun
 
     def figures(self, of: str | None) -> CycleFigures:
-        """Mean, greatest, starting torque, efficiency."""
+        """Return mean, maximum and starting torque, and efficiency."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)
         if self.run.share(~found.valid):
@@ -195,8 +200,8 @@ class _Answer:
     def _mean(self, own: _Request) -> float:
         return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
 
-    def told(self, of: str | None) -> TorqueCycle:
-        """The answer."""
+    def cycle(self, of: str | None) -> TorqueCycle:
+        """Return all results of the run."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)
         link = train.requested[own.row]
@@ -241,31 +246,38 @@ class _Answer:
             train.setting, tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
         )
         if links := dragging_links(train.setting):
-            why = "it is by speed, and torques or speeds are plain numbers: give `rate` or inputs a unit, and loads"
-            found += (NeglectedEffect("viscous drag", links, why),)
-        if share := self.run.share(self.run.found.adrift):
             why = (
-                f"over {share:.2%} of the run a link would turn back on drive flanks and forward on coast flanks; "
-                "it is taken to rest in its play there and to ask for nothing: how far within it stands is not followed"
+                "it depends on speed, and torques or speeds have no units: give `rate` or the inputs a unit, and the "
+                "loads too"
             )
-            found += (NeglectedEffect("rest within the play", train.flanked, why),)
+            found += (NeglectedEffect("viscous drag", links, why),)
+        if share := self.run.share(self.run.found.unresolved):
+            why = (
+                f"over {share:.2%} of the run a link would turn backwards on drive flanks and forwards on coast "
+                "flanks; it is assumed to rest within its backlash and to need no torque, and its position there is "
+                "not computed"
+            )
+            found += (NeglectedEffect("rest within the backlash", train.flanked, why),)
         return found
 
     def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
         requested = ", ".join(self.run.train.requested)
         if locked:
-            text = f"no torque on {requested} balances over {locked:.4%} of the run: the train locks there"
+            text = f"no torque on {requested} balances the loads over {locked:.4%} of the run: the train locks there"
             return TorqueVerdict("self-locking", text)
         if shared := self.run.train.shared:
-            text = f"how {', '.join(shared)} share their load is not determined: redundant pairs; `share` declares it"
-            return TorqueVerdict("indeterminate", f"{text}; the least torques that balance are given", shared)
+            text = (
+                f"how {', '.join(shared)} share their load is not determined: they are redundant, and `share` is not "
+                "declared"
+            )
+            return TorqueVerdict("indeterminate", f"{text}; the minimum-norm torques are given", shared)
         if ambiguous:
             text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
-            return TorqueVerdict("ambiguous", f"{text}; the one that loses least is given")
+            return TorqueVerdict("ambiguous", f"{text}; the one with minimum loss is given")
         if left_out:
             what = ", ".join(map(str, left_out))
-            return TorqueVerdict("incomplete", f"the torque of every position follows, but for {what}")
-        return TorqueVerdict("determined", "the torque of every position follows")
+            return TorqueVerdict("incomplete", f"the torque at every position is determined; not included: {what}")
+        return TorqueVerdict("determined", "the torque at every position is determined")
 
     def _place(self, turns: float) -> PlaceInRun:
         train = self.run.train.setting.train
@@ -275,7 +287,7 @@ class _Answer:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:
-        """The greatest torque (the least with -1), sharpened between positions."""
+        """Find the maximum torque (the minimum with -1), refined between positions."""
 
         def torque(found: PositionTorques) -> Floats:
             return own.highest(found) if way > 0 else own.torque(found)
@@ -289,19 +301,19 @@ class _Answer:
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
     def _starting(self, own: _Request, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
-        """The greatest torque with friction at rest; None where the train does not start everywhere."""
+        """Return the maximum torque with static friction, or None if the train does not start everywhere."""
         if not self.run.standing.valid.all():
             return None
         return self._extreme(own, 1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
-        """Energies over the run, from powers over the input's speed: angles are in radians."""
+        """Return energies over the run. Powers are over the input's speed, so angles are in radians."""
         found, requested = self.run.found, len(self.run.train.requested)
         weights = self.run.cells.weights * 2 * np.pi
         driving, loading = found.powers[:requested], found.powers[requested:]
 
         def summed(powers: Floats) -> float:
-            """Of what is above 0."""
+            """Integrate the positive part of powers."""
             return float(weights @ np.maximum(powers, 0).sum(axis=0))
 
         lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)
@@ -334,19 +346,19 @@ class _Answer:
 
     @property
     def _closes(self) -> bool:
-        """True if the run ends as it began."""
+        """True if the run has a whole number of periods."""
         period = self.run.train.motion.period
         return period is None or (self.run.span / float(period)) % 1 == 0
 
     def _held(self) -> float:
-        """Share of the run in which loads put power in and what is asked for does too."""
+        """Return the fraction of the run in which both loads and unknown torques put power in."""
         found, requested = self.run.found, len(self.run.train.requested)
         driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
         minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
         return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
-        """Where nothing balances."""
+        """Return start and end of each stretch in which nothing balances."""
         turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
         starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
         return tuple(
@@ -355,24 +367,24 @@ class _Answer:
 
 
 class _Request(NamedTuple):
-    """The link that is told of, by number, and the sense of its mean motion."""
+    """Row of the reported link, and the sense of its mean motion."""
 
     row: int
     way: int
 
     def torque(self, found: PositionTorques) -> Floats:
-        """Its torque in that sense, in the solution that loses least."""
+        """Return its torque in that sense, in the solution with minimum loss."""
         torque: Floats = self.way * found.torque[self.row]
         return torque
 
     def highest(self, found: PositionTorques) -> Floats:
-        """The same in the one that loses most."""
+        """Return its torque in that sense, in the solution with maximum loss."""
         torque: Floats = self.way * found.highest[self.row]
         return torque
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """How often a sign changes; where it is 0 the last one stays."""
+    """Count the sign changes of a sequence, ignoring zeros."""
     own = signs[signs != 0]
     if not len(own):
         return 0

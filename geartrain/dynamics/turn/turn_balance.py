@@ -1,8 +1,8 @@
-"""The balance of a train over its turn: torques, powers and losses at any positions of the input.
+"""Torque balance of a train over its turn: torques, powers and losses at any positions of the input.
 
-The order in which torques follow one from another is that of the balance of mean torques (8), and so is the test of a
-pattern (7). What differs from position to position are the numbers in it. A block of one pair takes a division; where
-several pairs are found together every pattern of theirs is tried at all positions in one array operation.
+The order of solution is that of the balance of mean torques (8), and so is the consistency test of a pattern (7). Only
+the coefficients change from position to position. A block of one pair takes a division. For a block of several coupled
+pairs, all patterns of power flow are enumerated, each at all positions in one array operation.
 """
 
 from __future__ import annotations
@@ -27,49 +27,49 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.numerics.block_triangular import Block
 
-MOST_TRIED = 7  # two-sided torques of a block whose patterns are all tried: 128 small solutions a position
-_MOST_ROUNDS = 30  # of the iteration where there are more
-_MOST_LAYERS = 16  # solutions kept a position
-SINGULAR = 1e-13  # of the product of its rows' lengths: a determinant so small is 0
-SAME = 1e-8  # of the greatest torque: solutions so near are one
-AT_REST = 1e-12  # of the fastest speed: slower stands still
-FAINT = 1e-9  # of the greatest torque through a pair: less presses on no flank
-ROUNDS = 6  # of finding flanks and speeds that agree
+MOST_TRIED = 7  # two-sided torques of a block with exhaustive enumeration: 2^7 small systems per position
+_MOST_ROUNDS = 30  # maximum iterations for blocks with more two-sided torques
+_MOST_LAYERS = 16  # maximum number of solutions kept per position
+SINGULAR = 1e-13  # of the product of the row norms (Hadamard's bound): a smaller determinant counts as 0
+SAME = 1e-8  # of the maximum torque: solutions closer than this are equal
+AT_REST = 1e-12  # of the maximum speed: slower links are at rest
+FAINT = 1e-9  # of the maximum torque through a pair: smaller torques do not press on a flank
+ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 
 
 @dataclass(frozen=True)
 class ColumnPieces:
-    """What a unit of one unknown torque does to each row, by the sign it has."""
+    """Contribution of a unit of one unknown torque to each row, by the sign of the torque."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
-    """By side (1 and -1, or 0 where it does not matter), by row: (n,)."""
+    """Coefficients by side (1 and -1, or 0 if it does not matter) and row, (n,) each."""
     barred: Mapping[int, Bools]
-    """By side, where it must vanish."""
+    """Positions at which the torque must vanish, by side."""
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """The signs that are tried."""
+        """Signs to be tried."""
         return tuple(self.pieces)
 
 
 @dataclass
 class BalanceLayer:
-    """One solution at each position where there is one."""
+    """One solution of the balance at each position that has one."""
 
     values: Floats
-    """By column, (columns, n); `rows`, what is left of each row's torque, (rows, n)."""
+    """Torques by column, (columns, n). `rows` is the remaining torque of each row, (rows, n)."""
     rows: Floats
     valid: Bools
-    """Where everything balances."""
+    """True where everything balances."""
 
     def copy(self) -> BalanceLayer:
-        """The same in arrays of its own."""
+        """Return a copy with its own arrays."""
         return BalanceLayer(self.values.copy(), self.rows.copy(), self.valid.copy())
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """The torques of one block under one pattern: (columns, n), where they are consistent, and in which solution."""
+    """Torques of one block under one pattern, (columns, n), and where they are consistent with a layer."""
 
     layer: BalanceLayer
     sides: Sequence[int]
@@ -80,9 +80,9 @@ class _Trial:
 def solve_positions(
     columns: Sequence[ColumnPieces], parts: Sequence[Block], known: Floats
 ) -> tuple[list[BalanceLayer], bool]:
-    """Every solution of the balance at every position, and whether all patterns were tried.
+    """Return every solution of the balance at every position, and whether all patterns were tried.
 
-    known   torques that are known, by row, (rows, n)
+    known   known torques by row, (rows, n)
     """
     size = known.shape[1]
     layers = [BalanceLayer(np.zeros((len(columns), size)), known.copy(), np.ones(size, bool))]
@@ -100,7 +100,7 @@ def solve_positions(
 
 
 def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> tuple[list[_Trial], bool]:
-    """The consistent solutions of one block, no two alike at one position."""
+    """Return the distinct consistent solutions of one block, and whether all patterns were tried."""
     own = [columns[at] for at in block.columns]
     found: list[_Trial] = []
     two_sided = sum(len(each.sides) > 1 for each in own)
@@ -120,7 +120,7 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
 def _solve(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """The torques of a block under one pattern, (columns, n), and where they balance and agree with it."""
+    """Return the torques of a block under one pattern, (columns, n), and where they balance and agree with it."""
     known = layer.rows[list(block.rows)]
     if len(block.rows) == len(block.columns) == 1:
         values, valid = _divided(own[0].pieces[sides[0]].get(block.rows[0]), known)
@@ -135,9 +135,10 @@ def _solve(
 
 
 def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
-    """One row, one unknown."""
+    """Solve one row for one unknown."""
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
+    # a coefficient may be 0 at dead points; without a load the torque is 0 there too
     with np.errstate(divide="ignore", invalid="ignore"):
         values = np.where(known == 0, 0.0, -known / coefficient)
     regular = np.isfinite(values[0])
@@ -147,7 +148,7 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
 def _eliminated(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Several rows and unknowns, by LAPACK; where rows are lacking the least torques that balance."""
+    """Solve several rows with LAPACK. If rows are missing, return the minimum-norm torques that balance."""
     known = layer.rows[list(block.rows)]
     scale = np.max(np.abs(layer.values), axis=0, initial=0.0)
     size = known.shape[1]
@@ -166,13 +167,14 @@ def _eliminated(
         regular = np.abs(np.linalg.det(matrices)) > SINGULAR * lengths
         values[regular] = np.linalg.solve(matrices[regular], right[regular])
     if not regular.all():
+        # the pseudoinverse gives the minimum-norm torques where rows are missing or dependent
         values[~regular] = np.linalg.pinv(matrices[~regular]) @ right[~regular]
     missed = np.abs(matrices @ values - right).max(axis=(1, 2))
     return values[:, :, 0].T, regular | (missed <= NEAR * (np.abs(right).max(axis=(1, 2)) + scale))
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Begin with all on one side, and turn round every torque that flows against its sign; repeat."""
+    """Find a consistent pattern by fixed-point iteration: reverse every torque whose sign contradicts the pattern."""
     patterns = {tuple(each.sides[0] for each in own): None}
     found: list[_Trial] = []
     left = layer.valid.copy()
@@ -195,12 +197,13 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """The solutions with those of one block added; as many layers as there are solutions at any position."""
+    """Add the solutions of one block to the layers, with as many layers as there are solutions at any position."""
+    # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
         layer.valid = np.zeros_like(layer.valid)
         for trial in trials:
-            _take(columns, block, trial, layer, trial.valid)
+            _write(columns, block, trial, layer, trial.valid)
         return [layer]
     found: list[BalanceLayer] = []
     for trial in trials:
@@ -209,17 +212,17 @@ def _joined(
             free = left & ~layer.valid
             if free.any():
                 layer.values[:, free], layer.rows[:, free] = trial.layer.values[:, free], trial.layer.rows[:, free]
-                _take(columns, block, trial, layer, free)
+                _write(columns, block, trial, layer, free)
                 left = left & ~free
         if left.any():
             layer = trial.layer.copy()
             layer.valid = np.zeros_like(left)
-            _take(columns, block, trial, layer, left)
+            _write(columns, block, trial, layer, left)
             found.append(layer)
     return found or [BalanceLayer(layers[0].values, layers[0].rows, np.zeros_like(layers[0].valid))]
 
 
-def _take(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
+def _write(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
     """Write a trial into a layer at some positions."""
     layer.valid |= where
     for column, side, value in zip(block.columns, trial.sides, trial.values, strict=True):
@@ -228,68 +231,71 @@ def _take(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: B
             layer.rows[row, where] += piece[where] * value[where]
 
 
-_CHUNK = 8192  # positions worked on at once
+_CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at some positions, (n,) last; powers and losses are over the speed of the input."""
+    """Torques at some positions; the last axis has length n. Powers and losses are over the speed of the input."""
 
     turns: Floats
-    """Of the input."""
+    """Turns of the input."""
     valid: Bools
-    """Where something balances; `layers`, how many solutions there are."""
-    adrift: Bools
-    """Where no flanks agree with the torques that press on them."""
+    """True where a solution balances. `layers` is the number of solutions."""
+    unresolved: Bools
+    """True where no choice of flanks agrees with the torques that press on them."""
     layers: Floats
     torque: Floats
-    """On each link asked for, about its own axis, in the solution that loses least, (asked, n)."""
+    """Unknown torque on each requested link about its own axis, in the solution with minimum loss, (requested, n)."""
     highest: Floats
-    """The same in the one that loses most."""
+    """The same torque in the solution with maximum loss."""
     speeds: Floats
-    """Of the links with a torque from outside, about their own axes, over the input's, (outside, n)."""
+    """Speeds of the links with external torques, about their own axes, over the input speed, (outside, n)."""
     powers: Floats
-    """What each of these torques puts in, (outside, n)."""
+    """Power input of each of these torques, (outside, n)."""
     losses: Floats
-    """Of pairs, then bearings, (parts, n); `passed`, what the driving side of each puts in."""
+    """Power losses of pairs, then bearings, (parts, n). `passed` is the power input of the driving side of each."""
     passed: Floats
     pressed: Floats
-    """Multiplier of each pair: above 0 on its drive flanks, (pairs, n)."""
+    """Multiplier of each pair, (pairs, n). It is positive on drive flanks."""
     turning: Floats
-    """Forward speed of each pair's driver, over the input's, (pairs, n)."""
+    """Forward speed of each pair's driver, over the input speed, (pairs, n)."""
     slipping: Floats
-    """Speed of each bearing over the input's, (bearings, n)."""
+    """Speed of each bearing over the input speed, (bearings, n)."""
     kinks: Floats
-    """What changes its sign at kinks of which no law tells, (kinks, n)."""
+    """Values whose sign changes at kinks that no transmission function has, (kinks, n)."""
 
 
 class _State(NamedTuple):
-    """A train at some positions: how links turn, how pairs stand, and what they do by side, of the first of equals."""
+    """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
+
+    Among equal planets, only the first has torques here.
+    """
 
     motion: LinkMotion
     contacts: Mapping[str, DriverState]
     forces: Mapping[str, Mapping[int, PairForce]]
     resting: Mapping[str, Bools]
-    """By bearing, where its link rests in the play between two flanks."""
+    """Positions at which the link of a bearing rests within the backlash, by link."""
     static: bool
 
 
 @dataclass
 class TurnBalance:
-    """A train under load, to be asked at positions."""
+    """Train under load whose balance can be evaluated at any positions."""
 
     setting: LoadCase
     motion: PositionMotion
     balance: TorqueBalance
-    """Of mean torques, whose order of solution holds at every position."""
+    """Balance of mean torques. Its order of solution is valid at every position."""
     contacts: Mapping[str, PairContact]
-    """By pair, in the order of the circuits."""
+    """Contacts by pair, in the order of the circuits."""
     loads: Mapping[str, float]
-    """By link, about its own axis; `bearings`, friction and drag by link."""
+    """Loads by link, about its own axis. `bearings` is friction and drag by link."""
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
-    """False where not all patterns of power flow were tried."""
+    """False if not all patterns of power flow were tried."""
     on_done: Callable[[int], object] | None = None
-    """Called with the number of positions that have been worked out since."""
+    """Callback, called with the number of positions computed since the last call."""
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -298,33 +304,33 @@ class TurnBalance:
 
     @property
     def requested(self) -> tuple[str, ...]:
-        """The links whose torque is found."""
+        """Links whose torque is unknown."""
         return self.balance.unknown
 
     @cached_property
     def outside(self) -> tuple[str, ...]:
-        """The links with a torque from outside that may do work."""
+        """Links with an external torque that may do work."""
         return tuple(dict.fromkeys((*self.requested, *self.loads)))
 
     @cached_property
     def shared(self) -> tuple[str, ...]:
-        """Pairs that the balance leaves open."""
+        """Pairs whose torque the balance leaves undetermined."""
         open_ = [block for block in self.balance.parts if len(block.columns) > len(block.rows)]
         return tuple(mesh.id for block in open_ for at in block.columns for mesh in self.columns[at].meshes)
 
     @cached_property
     def columns(self) -> tuple[TorqueUnknown, ...]:
-        """The unknowns of the balance."""
+        """Unknown torques of the balance."""
         return self.balance.columns
 
     @cached_property
     def of_pair(self) -> Mapping[str, int]:
-        """The column of each pair."""
+        """Column of each pair."""
         return {mesh.id: at for at, column in enumerate(self.columns) for mesh in column.meshes}
 
     @cached_property
     def starts_harder(self) -> bool:
-        """True if something has another friction at rest than in motion."""
+        """True if the friction of any part at rest differs from that in motion."""
         return any(each.losses.starts_harder for each in self.contacts.values()) or any(
             each.sliding != each.static or each.drag for each in self.bearings.values()
         )
@@ -332,9 +338,9 @@ class TurnBalance:
     # ----------------------------------------------------------------------------------------------------- positions
 
     def at(self, turns: Floats, static: bool = False) -> PositionTorques:
-        """Everything at some positions of the input.
+        """Return torques and powers at some positions of the input.
 
-        static   with the friction of what is about to move, in place of that of what moves
+        static   use static friction instead of sliding friction
         """
         size = min(_CHUNK, self.motion.composition.chunk)
         parts = []
@@ -346,14 +352,15 @@ class TurnBalance:
 
     @cached_property
     def flanked(self) -> tuple[str, ...]:
-        """The pairs whose coast flanks may touch."""
+        """Names of the pairs whose coast flanks may touch."""
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """First with the drive flanks, then again where others turn out to touch.
+        """Solve with the drive flanks touching, then repeat the positions where other flanks touch.
 
-        Where a link would turn back on its drive flanks and forward on its coast flanks it rests in the play between
-        them, and its bearing asks for nothing. Where no flanks agree all the same, the drive flanks stand.
+        If a link would turn backwards on its drive flanks and forwards on its coast flanks, it rests in the backlash
+        between them, and its bearing needs no torque. If no choice of flanks agrees even then, the result with drive
+        flanks is kept.
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
@@ -364,23 +371,24 @@ class TurnBalance:
             state = self._state(self.motion.at(turns[left], touching), resting, static)
             layers = self._solved(state)
             best = self._extreme(layers, state, 1)
-            told, found = self._told(state, layers, best), self._coasting(best)
-            told = told._replace(adrift=np.asarray(resting.any(axis=0)))
+            result, found = self._position_torques(state, layers, best), self._coasting(best)
+            result = result._replace(unresolved=np.asarray(resting.any(axis=0)))
             if round_ == 0:
-                first = told
+                first = result
             changed = (found != coasting).any(axis=0)
-            converged.append((left[~changed], some(told, ~changed)))
-            turned = np.sign(told.slipping) * way < 0
+            converged.append((left[~changed], some(result, ~changed)))
+            # a link whose sense alternates with the choice of flanks rests within the backlash
+            turned = np.sign(result.slipping) * way < 0
             resting = (resting | turned if round_ > 0 else resting)[:, changed]
-            left, coasting, way = left[changed], found[:, changed], np.sign(told.slipping)[:, changed]
+            left, coasting, way = left[changed], found[:, changed], np.sign(result.slipping)[:, changed]
             if not len(left):
                 break
-        converged.append((left, some(first, left)._replace(adrift=np.ones(len(left), bool))))
+        converged.append((left, some(first, left)._replace(unresolved=np.ones(len(left), bool))))
         order = np.argsort(np.concatenate([at for at, _ in converged]))
         return some(joined([part for _, part in converged]), order)
 
     def _coasting(self, best: BalanceLayer) -> Bools:
-        """Where pairs press on their coast flanks, (pairs, n)."""
+        """Return where pairs press on their coast flanks, (pairs, n)."""
         pressed = best.values[[self.of_pair[name] for name in self.flanked]]
         faint = FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
         found: Bools = best.valid & (pressed < -faint)
@@ -391,9 +399,9 @@ class TurnBalance:
         forces: dict[str, dict[int, PairForce]] = {}
         for column in self.columns:
             if column.meshes:
-                lead = self.contacts[column.meshes[0].id]
-                sides = (1, -1) if lead.two_sided else (1,)
-                forces[lead.name] = {side: lead.torques(side, contacts[lead.name], static) for side in sides}
+                contact = self.contacts[column.meshes[0].id]
+                sides = (1, -1) if contact.two_sided else (1,)
+                forces[contact.name] = {side: contact.torques(side, contacts[contact.name], static) for side in sides}
         return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
 
     def _contact_state(self, contact: PairContact, motion: LinkMotion) -> DriverState:
@@ -401,14 +409,17 @@ class TurnBalance:
         return DriverState(motion.angles.get(contact.name, np.zeros(0)), turning)
 
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
-        """Speed of a link seen from another, about the parallels' direction; exactly 0 where it stands still."""
+        """Return the speed of a link relative to another, about the parallels' direction. It is exactly 0 at rest."""
         rows = self.motion.links
         found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
         scale = np.max(np.abs(motion.speeds), axis=0, initial=0.0)
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def outside_speeds(self, speeds: Floats) -> Floats:
-        """Of the links outside about their own axes, relative to what takes the reactions of their torques."""
+        """Return speeds of the links with external torques relative to the reacting links, (outside, n).
+
+        They are about the links' own axes.
+        """
         setting, row = self.setting, self.motion.links
         bases = [setting.reacts_on(link) if link in self.requested else setting.train.frame for link in self.outside]
         senses = np.array([setting.sense(link) for link in self.outside], dtype=float)
@@ -432,7 +443,7 @@ class TurnBalance:
         return layers
 
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
-        """What a bearing and drag do to a link and to what bears it, about their own axes."""
+        """Return the friction torques of a bearing on its link and on its carrier, each about its own axis."""
         carrier, setting = self.setting.tree.parent[link][0], self.setting
         speed = self._speed(state.motion, link, carrier)
         torque = np.sign(speed) * self._rubbing(state, link, speed)
@@ -442,14 +453,14 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Torque against a speed, 0 or more; one that is about to move does not drag."""
+        """Return the magnitude of the friction torque of a bearing. A link that is about to move has no drag."""
         own = self.bearings[link]
         if state.static:
             return np.full(len(speed), own.static)
         return np.where(state.resting[link], 0.0, own.sliding + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """What a unit of one unknown does to each row; equal planets have the numbers of the first of them."""
+        """Return the coefficients of one unknown by row. Equal planets have the coefficients of the first of them."""
         if not column.meshes:
             size = len(state.motion.turns)
             rows = {row: np.full(size, float(value)) for row, value in column.pieces[0].items()}
@@ -463,7 +474,7 @@ class TurnBalance:
     def _rows(self, column: TorqueUnknown, force: PairForce) -> dict[int, Floats]:
         found: dict[int, Floats] = {}
         for mesh in column.meshes:
-            first, second = self._like(mesh.id, force)
+            first, second = self._for_planet(mesh.id, force)
             i, j, k = mesh.senses
             members = i * first, j * second, -k * (first + second)
             for row, member, factor in self.balance.places(mesh):
@@ -471,22 +482,26 @@ class TurnBalance:
         return found
 
     @cached_property
-    def beside_lead(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
-        """By pair: whether it names its links as the one that leads its column, and signs of its torques beside it."""
+    def relation_to_first(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
+        """Relation of each pair to the first pair of its column.
+
+        It is True if both name their links in the same order, and has the signs of its two torques relative to those of
+        the first pair.
+        """
         found = {}
-        for lead, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
-            alike = self.contacts[mesh.id].first == self.contacts[lead.id].first
-            found[mesh.id] = alike, mesh.signs_beside(lead, alike)
+        for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
+            alike = self.contacts[mesh.id].first == self.contacts[first.id].first
+            found[mesh.id] = alike, mesh.relative_signs(first, alike)
         return found
 
-    def _like(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """What the first of equal planets has on its two links, for another, whose axes may point apart."""
-        alike, signs = self.beside_lead[name]
+    def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
+        """Return the torques on both links of an equal planet, from those of the first, whose axes may be reversed."""
+        alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
-        """At each position the solution in which least power is asked for; with -1 the one in which most is."""
+        """Pick the solution with minimum power input (`way` 1) or maximum power input (-1) at each position."""
         if len(layers) == 1:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]
@@ -500,13 +515,13 @@ class TurnBalance:
 
     @cached_property
     def requested_columns(self) -> list[int]:
-        """The columns of the torques asked for."""
+        """Columns of the unknown torques on links."""
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.requested)))
 
-    # ------------------------------------------------------------------------------------------------------- answers
+    # ------------------------------------------------------------------------------------------------------- results
 
-    def _told(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
+    def _position_torques(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
         motion, size = state.motion, len(state.motion.turns)
         torque = np.where(best.valid, best.values[self.requested_columns], np.nan)
         worst = self._extreme(layers, state, -1)
@@ -539,14 +554,14 @@ class TurnBalance:
         )
 
     def _flow(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """What a pair loses, and what its two sides put into it, in its carrier's frame."""
+        """Return the power loss of a pair, and the power input of its driving side, in the frame of its carrier."""
         column = self.columns[self.of_pair[name]]
         pressed = best.values[self.of_pair[name]]
         forces = state.forces[column.meshes[0].id]
         circuit = self.contacts[name].circuit
         powers = []
         for end, link in enumerate((circuit.i, circuit.j)):
-            ahead, back = (self._like(name, forces.get(side, forces[1]))[end] for side in (1, -1))
+            ahead, back = (self._for_planet(name, forces.get(side, forces[1]))[end] for side in (1, -1))
             torque = np.where(pressed < 0, back, ahead) * pressed
             powers.append(torque * self._speed(state.motion, link, circuit.carrier))
         return -(powers[0] + powers[1]), np.maximum(-powers[0], 0) + np.maximum(-powers[1], 0)

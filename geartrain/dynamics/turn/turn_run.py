@@ -1,9 +1,9 @@
-"""A run over some turns: where torques are asked for, so that integrals are right and no kink is missed.
+"""Run over several turns: positions at which torques are computed, chosen so that integrals are accurate.
 
-Positions are even steps, both sides of every corner, and three positions within every cell between. What is asked for
-is smooth within a cell, and Boole's rule integrates it. Where a law has a corner, something turns back or another flank
-takes over, a cell ends, and the two limits there are two positions. A cell over which Simpson's rule changes as it is
-halved is halved.
+The run is divided into cells at even steps and at both sides of every kink. Each cell has three more positions inside.
+Torques are smooth within a cell, and Boole's rule integrates them. A cell ends where a transmission function has a
+kink, a motion reverses or the touching flank changes; the two one-sided limits there are two positions. A cell is
+bisected while halving it changes the result of Simpson's rule.
 """
 
 from __future__ import annotations
@@ -23,38 +23,40 @@ if TYPE_CHECKING:
 
 
 NODES = 5
-"""Positions of a cell: its ends, its middle, and the middles of its halves."""
+"""Positions per cell: its ends, its middle, and the middles of its halves."""
 
-_BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90
-_HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180  # Simpson's rule on both halves less that on the whole, over 15
-_ASIDE = 1e-10  # of the narrowest period: how far from a corner its two limits are taken
-_LAST_PLACES = 16  # units in the last place of the run's end: positions nearer than that are one
-_PARTS = 16  # of what is left of a cell in which something changes its sign
-_MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4
-_EFFORT = 20_000  # positions that may be asked for in one search of kinks, unless there are many
-_PROBES = 300  # positions at which it is asked which flanks touch
-_MOST_SETS = 3  # sets of coast flanks that touch at once, whose corners are looked for
-_ROUNDS = 3  # of looking for kinks: those of one cell come one after another
-_ACCURACY, _ROUNDING = 1e-8, 1e-13  # of all energy, spread evenly over the run, and what a cell may be off by at least
-_DEPTH = 13  # cuts of a cell one after another
-_MOST_TIMES = 12  # as many positions as at first: the rest stays as coarse as it is
-_NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cells, and places
+_BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90  # Boole's rule over a cell of unit width
+# error estimate: Simpson's rule on both halves less that on the whole, over 15 (Richardson extrapolation)
+_HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180
+_ASIDE = 1e-10  # of the shortest period: distance from a kink at which its one-sided limits are taken
+_LAST_PLACES = 16  # units in the last place of the run's end: closer positions are not distinct
+_PARTS = 16  # subdivisions per round of the search for a sign change in a cell
+_MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4  # rounds of 16 subdivisions: 16^11 resolves a cell to rounding
+_EFFORT = 20_000  # target for the positions evaluated in one search for kinks
+_PROBES = 300  # positions at which the touching flanks are determined first
+_MOST_SETS = 3  # most frequent sets of touching coast flanks, whose kinks are searched
+_ROUNDS = 3  # rounds of the search for kinks: each round finds one kink per cell
+# tolerance relative to the total energy: distributed evenly over the run, and the rounding error allowed in any cell
+_ACCURACY, _ROUNDING = 1e-8, 1e-13
+_DEPTH = 13  # maximum depth of bisection
+_MOST_TIMES = 12  # refinement stops when this multiple of the initial positions is exceeded
+_NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cell indices and places
 FAINT = 1e-9
-"""Of the greatest torque or power in a run: less has no sign."""
+"""Fraction of the maximum torque or power of a run below which a value has no sign."""
 
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run of the input, (cells,): what is asked for is smooth within each."""
+    """Cells of a run of the input, shape (cells,). Torques are smooth within each."""
 
     low: Floats
     high: Floats
     aside: float
-    """How far from the ends of a cell its limits there are taken (turns)."""
+    """Distance from the ends of a cell at which its one-sided limits are taken [turns]."""
 
     @property
     def turns(self) -> Floats:
-        """Positions, where they are told to stand: (cells times `NODES`)."""
+        """Reported positions, shape (cells times `NODES`,)."""
         share = np.arange(NODES) / (NODES - 1)
         found = self.low[:, None] + (self.high - self.low)[:, None] * share
         found[:, -1] = self.high
@@ -62,7 +64,7 @@ class RunCells:
 
     @property
     def requested(self) -> Floats:
-        """Positions, where torques are asked for: a little aside of the ends of cells."""
+        """Positions at which torques are computed: a small distance inside the ends of cells."""
         return (self.turns.reshape(-1, NODES) + self.aside * np.array([1.0, 0.0, 0.0, 0.0, -1.0])).ravel()
 
     @property
@@ -72,19 +74,22 @@ class RunCells:
         return found
 
     def roughness(self, values: Floats) -> Floats:
-        """What Simpson's rule may be off by on the halves of each cell, (cells,), from values at its positions."""
+        """Return the estimated error of Simpson's rule on the halves of each cell, (cells,).
+
+        values   at the positions of the cells
+        """
         found: Floats = np.abs(values.reshape(-1, NODES) @ _HALVED) * (self.high - self.low)
         return found
 
     @property
     def middles(self) -> Floats:
-        """Their middles."""
+        """Middles of the cells."""
         return np.asarray((self.low + self.high) / 2)
 
-    def parted(self, cell: Indices, at: Floats) -> RunCells:
-        """The parts of some cells, cut at some places within them.
+    def divided(self, cell: Indices, at: Floats) -> RunCells:
+        """Return the parts of some cells, divided at given places.
 
-        cell   the number of the cell of each place
+        cell   index of the cell of each place
         """
         cut = np.unique(cell)
         low, number = np.concatenate([self.low[cut], at]), np.concatenate([cut, cell])
@@ -94,17 +99,18 @@ class RunCells:
         return RunCells(low, np.where(last, self.high[number], np.append(low[1:], 0.0)), self.aside)
 
     def some(self, which: Bools) -> RunCells:
-        """Some of the cells."""
+        """Return a selection of the cells."""
         return RunCells(self.low[which], self.high[which], self.aside)
 
 
 def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunCells:
-    """Cells between even steps from 0 to `span` and breaks.
+    """Return cells between even steps from 0 to `span` and breaks.
 
-    narrowest   period of the fastest law (turns of the input)
+    narrowest   period of the fastest transmission function (turns of the input)
     """
     aside = max(_ASIDE * narrowest, _LAST_PLACES * float(np.spacing(span)))
     inner = np.unique(breaks[(breaks > 2 * aside) & (breaks < span - 2 * aside)])
+    # cells are wider than four times `aside`, so that the one-sided limits at their ends do not overlap
     inner = inner[np.diff(inner, prepend=-np.inf) > 4 * aside]
     even = np.linspace(0.0, span, steps + 1)[1:-1]
     near = np.searchsorted(inner, even)
@@ -115,29 +121,29 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
 
 
 def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> tuple[Indices, Floats]:
-    """Where signs change within cells, in all of these places at once: the cell of each, by number, and the place.
+    """Locate all sign changes within cells simultaneously. Return the cell index and the place of each.
 
-    signs_at   of some positions, (signs, n); `signs`, those at the positions of the cells
+    signs_at   function from positions to signs, (signs, n); `signs` are those at the positions of the cells
     """
     turns = cells.requested
     changed = (signs[:, 1:] != signs[:, :-1]).any(axis=0) & (np.diff(turns) > 0)
-    # over the break between two cells nothing new is to be found
+    # a change across the boundary between two cells is already a boundary
     changed[NODES - 1 :: NODES] = False
     at = np.flatnonzero(changed)
     if not len(at):
         return at, np.zeros(0)
     low, high, first = turns[at], turns[at + 1], signs[:, at]
-    # few calls with many positions: each call asks every law, whatever the number of positions
+    # few calls with many positions, because each call has the overhead of all transmission functions
     rounds = int(np.clip(_EFFORT // (len(at) * _PARTS), _FEWEST_ROUNDS, _MOST_ROUNDS))
     for _ in range(rounds):
         inner = low[:, None] + (high - low)[:, None] * (np.arange(1, _PARTS) / _PARTS)
         same = (signs_at(inner.ravel()).reshape(len(signs), *inner.shape) == first[:, :, None]).all(axis=0)
-        # the part in which the first change lies
+        # the subdivision with the first change
         part = np.where(same.all(axis=1), _PARTS - 1, np.argmin(same, axis=1))
         width = (high - low) / _PARTS
         low, high = low + part * width, low + (part + 1) * width
     places, cell = (low + high) / 2, at // NODES
-    # a hair from an end of the cell, or from another kink, nothing is to be gained
+    # a cut this close to an end of the cell or to another kink would give an empty cell
     apart = np.minimum(places - cells.low[cell], cells.high[cell] - places) > 4 * cells.aside
     apart &= np.append(True, (np.diff(places) > 4 * cells.aside) | (np.diff(cell) > 0))
     return cell[apart], places[apart]
@@ -145,7 +151,7 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
 
 @dataclass
 class TurnRun:
-    """A run over some turns, in at least `samples` positions."""
+    """Run over some turns of the input, at `samples` positions or more."""
 
     train: TurnBalance
     span: float
@@ -153,7 +159,7 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions at which a law has a corner, with the drive flanks touching, and with each usual set of flanks."""
+        """Positions of kinks of transmission functions, for the most frequent sets of touching coast flanks."""
         train = self.train
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
         sets = {frozenset[str](): 0}
@@ -167,15 +173,16 @@ class TurnRun:
 
     @cached_property
     def narrowest(self) -> float:
-        """Turns of the input in a period of the fastest law."""
+        """Period of the fastest transmission function [turns of the input]."""
         fastest = max((float(each.cycles) for each in self.train.motion.sources.values()), default=0.0)
         return 1 / max(fastest, 1 / self.span)
 
     @cached_property
-    def _followed(self) -> tuple[RunCells, PositionTorques]:
-        """Cells in order, kinks among their ends, as narrow as integrals ask for; and all at their positions."""
+    def _refined(self) -> tuple[RunCells, PositionTorques]:
+        """Refined cells in order, with kinks among their ends, and all torques at their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
+        # signs and tolerances refer to the scales of the initial cells, so that refinement does not change them
         scales, total = RunScales.of(found), float(cells.weights @ np.nan_to_num(np.abs(found.powers)).sum(axis=0))
         kept: list[tuple[RunCells, PositionTorques]] = []
         count, most = 0, _MOST_TIMES * len(cells.requested)
@@ -187,7 +194,7 @@ class TurnRun:
             if not len(cell):
                 break
             count += len(cells.requested)
-            cells = cells.parted(cell, at)
+            cells = cells.divided(cell, at)
             found = self.train.at(cells.requested)
         low, high = (np.concatenate([getattr(each, name) for each, _ in kept]) for name in ("low", "high"))
         order = np.argsort(low)
@@ -197,7 +204,7 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Where cells are to be cut: at their kinks, and in the middle where they are too wide; which, and where."""
+        """Return where to divide cells, as cell indices and places: at kinks, and in the middle if too wide."""
         if depth == _DEPTH:
             return _NONE
         kinks, places = _NONE
@@ -210,7 +217,7 @@ class TurnRun:
         return np.concatenate([kinks, wide]), np.concatenate([places, cells.middles[wide]])
 
     def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
-        """The cells too wide for what is put in or for what is lost."""
+        """Return which cells are too wide for the integrals of input power or of losses."""
         integrands = found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)
         rough = np.max([cells.roughness(np.nan_to_num(each)) for each in integrands], axis=0)
         found_coarse: Bools = rough > total * (_ACCURACY * (cells.high - cells.low) / self.span + _ROUNDING)
@@ -218,16 +225,16 @@ class TurnRun:
 
     @property
     def cells(self) -> RunCells:
-        """The cells of the run."""
-        return self._followed[0]
+        """Cells of the run."""
+        return self._refined[0]
 
     @property
     def found(self) -> PositionTorques:
-        """Everything at the positions of the run."""
-        return self._followed[1]
+        """Torques and powers at the positions of the run."""
+        return self._refined[1]
 
     def signs(self, found: PositionTorques, scales: RunScales) -> Ints:
-        """Whatever has a kink where its sign changes."""
+        """Return the signs of all quantities that have a kink where their sign changes, (signs, n)."""
         outside = found.powers.shape[0]
         requested = len(self.train.requested)
         return np.concatenate(
@@ -243,30 +250,30 @@ class TurnRun:
         ).astype(np.int64)
 
     def share(self, where: Bools) -> float:
-        """The part of the run taken by some of its positions."""
+        """Return the fraction of the run covered by selected positions."""
         return float(self.cells.weights @ where) / self.span
 
     @cached_property
     def standing(self) -> PositionTorques:
-        """With the friction of what is about to move."""
+        """Torques at the positions of the run with static friction."""
         return self.train.at(self.cells.requested, static=True) if self.train.starts_harder else self.found
 
 
 @dataclass(frozen=True)
 class RunScales:
-    """The greatest torque through any pair, and the greatest power: what is a small part of it has no sign."""
+    """Maximum torque through any pair, and maximum power. Small fractions of them have no sign."""
 
     pressed: float
     power: float
 
     @classmethod
     def of(cls, found: PositionTorques) -> RunScales:
-        """At some positions."""
+        """Return the scales at some positions."""
         pressed = np.where(found.valid, np.abs(found.pressed), 0.0)
         return cls(float(np.max(pressed, initial=0.0)), float(np.nanmax(np.abs(found.powers), initial=0.0)))
 
 
 def sign_beyond(values: Floats, scale: float) -> Floats:
-    """Signs, 0 for what is a small part of a scale."""
+    """Return the signs of values, with 0 for small fractions of a scale."""
     with np.errstate(invalid="ignore"):
         return np.where(np.abs(values) > FAINT * scale, np.sign(values), 0.0)

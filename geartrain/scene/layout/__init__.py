@@ -1,4 +1,4 @@
-"""Places of axes and wheels: as declared, or chosen so that meshing wheels touch and nothing collides.
+"""Places of axes and wheels, as declared or chosen so that meshing wheels touch and nothing collides.
 
 `lay_out` in `train_layout` runs the steps below in this order, and each hands a record to the next.
 
@@ -8,13 +8,13 @@
     wheel_reach         extent of the bodies of wheels
     parallel_groups     groups of parallel axes, one by one          Arrangement
                         broad wheels, by backtracking                AxialSlots
-        plan_search     distances that a plan must meet              PlanProblem
+        plan_search     distances that a plan must satisfy           PlanProblem
                         beam search: order, clearance                places in plan
         swept_overlap   distances while carriers turn                SweptDistances, PlanOverlap
         wheel_stacks    local search of the order of levels          StackProblem
                         heights of levels                            WheelStack
-    train_layout        angles at which teeth meet                   MeshAlignment
-                        conditions that could not be met             notices
+    train_layout        angles at which teeth mesh                   MeshAlignment
+                        violated conditions                          notices
 """
 
 from __future__ import annotations

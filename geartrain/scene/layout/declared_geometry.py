@@ -1,4 +1,4 @@
-"""What a layout needs to know of a declaration: axes as lines, and where wheels touch."""
+"""Geometry that a declaration gives for a layout: axes as lines, and the contacts of wheels."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from geartrain.teeth.lantern import Lantern
 
 Point = tuple[float, float]
-"""A place in plan: coordinates (mm) across parallel axes."""
+"""Point in plan: coordinates (mm) perpendicular to parallel axes."""
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]
-_TOUCHING = 1e-12  # of a distance: nearer to it, pitch circles touch
-_ACROSS = 1e-9  # of a direction along z: below that, an axis lies across the view
-WORM = Fraction(5)  # pitch radius of a worm over its axial module: slender, but not weak
+_TOUCHING = 1e-12  # relative distance below which pitch circles touch
+_ACROSS = 1e-9  # z component below which an axis is perpendicular to the view
+WORM = Fraction(5)  # default pitch radius of a worm over its axial module
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,63 +37,63 @@ class AxisLine:
 
     label: str
     direction: Vector
-    """Unit vector."""
+    """Unit vector along the axis."""
     group: int
-    """The same number for all parallels."""
+    """Number of its group of parallel axes."""
     bearers: tuple[str, ...]
-    """The link that bears it, the link that bears that one's axis, and so on to the frame."""
+    """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
     pivots: tuple[str, ...]
-    """The axes about which they turn, all but the frame."""
+    """Axes about which these links turn, without the frame."""
     given: Vector | None
-    """Its declared point (mm)."""
+    """Declared point of the axis (mm)."""
 
 
 @dataclass(frozen=True)
 class Parallels:
-    """Parallel axes, as they are planned and stacked."""
+    """A group of parallel axes that are planned and stacked together."""
 
     lines: tuple[AxisLine, ...]
     up: Vector
-    """Unit vector along them: heights count along it, z upwards or what is nearest to it."""
+    """Unit vector along the axes, in which heights increase: z upwards, or the coordinate nearest to it."""
     x: Vector
-    """Unit vectors across: a point of the plan has its coordinates along them."""
+    """Unit vector across the axes, along the first coordinate of the plan."""
     y: Vector
-    """Unit vectors across: a point of the plan has its coordinates along them."""
+    """Unit vector across the axes, along the second coordinate of the plan."""
 
     @classmethod
     def of(cls, lines: Sequence[AxisLine]) -> Parallels:
-        """Some lines of one group."""
+        """Return a group from parallel lines."""
         up = upwards(lines[0].direction)
         return cls(tuple(lines), up, *frame(up))
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Number of each axis."""
+        """Index of each axis."""
         return {line.label: at for at, line in enumerate(self.lines)}
 
     @property
     def frame(self) -> str:
-        """The link that bears all others."""
+        """Link that carries all others."""
         return self.lines[0].bearers[-1]
 
     def flat(self, vector: Vector) -> Point:
-        """A point, or a direction, in plan."""
+        """Return the coordinates in plan of a point or a direction."""
         return dot(vector, self.x), dot(vector, self.y)
 
     def foot(self, place: Point) -> Vector:
-        """The point in space, at height 0, of a place in plan."""
+        """Return the point in space, at height 0, of a point in plan."""
         return plus(plus((0.0, 0.0, 0.0), self.x, place[0]), self.y, place[1])
 
 
 def upwards(direction: Vector) -> Vector:
-    """The same direction for both senses: z, or what is nearest to it, upwards."""
-    last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # of a unit vector: less is rounding
+    """Return a direction or its opposite, whichever points upwards along z, or its last nonzero coordinate."""
+    last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # smaller ones are rounding errors
     return direction if last > 0 else (-direction[0], -direction[1], -direction[2])
 
 
 @dataclass(frozen=True, slots=True)
 class ContactSide:
-    """A pair as one of its wheels sees it: the wheel with its axis, and its mate with its own."""
+    """A gear pair from the side of one of its wheels: the wheel with its axis, and its mate with its own axis."""
 
     wheel: str
     axis: str
@@ -103,56 +103,59 @@ class ContactSide:
 
 @dataclass(frozen=True, slots=True)
 class PitchContact:
-    """A gear pair: wheels with their axes, and how they touch."""
+    """A gear pair: wheels with their axes, and their kind of contact."""
 
     name: str
     wheels: tuple[str, str]
     axes: tuple[str, str]
     kind: ContactKind
-    """Side and ring are about parallel axes; bevel, crown (its first wheel is the crown) and screw (its first wheel
-    is the worm) about others."""
+    """Kind of contact. `side` and `ring` have parallel axes. `bevel`, `crown` (its first wheel is the crown) and
+    `screw` (its first wheel is the worm) have other axes.
+    """
     stretch: Fraction = Fraction(1)
-    """How much farther apart than touching pitch circles declared teeth want the axes, as a factor."""
+    """Centre distance that declared teeth require, as a factor of that of touching pitch circles."""
     worm_sense: int = 0
-    """1 where both axes of a worm and its wheel turn the pitch point the same way for positive angles, -1 where
-    against each other; 0 of other pairs."""
+    """1 if positive angles of a worm and its wheel move the pitch point the same way, -1 if opposite ways.
+
+    It is 0 for other pairs.
+    """
 
     @property
     def parallel(self) -> bool:
-        """True if its axes are parallel; else they cross, or pass each other."""
+        """True if its axes are parallel, False if they intersect or are skew."""
         return self.kind in ("side", "ring")
 
     @property
     def sides(self) -> tuple[ContactSide, ContactSide]:
-        """The pair as its first wheel sees it, and as its second."""
+        """The pair from the side of its first and of its second wheel."""
         (first, second), (axis, other) = self.wheels, self.axes
         return ContactSide(first, axis, second, other), ContactSide(second, other, first, axis)
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Its axes, the same for all pairs between them."""
+        """Its axes in a fixed order, the same for all pairs between them."""
         return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class PinSlotTie:
-    """A pin in a slot: links and axes of the pin and of the slot, and the distance (mm) of these if declared."""
+    """A pin in a slot: links and axes of pin and slot, and the distance of the axes (mm) if it is declared."""
 
     links: tuple[str, str]
     axes: tuple[str, str]
     offset: Fraction | None
     encloses: bool
-    """True if the pin's circle encloses the slot's axis, so that the two axes stand close together."""
+    """True if the pin's circle encloses the slot's axis, so that the two axes are close together."""
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Its axes, the same for all pairs between them."""
+        """Its axes in a fixed order, the same for all pairs between them."""
         return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class StrayMesh:
-    """A wheel that a pair has on another axis than pairs before it."""
+    """A wheel that a pair has on another axis than earlier pairs."""
 
     wheel: str
     pair: str
@@ -160,7 +163,7 @@ class StrayMesh:
 
 
 class DialEnds(NamedTuple):
-    """Whether an arbor runs out of the stack to a dial: at its low end, and at its high one."""
+    """Ends at which an arbor extends beyond the stack to a dial, low and high."""
 
     low: bool = False
     high: bool = False
@@ -168,53 +171,53 @@ class DialEnds(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DeclaredGeometry:
-    """Lines by label; gear pairs and couplings in the order declared."""
+    """Axes by label; gear pairs and couplings in the order declared."""
 
     lines: Mapping[str, AxisLine]
     axis: Mapping[str, str]
-    """Of every wheel, those first that mesh."""
+    """Axis of every wheel, wheels that mesh first."""
     contacts: tuple[PitchContact, ...]
     ties: tuple[PinSlotTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
     """Link and declaration of every wheel."""
     thickness: Mapping[str, float]
-    """Of those that declare one (mm)."""
+    """Thickness of the wheels that declare one (mm)."""
     strays: tuple[StrayMesh, ...]
     front: int
-    """The side of z from which the train is looked at: 1 or -1."""
+    """Side of z from which the train is viewed: 1 or -1."""
     dial_ends: Mapping[str, DialEnds]
-    """Of links that run to a dial."""
+    """Ends that extend to a dial, by link."""
     driven: str | None
-    """The axis of the first input, which gets the origin where no position is declared."""
+    """Axis of the first input, which is at the origin if no position is declared."""
     discs: Mapping[str, float]
-    """Of lanterns: how far (modules) their discs reach beyond the pitch circle."""
+    """Extent (modules) of the discs of lantern pinions beyond the pitch circle, by wheel."""
 
     def link(self, wheel: str) -> str:
-        """The link that carries a wheel."""
+        """Return the link that carries a wheel."""
         return self.wheels[wheel][0]
 
     def wheel(self, wheel: str) -> Wheel:
-        """A wheel as declared."""
+        """Return the declaration of a wheel."""
         return self.wheels[wheel][1]
 
     def count(self, wheel: str) -> int:
-        """Teeth of a wheel; 1 where they are not known."""
+        """Return the tooth count of a wheel; 1 if it is not known."""
         return self.wheels[wheel][1].count or 1
 
     def radius(self, wheel: str) -> Fraction:
-        """Pitch radius over normal module."""
+        """Return the pitch radius of a wheel in normal modules."""
         if self.wheel(wheel).kind == "worm":
             return WORM
         return Fraction(self.count(wheel), 2) * Fraction(self.wheel(wheel).slant)
 
     def distance(self, contact: PitchContact) -> Fraction:
-        """Distance of the axes of a pair over its module, where they are parallel or pass each other."""
+        """Return the centre distance of a pair with parallel or skew axes in modules."""
         first, second = (self.radius(wheel) for wheel in contact.wheels)
         return contact.stretch * (abs(first - second) if contact.kind == "ring" else first + second)
 
 
 def read_geometry(train: GearTrain) -> DeclaredGeometry:
-    """All that matters of a train."""
+    """Return the declared geometry of a train."""
     declared, tree = train.declaration, train.kinematics.tree
     lines = {line.label: line for line in _lines(declared, tree)}
     axis: dict[str, str] = {}
@@ -255,7 +258,7 @@ def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
     groups: dict[tuple[Fraction, ...], int] = {}
     for name, link in _first_links(declared, tree).items():
         direction = axes.direction(name)
-        # parallels, of either sense and any length, are equal once their first coordinate is 1: exact, no tolerance
+        # parallel vectors are equal if scaled to a first nonzero coordinate of 1: exact, without a tolerance
         scale = next(part for part in direction if part)
         group = groups.setdefault(tuple(part / scale for part in direction), len(groups))
         top = max(map(abs, direction))  # divided exactly first: the float of a huge Fraction would overflow
@@ -269,7 +272,7 @@ def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
 
 
 def _first_links(declared: Train, tree: Tree) -> dict[str, str]:
-    """The first link declared on each axis."""
+    """Return the first link declared on each axis."""
     found: dict[str, str] = {}
     for link in declared.links:
         name = tree.axis(link)
@@ -285,7 +288,10 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """A pin and half of one beyond the pitch circle: the rim of a lantern's discs is a pin wide."""
+    """Yield lantern wheels with the extent of their discs beyond the pitch circle (modules).
+
+    It is 1.5 pin diameters, because the rim outside of the pins is one pin wide.
+    """
     for gear in declared.gears:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
@@ -295,11 +301,11 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """How much farther apart than touching pitch circles real teeth want their axes, by pair; none where none is so."""
+    """Return centre distances of real teeth relative to touching pitch circles, by pair, if they are not 1."""
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:
-        return {}  # why there are no such teeth is told where they are asked for
+        return {}  # the reason is reported where the teeth are requested
     return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}
 
 
@@ -310,7 +316,7 @@ def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front
             dial = declared.dials.get(output.dial or "")
             link = output.of or name
             line = lines.get(tree.axis(link) or "")
-            across = line is not None and abs(line.direction[2]) < _ACROSS  # it looks neither to the reader nor away
+            across = line is not None and abs(line.direction[2]) < _ACROSS  # it faces neither the reader nor away
             if dial is None or dial.look == "ball" or (across and dial.face not in ("front", "back")):
                 continue
             high = (front > 0) != looks_away(dial.face, declared.view.from_)
@@ -337,7 +343,7 @@ def _contact(
 
 
 def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:
-    """A worm turns no pitch point sideways: how its thread moves follows from the pair's equation."""
+    """Return the worm sense of a pair from its equation, because the pitch point of a worm has no tangential motion."""
     flip = 1
     for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
         flip *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1

@@ -1,11 +1,11 @@
-"""Groups of parallel axes placed one after the other: each is planned and stacked, held by what is placed already.
+"""Groups of parallel axes, placed one after the other: each is planned and stacked, subject to the axes already placed.
 
-Stacks: wheels that mesh are at one height, or at fixed heights to each other: a weighted union-find of heights makes
-stacks of them. Wheels on axes across keep their height to the wheel they mesh with, and take room in its stack.
+Stacks: wheels that mesh are at one height, or at fixed relative heights. A weighted union-find of heights groups them
+into stacks. A wheel on a crossing axis has a fixed height relative to its mate, and occupies space in its stack.
 
-Broad wheels: two wheels that share a mate and would run into each other get slots of their own along its width, by
-depth-first search with backtracking. Each mesh is put into a slot, a wheel spans the slots of its meshes, and no two
-wheels that overlap share one. As few slots as can be.
+Broad wheels: two wheels that share a mate and would collide get separate slots along its width, by depth-first search
+with backtracking. Each mesh is assigned to a slot, a wheel spans the slots of its meshes, and no two wheels that
+overlap share one. The number of slots is minimised.
 """
 
 from __future__ import annotations
@@ -31,28 +31,28 @@ from geartrain.scene.layout.wheel_stacks import StackProblem, WheelStack
 # --------------------------------------------------------------------------------------------------------- stack blocks
 
 
-_GAP = 0.4  # of the median thickness: left free between levels
+_GAP = 0.4  # gap between levels over the median thickness
 
 Node = tuple[str, str]
-"""("wheel", its name), or ("axis", the label of an axis across)."""
+"""A wheel, ("wheel", name), or a crossing axis, ("axis", label)."""
 
 
 @dataclass(frozen=True, slots=True)
 class HeightConstraint:
-    """A wheel whose height (mm) is set by what stands already."""
+    """A wheel whose height (mm) is determined by parts already placed."""
 
     wheel: str
     height: float
 
 
 class _HeightSets:
-    """Wheels and crossing axes that keep their heights to each other: a weighted union-find."""
+    """Wheels and crossing axes with fixed relative heights: a weighted union-find."""
 
     def __init__(self) -> None:
         self._above: dict[Node, tuple[Node, float]] = {}
 
     def find(self, node: Node) -> tuple[Node, float]:
-        """The root, and the height over it."""
+        """Return the root of a node, and its height above the root (mm)."""
         total = 0.0
         while (step := self._above.setdefault(node, (node, 0.0)))[0] != node:
             total += step[1]
@@ -60,8 +60,9 @@ class _HeightSets:
         return node, total
 
     def join(self, node: Node, other: Node, above: float) -> None:
-        """Put a node `above` another (mm); the first word counts."""
+        """Put a node `above` another (mm), unless their relative height is already set."""
         (root, height), (base, low) = self.find(node), self.find(other)
+        # an existing relation is kept: contradictory heights become collisions, which are reported
         if root != base:
             self._above[root] = (base, low + above - height)
 
@@ -73,7 +74,7 @@ def build_wheel_stack(
     swept: SweptDistances,
     constraints: Sequence[HeightConstraint],
 ) -> WheelStack:
-    """Blocks of all wheels that stand upright on these axes, and of those across that mesh with them."""
+    """Return the stack with blocks of all upright wheels of these axes, and of crossing wheels that mesh with them."""
     builder = _BlockBuilder(geometry, parallels, places)
     blocks = builder.blocks()
     arbors = list(dict.fromkeys(block.link for block in blocks if block.link and block.link != parallels.frame))
@@ -86,7 +87,7 @@ def build_wheel_stack(
 
 
 def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str]:
-    """The widest wheel of the carrier of each arbor, on which its axis is carried round."""
+    """Return for each arbor the widest wheel of the carrier that carries its axis."""
     upright = [block for block in blocks if not block.across]
     widest = _widest(upright)
     bearers = {block.link: parallels.lines[block.axis].bearers[0] for block in upright}
@@ -98,7 +99,7 @@ def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str
 
 
 def _pins(blocks: Sequence[WheelBlock], ties: Sequence[PinSlotTie]) -> Iterator[tuple[str, str]]:
-    """The widest wheels of the links of a pin and its slot, where the pin's circle encloses the slot's axis."""
+    """Yield the widest wheels of the links of a pin and its slot, if the pin's circle encloses the slot's axis."""
     widest = _widest([block for block in blocks if not block.across])
     for tie in ties:
         pin, slot = (widest.get(link) for link in tie.links)
@@ -107,7 +108,7 @@ def _pins(blocks: Sequence[WheelBlock], ties: Sequence[PinSlotTie]) -> Iterator[
 
 
 def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
-    """Of every link."""
+    """Return the widest block of every link."""
     found: dict[str, WheelBlock] = {}
     for block in blocks:
         if block.link not in found or block.outer > found[block.link].outer:
@@ -116,11 +117,12 @@ def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
 
 
 class _BlockBuilder:
-    """Blocks of one group of parallels.
+    """Builder of the blocks of one group of parallels.
 
-    crossing   pairs with one of these axes, as the wheel on it sees them
-    met        axis across -> where in plan its height is counted from: its given point, or where it was met first
-    number     stacks, in the order in which they were asked for
+    crossing   pairs with one of these axes, from the side of the wheel on it
+    met        crossing axis -> point in plan from which its height is counted: its given point, or that of its first
+               pair
+    number     numbers of stacks, in the order of their first use
     """
 
     def __init__(self, geometry: SizedGeometry, parallels: Parallels, places: Mapping[str, Point]) -> None:
@@ -141,7 +143,7 @@ class _BlockBuilder:
         self._join_concurrent()
 
     def blocks(self) -> list[WheelBlock]:
-        """Upright wheels, then traces of wheels across."""
+        """Return blocks of upright wheels, then traces of crossing wheels."""
         seat = {each.side.wheel: each.seat for each in self.crossing}
         found = []
         for wheel, axis in self.declared.axis.items():
@@ -157,7 +159,7 @@ class _BlockBuilder:
         return [*found, *(self._across(each) for each in self.crossing)]
 
     def given(self, constraints: Sequence[HeightConstraint]) -> dict[int, float]:
-        """Heights of stacks that are set by what stands, or by declared points of axes across."""
+        """Return heights of stacks that are determined by placed parts, or by declared points of crossing axes."""
         found: dict[int, float] = {}
         for constraint in constraints:
             stack, offset = self._stack(("wheel", constraint.wheel))
@@ -170,30 +172,30 @@ class _BlockBuilder:
         return found
 
     def _stack(self, node: Node) -> tuple[int, float]:
-        """The number of a node's stack, and its height in it."""
+        """Return the number of a node's stack, and its height in it."""
         root, height = self.heights.find(node)
         return self.number.setdefault(root, len(self.number)), height
 
     def _rise(self, line: AxisLine) -> float:
-        """How much a way of 1 along an axis goes up."""
+        """Return the component of an axis direction along the heights."""
         return dot(line.direction, self.parallels.up)
 
     def _hold_to_axis(self, each: CrossingSide) -> None:
-        """A wheel keeps its height to the axis across."""
+        """Fix the height of a wheel relative to the crossing axis."""
         side = each.side
         above = each.seat.far * self._rise(self.declared.lines[side.axis])
-        above += self._climb(self.declared.lines[side.mate_axis], self.places[side.axis])
+        above += self._height_at(self.declared.lines[side.mate_axis], self.places[side.axis])
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
-    def _climb(self, across: AxisLine, place: Point) -> float:
-        """How much higher an axis across is over a place than where it was met first, or than its given point."""
+    def _height_at(self, across: AxisLine, place: Point) -> float:
+        """Return the height of a crossing axis at a point in plan relative to its reference point."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
         return ((place[0] - x) * u + (place[1] - y) * v) / (u * u + v * v) * self._rise(across)
 
     def _join_concurrent(self) -> None:
-        """Axes across that also mesh with each other go through one point of the axis that both meet."""
+        """Fix crossing axes that also mesh with each other at one point of the axis that both intersect."""
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
@@ -212,20 +214,24 @@ class _BlockBuilder:
                         self.heights.join(("axis", mate), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """The room of the mate of an upright wheel: a strip in plan, or all that its carrier sweeps."""
+        """Return the block of the crossing mate of an upright wheel, a strip in plan.
+
+        If a carrier moves it relative to the wheel, the block is the whole space that it sweeps.
+        """
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
-        offset += self._climb(across, self.places[side.axis])
+        offset += self._height_at(across, self.places[side.axis])
         u, v = self.parallels.flat(across.direction)
         flat, rise = hypot(u, v), self._rise(across)
         x, y = self.places[side.axis]
         offset += far * rise
-        if each.contact.kind == "screw":  # the axes pass each other, a radius of each wheel apart
+        if each.contact.kind == "screw":  # skew axes: the distance is the sum of the radii
             reach = self.sizes[side.wheel].radius + size.radius
             aside = self.parallels.flat(each.seat.out)
             x, y = x + reach * aside[0], y + reach * aside[1]
             offset += reach * dot(each.seat.out, self.parallels.up)
+        # half height of an inclined disc: its rim and its thickness, as perpendicular contributions
         tall = sqrt(size.outer**2 * flat**2 + (size.thickness * rise) ** 2)
         number = self.parallels.index[side.axis]
         if across.bearers[0] != axis.bearers[0]:
@@ -240,21 +246,21 @@ class _BlockBuilder:
 # ---------------------------------------------------------------------------------------------------------- axial slots
 
 
-_TRIES = 20_000  # slots that are tried for one group of wheels; then they stay in one level
+_TRIES = 20_000  # maximum number of trials for one group of wheels; then they stay in one level
 
 
 class AxialSlots(NamedTuple):
-    """The lowest and the highest slot that a wheel stands in."""
+    """Lowest and highest slot that a wheel occupies."""
 
     low: int
     high: int
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Slots of the wheels that need them; the others of their level are not named.
+    """Return slots of the wheels that need them; the others of their level are omitted.
 
     meshes   pairs of wheels of parallel axes
-    overlap  whether two wheels at one height would run into each other
+    overlap  whether two wheels at one height would collide
     """
     found: dict[str, AxialSlots] = {}
     for group in _groups(meshes):
@@ -272,7 +278,7 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
 
 
 def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
-    """Meshes by the wheels that are connected."""
+    """Return the meshes grouped by connected wheels."""
     wheels: DisjointSets[str] = DisjointSets()
     for first, second in meshes:
         wheels.join(first, second)
@@ -283,14 +289,15 @@ def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
 
 
 class _SlotSearch:
-    """Slots of one group of wheels; `tries` are left."""
+    """Search for slots of one group of wheels; `tries` is the remaining number of trials."""
 
     def __init__(self, meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> None:
         self.meshes, self.clashes = meshes, clashes
         self.tries = _TRIES
 
     def found(self) -> dict[str, AxialSlots]:
-        """Slots by wheel; none where it cannot be done, or not be found."""
+        """Return slots by wheel; empty if there are not any, or none were found within the limit."""
+        # iterative deepening: the first success has the minimum number of slots
         for count in range(2, len(self.meshes) + 1):
             spans = self._try(count)
             if spans is not None:
@@ -298,9 +305,10 @@ class _SlotSearch:
         return {}
 
     def _try(self, count: int) -> dict[str, AxialSlots] | None:
-        """Depth first over the meshes in order, so many slots each; what a step changed is put back when it fails.
+        """Return slots from an assignment of the meshes to `count` slots by depth-first search with backtracking.
 
-        A stack of its own, no recursion: a row of meshes may be longer than Python's.
+        It is None without a solution. The search has an explicit stack, because a chain of meshes may exceed Python's
+        recursion limit.
         """
         spans: dict[str, AxialSlots] = {}
         choice = [0]  # the slot to try next, by mesh
@@ -353,23 +361,26 @@ _ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Where all stands (mm)."""
+    """Places of all axes and wheels (mm)."""
 
     geometry: SizedGeometry
-    """With the wheels as broad as they were made."""
+    """Declared geometry, with the broadened wheels."""
     points: Mapping[str, Vector]
-    """Of axes; centres, of wheels."""
+    """Points of axes by label. `centres` are the centres of wheels by name."""
     centres: Mapping[str, Vector]
     stacks: Sequence[WheelStack]
-    """Of each group of parallels."""
+    """Stack of each group of parallels."""
     main: int
-    """The group of parallels with most wheels, and its direction upwards."""
+    """Number of the group of parallels with most wheels."""
     up: Vector
-    """The group of parallels with most wheels, and its direction upwards."""
+    """Upward direction of that group."""
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """All groups of parallels, that with most wheels first, then those that mesh with what stands."""
+    """Return the places of all groups of parallels.
+
+    The group with most wheels is placed first, then those that mesh with placed groups.
+    """
     declared = geometry.declared
     order = _order(geometry)
     placing = _Placing(geometry)
@@ -399,8 +410,8 @@ def _order(geometry: SizedGeometry) -> list[int]:
 
 
 @dataclass(frozen=True, slots=True)
-class _HeldAxis:
-    """A new axis that meshes with one that stands: the pair as the new side sees it, and a point of the axis."""
+class _DeterminedAxis:
+    """A new axis that meshes with a placed one: the pair from the new side, and a point of the axis."""
 
     crossing: CrossingSide
     point: Vector
@@ -409,7 +420,7 @@ class _HeldAxis:
 class _Placing:
     """Groups placed so far; `place` adds one.
 
-    Broadened wheels change `geometry`: later groups, and diagnostics, must see them as they are.
+    Broadened wheels change `geometry`, so that later groups and diagnostics use their final sizes.
     """
 
     def __init__(self, geometry: SizedGeometry) -> None:
@@ -419,8 +430,8 @@ class _Placing:
         self.stacks: list[WheelStack] = []
 
     def place(self, parallels: Parallels) -> None:
-        """Plan some parallels, make wheels as broad as the plan needs, and stack them."""
-        held = list(self._held(parallels))
+        """Plan some parallels, broaden wheels as the plan requires, and stack them."""
+        held = list(self._determined_axes(parallels))
         fixed = self._fixed(parallels, held)
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))
         swept = swept_distances(parallels.lines, places)
@@ -433,7 +444,7 @@ class _Placing:
         for wheel, height in stack.heights().items():
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
-    def _held(self, parallels: Parallels) -> Iterator[_HeldAxis]:
+    def _determined_axes(self, parallels: Parallels) -> Iterator[_DeterminedAxis]:
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -442,27 +453,27 @@ class _Placing:
                 if each.contact.kind == "screw":
                     far = sum(self.geometry.sizes[wheel].radius for wheel in each.contact.wheels)
                     point = plus(point, each.mate_seat.out, far)
-                yield _HeldAxis(each, point)
+                yield _DeterminedAxis(each, point)
 
-    def _fixed(self, parallels: Parallels, held: Sequence[_HeldAxis]) -> dict[str, Point]:
-        """Points in plan of the axes that cannot be moved; of one, if nothing fixes any."""
+    def _fixed(self, parallels: Parallels, held: Sequence[_DeterminedAxis]) -> dict[str, Point]:
+        """Return points in plan of the axes that cannot move; if nothing fixes any, that of one axis."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for new in held:
             fixed.setdefault(new.crossing.side.axis, parallels.flat(new.point))
         if fixed:
             return fixed
         labels, declared = list(parallels.index), self.geometry.declared
-        for each in self.geometry.crossing:  # nothing of these stands, but an axis they meet is given
+        for each in self.geometry.crossing:  # none of these is fixed, but an axis that they intersect is
             given = declared.lines[each.side.mate_axis].given
             if each.side.axis in parallels.index and given is not None:
                 return {each.side.axis: parallels.flat(given)}
         driven = [label for label in labels if label == declared.driven]
-        return dict.fromkeys(self._in_line(parallels) or driven or labels[:1], (0.0, 0.0))
+        return dict.fromkeys(self._collinear(parallels) or driven or labels[:1], (0.0, 0.0))
 
-    def _in_line(self, parallels: Parallels) -> list[str]:
-        """Parallels that are one line: two axes across, not parallel to each other, meet each of them.
+    def _collinear(self, parallels: Parallels) -> list[str]:
+        """Return parallel axes that must coincide, because each intersects two crossing axes of different directions.
 
-        Or one wheel across does, for the cones of all its mates have one apex.
+        One crossing wheel also makes the axes of its mates coincide, because the cones of all its mates have one apex.
         """
         met: dict[str, set[int]] = {label: set() for label in parallels.index}
         mates: dict[str, list[str]] = {}
@@ -477,7 +488,7 @@ class _Placing:
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
     def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
-        """Make wheels broad that have mates one above the other."""
+        """Widen wheels that have mates one above the other."""
         axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
         def run_into(wheel: str, other: str) -> bool:
@@ -494,8 +505,8 @@ class _Placing:
         }
         self.geometry = replace(self.geometry, sizes={**sizes, **broad})
 
-    def _constraints(self, parallels: Parallels, held: Sequence[_HeldAxis]) -> list[HeightConstraint]:
-        """Heights of wheels whose axes are held by what stands."""
+    def _constraints(self, parallels: Parallels, held: Sequence[_DeterminedAxis]) -> list[HeightConstraint]:
+        """Return heights of wheels whose axes are determined by placed parts."""
         found = []
         for new in held:
             side = new.crossing.side

@@ -1,4 +1,4 @@
-"""What is asked of the plan of parallel axes: distances, rows, sides, and room for their wheels."""
+"""Conditions on the plan of parallel axes: distances, rows, sides, and clearance of their wheels."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, Parallels, Point
 from geartrain.scene.layout.wheel_modules import CrossingSide, SizedGeometry
 
-# Distances that nothing declares, over radii of the wheels: near enough to look held together, far enough to be seen
-_ENCLOSED = 0.12  # of a slot's axis from that of a pin whose circle encloses it
-_TIED = 1.6  # of other pins and slots
-_CARRIED = 1.2  # of an axis from that of its carrier
+# Default distances over radii of the wheels, chosen for legible pictures
+_ENCLOSED = 0.12  # from the axis of a slot to that of a pin whose circle encloses it
+_TIED = 1.6  # for other pins and slots
+_CARRIED = 1.2  # from an axis to that of its carrier
 
 
 @dataclass(frozen=True, slots=True)
 class PlanDisc:
-    """A wheel in plan: out to `outer` (mm), of a ring from `inner` on; wheels of one cluster share a level."""
+    """A wheel in plan, out to the radius `outer` (mm), a ring from `inner` on. Wheels of one cluster share a level."""
 
     wheel: str
     cluster: int
@@ -30,38 +30,42 @@ class PlanDisc:
 
 @dataclass(frozen=True)
 class PlanProblem:
-    """What is asked of a plan."""
+    """Conditions on a plan."""
 
     labels: Sequence[str]
-    """Axes."""
+    """Labels of the axes."""
     bearers: Mapping[str, str]
-    """The link that bears each."""
+    """Link that carries each axis."""
     pivots: Mapping[str, str]
-    """Axes of carriers, which are placed before what they carry."""
+    """Axes of carriers, which are placed before the axes that they carry."""
     fixed: Mapping[str, Point]
-    """Points that are given."""
+    """Given points of axes."""
     distances: Mapping[tuple[str, str], float]
-    """Of pairs of axes (mm)."""
+    """Required distances of pairs of axes (mm)."""
     discs: Mapping[str, Sequence[PlanDisc]]
-    """Wheels of each axis, as far as they stand upright."""
+    """Upright wheels of each axis."""
     mates: frozenset[frozenset[str]]
     """Pairs of wheels that mesh."""
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
-    """Pairs of axes that must stand in a row, and its direction."""
+    """Pairs of axes that must be in a row, with its direction."""
     sides: Mapping[str, Point] = field(default_factory=dict)
-    """Directions in which an axis has a wheel across, best on the outside."""
+    """Direction in which an axis has a wheel of a perpendicular axis, preferably on the outside of the plan."""
     places: Mapping[str, int] = field(default_factory=dict)
-    """Axis -> the number of places round its pivot at which its teeth meet both its mates."""
+    """Axis -> number of places round its pivot at which its teeth mesh with both its mates."""
 
     def radius(self, label: str) -> float:
-        """That an axis needs for its widest wheel (mm)."""
+        """Return the radius of the widest wheel of an axis (mm)."""
         return max((disc.outer for disc in self.discs.get(label, ())), default=0.0)
 
 
 def plan_problem(
     geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
 ) -> PlanProblem:
-    """The problem of some parallels of which `fixed` have their points; `standing`, points of axes placed before."""
+    """Return the problem of a group of parallels.
+
+    fixed      given points in plan by axis
+    standing   points of axes that are already placed
+    """
     declared, labels = geometry.declared, list(parallels.index)
     discs: dict[str, list[PlanDisc]] = {label: [] for label in labels}
     for wheel, axis in declared.axis.items():
@@ -93,7 +97,7 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Distances for pins without dimensions, and for carried axes that no distance ties to their carrier's."""
+    """Return distances of pins without dimensions, and of carried axes that are not connected to their carrier's."""
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -117,7 +121,10 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Axes that one axis across meets stand in a row along it; a worm only passes its wheel's axis."""
+    """Yield pairs of axes that intersect one crossing axis, and so are in a row along it.
+
+    A worm does not intersect its wheel's axis.
+    """
     met: dict[str, list[str]] = {}
     for each in crossing:
         if each.contact.kind != "screw":
@@ -139,7 +146,7 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Planets between a sun and a ring: teeth meet in as many places as both have teeth together."""
+    """Yield planets between a sun and a ring with their number of assembly positions, z_sun + z_ring."""
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:
         for side in contact.sides:

@@ -1,13 +1,13 @@
-"""The plan of parallel axes: points of a plane at given distances, with room between their wheels.
+"""Plan of parallel axes: points of a plane at given distances, with clearance between their wheels.
 
-`PlanProblem` holds what is given: distances, rows, sides, and discs that need room. `plan_axes` finds the points by
-beam search: axes are placed one after the other, each at a crossing of circles or in one of some dozens of directions,
-and of many plans those that crowd least are carried on. Distances that cannot all be met are fitted by least squares
-(Gauss-Newton method).
+`PlanProblem` contains distances, rows, sides, and discs that need clearance. `plan_axes` finds the points by beam
+search: axes are placed one after the other, each at an intersection of circles or in one of 48 directions, and the
+plans of lowest cost are continued. Distances that cannot all be satisfied are fitted by least squares (Gauss-Newton
+method).
 
 The order is greedy, from a priority queue: axes that most distances determine come first. An axis of a closed chain of
-distances must stay near enough to those that are placed for the rest of the chain to reach: shortest paths (Dijkstra's
-algorithm) give those bounds. The cost of a place is how much wheels of parallel axes crowd each other.
+distances must stay near enough to placed axes for the rest of the chain to close. Shortest paths (Dijkstra's algorithm)
+give those bounds. The cost of a place is the overlap of wheels of parallel axes.
 """
 
 from __future__ import annotations
@@ -30,19 +30,21 @@ if TYPE_CHECKING:
 # ------------------------------------------------------------------------------------------------------- plan clearance
 
 
-_HARD = 100.0  # cost of wheels that collide in one level, by how far (mm over mm)
-_OVER = 1.0  # of discs one above the other: levels part them, but flat is better
-_COVER = 2.0  # of a disc over another axis, whose arbor it may meet
-_MOST_AXES = 1500  # axes up to which wheels of one level are told from others
+_HARD = 100.0  # cost per mm of overlap of wheels in one level
+_OVER = 1.0  # cost per mm of overlap of discs in different levels, because fewer levels are better
+_COVER = 2.0  # cost per mm of a disc over another axis, whose arbor it may hit
+_MOST_AXES = 1500  # maximum number of axes for which levels are distinguished
 
 
 class PlanClearance:
-    """Crowding of axes that keep their distance, on one bearer or about it; what carriers sweep is left to levels.
+    """Overlap cost of axes at constant distances: axes on one carrier, and the axis of that carrier.
 
-    still    (axes, axes): True where two keep their distance
-    radius   of the widest wheel of each axis (mm), rings apart
-    need     (axes, axes): least distances of axes whose wheels share a level and do not mesh (mm)
-    meet     (axes, axes): True where wheels of two mesh
+    Axes that carriers move relative to each other are separated by levels instead.
+
+    still    (axes, axes): True if the distance of two is constant
+    radius   radius of the widest wheel of each axis (mm), without rings
+    need     (axes, axes): minimum distances of axes whose wheels share a level and do not mesh (mm)
+    meet     (axes, axes): True if wheels of two mesh
     """
 
     def __init__(self, problem: PlanProblem) -> None:
@@ -65,7 +67,7 @@ class PlanClearance:
                 self.meet[both[0], both[1]] = self.meet[both[1], both[0]] = True
 
     def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
-        """Cost of each candidate place of an axis among those that stand."""
+        """Return the cost of each candidate place of an axis among the placed ones."""
         near = self._within_reach(at, placed[self.still[at, placed]], candidates, points)
         apart = candidates[:, None, :] - points[near][None, :, :]
         far = np.hypot(apart[:, :, 0], apart[:, :, 1])
@@ -77,7 +79,7 @@ class PlanClearance:
         return np.asarray(cost, float)
 
     def _within_reach(self, at: int, near: Indices, candidates: Floats, points: Floats) -> Indices:
-        """Those of some axes that a candidate may come too near to: all others cost nothing."""
+        """Return the axes that a candidate may overlap; all others cost nothing."""
         low, high = candidates.min(axis=0), candidates.max(axis=0)
         spots = points[near]
         away = np.maximum(np.maximum(low - spots, spots - high), 0)
@@ -86,7 +88,7 @@ class PlanClearance:
 
 
 def _minimum_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[frozenset[str]]) -> Floats:
-    """Least distances of axes whose wheels share a level and do not mesh; 0 where nothing asks for any."""
+    """Return minimum distances of axes whose wheels share a level and do not mesh; 0 without a requirement."""
     mates = _mates(pairs)
     need = np.zeros((len(discs), len(discs)))
     clusters: dict[int, list[tuple[int, PlanDisc]]] = {}
@@ -102,7 +104,7 @@ def _minimum_distances(discs: Sequence[Sequence[PlanDisc]], pairs: frozenset[fro
                 if mate in number:
                     apart[number[disc.wheel], number[mate]] = 0.0
         ends = np.array([at for at, _ in members])
-        np.maximum.at(need, np.ix_(ends, ends), apart)  # not need[...] = : an axis may have several wheels of a cluster
+        np.maximum.at(need, np.ix_(ends, ends), apart)  # unbuffered, as an axis may have several wheels of a cluster
     np.fill_diagonal(need, 0.0)
     return need
 
@@ -118,11 +120,11 @@ def _mates(pairs: frozenset[frozenset[str]]) -> Mapping[str, Sequence[str]]:
 # ----------------------------------------------------------------------------------------------------------- plan order
 
 
-_NEAR = 60  # axes on closed chains up to which chains are followed: that takes time with their square
+_NEAR = 60  # maximum number of axes on closed chains for which bounds are found: time grows with its square
 
 
 class Bar(NamedTuple):
-    """Two axes by number, and their distance (mm)."""
+    """Distance (mm) of two axes, given by index."""
 
     first: int
     second: int
@@ -130,7 +132,7 @@ class Bar(NamedTuple):
 
 
 class DistanceBound(NamedTuple):
-    """An axis by number, and the least and greatest distance (mm) from it."""
+    """Minimum and maximum distance (mm) from an axis, given by index."""
 
     axis: int
     minimum: float
@@ -138,9 +140,10 @@ class DistanceBound(NamedTuple):
 
 
 class _Rank(NamedTuple):
-    """The least is put in first: not before its carrier's axis, most tied, then largest, or with most bars.
+    """Priority of an axis: the minimum is placed first.
 
-    The two numbers are negative, so that the greatest comes first.
+    An axis comes after that of its carrier; then those with most placed neighbours, the largest radius or most bars
+    come first. The two counts are negative, so that the maximum comes first.
     """
 
     before_pivot: bool
@@ -151,24 +154,26 @@ class _Rank(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """An axis, by number, to be put in."""
+    """An axis to be placed, by index."""
 
     axis: int
     placed: Indices
-    """Those that stand by then."""
+    """Axes that are already placed."""
     tied: tuple[DistanceBound, ...]
-    """Those of them at a given distance."""
+    """Placed axes at a given distance."""
     bounds: tuple[DistanceBound, ...]
-    """Those to which a chain of axes still to come must reach."""
+    """Placed axes to which a chain of axes still to be placed must reach."""
 
 
 class PlanOrder:
-    """Axes as joints of bars, by number.
+    """Axes as joints of bars, by index.
 
-    index      number of each axis; radius, the room each needs (mm)
-    bars       all distances
-    alike      axis -> all that are alike on its carrier, itself among them: one bar of one length to the carrier's axis
-    steps      axes in the order in which they are put in
+    index    index of each axis
+    radius   radius of the widest wheel of each axis (mm)
+    bars     all distances
+    alike    axis -> all equivalent axes on its carrier, including itself, each with only one bar, of one length, to the
+             carrier's axis
+    steps    axes in the order in which they are placed
     """
 
     def __init__(self, problem: PlanProblem) -> None:
@@ -188,7 +193,7 @@ class PlanOrder:
         for at, joined in enumerate(self._joined):
             if len(joined) == 1 and self._pivot.get(at) in joined and at not in fixed:
                 (pivot, length), *_ = joined.items()
-                # rounded: lengths that are equal but for rounding are alike
+                # rounded, so that equal lengths compare equal
                 alike.setdefault((pivot, round(length, 9), round(float(self.radius[at]), 9)), []).append(at)
         return {at: tuple(group) for group in alike.values() for at in group}
 
@@ -206,7 +211,7 @@ class PlanOrder:
             rank = heappop(waiting)
             at = rank.axis
             if at in placed or rank != self._rank(at, count[at], placed):
-                continue  # it has been put in, or waits with another rank too
+                continue  # an outdated entry: already placed, or queued again with another rank
             tied = tuple(
                 DistanceBound(other, length, length) for other, length in self._joined[at].items() if other in placed
             )
@@ -218,17 +223,17 @@ class PlanOrder:
                 count[other] += 1
             for other in {*self._joined[at], *carried.get(at, ())} - placed:
                 heappush(waiting, self._rank(other, count[other], placed))
-        stand = np.array(order, np.intp)  # each step sees a part of one array: no copy a step
+        stand = np.array(order, np.intp)  # views of one array, without a copy per step
         return [PlanStep(at, stand[:known], tied, bounds) for at, known, tied, bounds in found]
 
     def _rank(self, at: int, tied: int, placed: set[int]) -> _Rank:
         late = at in self._pivot and self._pivot[at] not in placed
         weight = float(self.radius[at]) if tied else float(len(self._joined[at]))
-        # rounded, so that radii equal but for rounding stand in the order declared
+        # rounded, so that equal radii keep the order declared
         return _Rank(late, -tied, -round(weight, 9), at)
 
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
-        """What is left when loose ends are taken off, all that stands counting as one; none of them if too many."""
+        """Return the 2-core of the graph of bars, with all placed axes as one node; empty if it is too large."""
         left = set(range(len(self._joined)))
         count = [len(joined) for joined in self._joined]
         ends = [at for at in left if at not in placed and count[at] < 2]
@@ -242,11 +247,11 @@ class PlanOrder:
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Bounds from the shortest ways to axes that stand, over axes to come.
+        """Return bounds from the shortest paths to placed axes over axes still to be placed.
 
-        A chain of bars reaches as far as its length, and no nearer than its longest bar outruns the rest.
+        The ends of a chain of bars are at most its length apart, and at least the longest bar minus the rest.
         """
-        ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # length, longest bar, end
+        ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # (length, longest bar, end)
         done: set[int] = set()
         found: list[DistanceBound] = []
         while ways:
@@ -267,21 +272,22 @@ class PlanOrder:
 # ---------------------------------------------------------------------------------------------------------- plan search
 
 
-_TOUCH = 1e-10  # of a distance: nearer than this it is kept
-_STEPS = 60  # of Gauss-Newton
-_MOST = 400  # points up to which a dense matrix is solved
-_DIRECTIONS = 48  # in which an axis on one circle is tried
-_BEAM = ((60, 12), (200, 4))  # axes up to which that many plans are kept
-_MISS = 1e4  # cost of a distance that is missed (mm over mm)
-_FAR = 0.15  # of the way from the middle of all that stands
-_SIDE = 0.3  # of standing away from the side where a wheel across needs room
-_ROW = 1.2  # of the radii of two axes in a row: their distance where nothing else gives it
+_TOUCH = 1e-10  # relative error below which a distance is satisfied
+_STEPS = 60  # maximum number of Gauss-Newton steps
+_MOST = 400  # maximum number of points for a dense matrix
+_DIRECTIONS = 48  # candidates on a circle
+_BEAM = ((60, 12), (200, 4))  # (maximum number of axes, width of the beam)
+_MISS = 1e4  # cost per mm of error of a distance
+_FAR = 0.15  # cost per mm from the middle of the placed axes
+_SIDE = 0.3  # gain per mm towards the side of a crossing wheel
+_ROW = 1.2  # default distance of two axes in a row over the sum of their radii
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
-    """Where two circles cross; the nearest point between where they do not; nothing about one centre.
+    """Return the intersections of two circles.
 
-    With the distance d of the centres they cross at x = (d^2 + r^2 - s^2) / 2d along it, sqrt(r^2 - x^2) aside.
+    Without an intersection it is the nearest point between them, and nothing for concentric circles. With the distance
+    d of the centres they intersect at x = (d^2 + r^2 - s^2) / 2d along it, sqrt(r^2 - x^2) aside.
     """
     apart = hypot(b[0] - a[0], b[1] - a[1])
     if apart < 1e-12 * (radius + other):
@@ -289,17 +295,20 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
     along = (apart * apart + radius * radius - other * other) / (2 * apart)
     square = radius * radius - along * along
     if square < -1e-9 * radius * radius:
-        # they do not cross: the point as far off from one circle as from the other
+        # no intersection: the point equidistant from both circles
         side, back = (-1 if other > apart + radius else 1), (1 if radius > apart + other else -1)
         along, square = (apart + back * other + side * radius) / 2, 0.0
-    high = max(square, 0.0) ** 0.5  # circles that touch may miss each other by rounding
+    high = max(square, 0.0) ** 0.5  # for tangent circles rounding errors may make it negative
     u, v = (b[0] - a[0]) / apart, (b[1] - a[1]) / apart
     x, y = a[0] + along * u, a[1] + along * v
     return [(x - high * v, y + high * u), (x + high * v, y - high * u)] if high else [(x, y)]
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Where a line, a point and a unit vector, crosses a circle; its nearest point where it does not."""
+    """Return the intersections of a line, given by a point and a unit vector, with a circle.
+
+    Without an intersection both are the point of the line nearest to the centre.
+    """
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]
     square = radius * radius - (u * u + v * v - middle * middle)
@@ -310,17 +319,17 @@ def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: fl
 
 
 def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> Floats:
-    """Points (n, 2) nearest to some at which distances are missed least, in least squares; `fixed` stay.
+    """Return points (n, 2) that minimise the squared errors of distances, starting from some points; `fixed` ones stay.
 
     Gauss-Newton: the Jacobian of |p_b - p_a| has the unit vector from a to b at b, and its opposite at a. Steps are at
-    most a tenth of the longest distance, for far from the solution the linear model is worth little.
+    most a tenth of the longest distance, because the linear model is inaccurate far from the solution.
     """
     fixed = set(fixed)
     free = [at for at in range(len(points)) if at not in fixed]
     bars = [bar for bar in bars if not {bar.first, bar.second} <= fixed]
     if not bars or not free or len(points) > _MOST:
         return points
-    # a distance of 0 gives no scale of its own
+    # a distance of 0 defines no scale
     kept = _TOUCH * np.array([max(bar.length, 1e-9) for bar in bars])
     if np.all(np.abs(_distance_misses(points, bars)[0]) <= kept):
         return points
@@ -334,7 +343,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
             for end, sign in ((bar.first, -1.0), (bar.second, 1.0)):
                 if end in column:
                     jacobian[row, column[end] : column[end] + 2] = sign * ways[row]
-        # the least step: plans that may turn or bend freely have no unique one
+        # minimum-norm step, because plans may have free rotations
         move = np.linalg.lstsq(jacobian, -miss, rcond=1e-9)[0].reshape(-1, 2)
         longest = float(np.abs(move).max())
         points[free] += move * min(1.0, longest_step / longest) if longest else 0.0
@@ -344,7 +353,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def _distance_misses(points: Floats, bars: Sequence[Bar]) -> tuple[Floats, Floats]:
-    """How much too long each distance is, and the unit vector along it; zero where both ends are one point."""
+    """Return the excess of each distance and the unit vector along it, which is zero for coincident points."""
     ends = np.array([(bar.first, bar.second) for bar in bars])
     apart = points[ends[:, 1]] - points[ends[:, 0]]
     far = np.hypot(apart[:, 0], apart[:, 1])
@@ -353,13 +362,13 @@ def _distance_misses(points: Floats, bars: Sequence[Bar]) -> tuple[Floats, Float
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Points of all axes: distances kept where they can be, in least squares where not; the same each time."""
+    """Return points of all axes at the given distances, else fitted by least squares; the result is deterministic."""
     return _BeamSearch(problem).found()
 
 
 @dataclass(frozen=True)
 class _Plan:
-    """Points of all axes, of which some are put in, and what they cost."""
+    """Points of all axes, of which some are placed, and their cost."""
 
     points: Floats
     cost: float
@@ -367,7 +376,7 @@ class _Plan:
 
 @dataclass(frozen=True)
 class _Option:
-    """A plan and a place for the next axis; made only if it is among the best."""
+    """A plan and a place for the next axis. The new plan is made only if it is among the best."""
 
     plan: _Plan
     place: Floats
@@ -387,7 +396,7 @@ class _BeamSearch:
         self.width = next((wide for most, wide in _BEAM if len(problem.labels) <= most), 1)
 
     def found(self) -> dict[str, Point]:
-        """Points of the best plan."""
+        """Return the points of the best plan."""
         problem, index = self.problem, self.order.index
         points = np.zeros((len(problem.labels), 2))
         for label, point in problem.fixed.items():
@@ -401,20 +410,20 @@ class _BeamSearch:
         return {label: (float(fitted[at, 0]), float(fitted[at, 1])) for label, at in index.items()}
 
     def _options(self, step: PlanStep, plan: _Plan) -> list[_Option]:
-        """The best places of an axis in one plan."""
+        """Return the best places of an axis in one plan."""
         candidates = self._candidates(step, plan.points)
-        costs = _missed(step, candidates, plan.points)
+        costs = _distance_cost(step, candidates, plan.points)
         costs += self.clearance.cost(step.axis, step.placed, candidates, plan.points)
         if len(step.placed):
             apart = candidates - plan.points[step.placed].mean(axis=0)
             costs += _FAR * np.hypot(apart[:, 0], apart[:, 1])
             costs -= _SIDE * apart @ np.array(self.problem.sides.get(self.problem.labels[step.axis], (0.0, 0.0)))
-        # rounded and stable: of places that are equal but for rounding, the first on every machine
+        # rounded and stable, so that ties are broken alike on every machine
         best = np.argsort(costs.round(9), kind="stable")[: self.width].tolist()
         return [_Option(plan, candidates[at], round(plan.cost + float(costs[at]), 9)) for at in best]
 
     def _candidates(self, step: PlanStep, points: Floats) -> Floats:
-        """Places to be tried for an axis."""
+        """Return candidate places of an axis."""
         row = self._in_row(step, points)
         if row:
             return np.array(row)
@@ -429,7 +438,7 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Points in a row with an axis that stands already: at the distance it must have from another, or free."""
+        """Return points in a row with a placed axis, at the required distance from another axis, or free."""
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
             if label not in pair:
@@ -450,7 +459,7 @@ class _BeamSearch:
         return []
 
     def _outside(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Beside all that stands."""
+        """Return points outside of all placed axes, in eight directions."""
         if not len(step.placed):
             return [(0.0, 0.0)]
         radius = self.order.radius
@@ -461,8 +470,11 @@ class _BeamSearch:
         return [(x + far * cos(pi * at / 4), y + far * sin(pi * at / 4)) for at in range(8)]
 
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Points of the circle about the first axis it is tied to: in all directions, where teeth meet, or, of axes
-        alike on one carrier, evenly spaced from the first of them."""
+        """Return points of the circle about the first axis it is tied to.
+
+        They are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are evenly
+        spaced from the first of them.
+        """
         pivot, far = step.tied[0].axis, step.tied[0].most
         x, y = points[pivot].tolist()
         alike = self.order.alike.get(step.axis, ())
@@ -477,13 +489,13 @@ class _BeamSearch:
         if count and alike:
             turns = list(dict.fromkeys(round(turn * count) / count for turn in turns))
         found = [(x + far * cos(first + 2 * pi * turn), y + far * sin(first + 2 * pi * turn)) for turn in turns]
-        for bound in step.bounds:  # arcs from which the rest still reaches may be narrow
+        for bound in step.bounds:  # feasible arcs may be narrower than the spacing of directions
             found += crossings((x, y), far, points[bound.axis].tolist(), (bound.minimum + bound.most) / 2)
         return found
 
 
-def _missed(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
-    """Cost of the distances that each candidate misses, or leaves no way to keep."""
+def _distance_cost(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
+    """Return the cost of the distances that each candidate violates, or makes impossible."""
     total = np.zeros(len(candidates))
     for bound in (*step.tied, *step.bounds):
         apart = candidates - points[bound.axis]

@@ -1,7 +1,8 @@
-"""Which wheels of parallel axes stand in whose way in plan, at any turns of the carriers that move them.
+"""Wheels of parallel axes that overlap in plan at any angles of the carriers that move them.
 
-Seen from the nearest link that bears both, each of two axes stays in a ring about the axis of the carrier that hangs
-there. All of both rings is counted, as if carriers never kept step: that is an interval of distances for each two axes.
+Relative to the nearest link that carries both, each of two axes stays in an annulus about the axis of a carrier. The
+whole of both annuli is used, as if the angles of carriers were independent, which gives an interval of distances for
+every two axes.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     Flags = NDArray[np.bool_]
 
-_SLACK = 1e-9  # of a radius: discs that touch as placed do not overlap by rounding
+_SLACK = 1e-9  # relative to a radius: touching discs must not overlap by rounding errors
 
 
 class Disc(Protocol):
@@ -30,15 +31,15 @@ class Disc(Protocol):
 
     @property
     def inner(self) -> float:
-        """Of a ring, the radius within which all is free (mm); 0 of other wheels."""
+        """Radius of the free space inside a ring (mm); 0 for other wheels."""
 
     @property
     def outer(self) -> float:
-        """The radius that it needs (mm)."""
+        """Outer radius, including clearance (mm)."""
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
-    """True if two wheels at one height run into each other, their axes being between `near` and `far` (mm) apart."""
+    """Return whether two wheels at one height collide if their axes are `near` to `far` (mm) apart."""
     for ring, inside in ((disc, other), (other, disc)):
         if ring.inner and far + inside.outer <= ring.inner * (1 + _SLACK):
             return False
@@ -47,18 +48,18 @@ def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
 
 @dataclass(frozen=True)
 class SweptDistances:
-    """Least and greatest distance (mm) of each two of n parallel axes, (n, n), while carriers turn."""
+    """Minimum and maximum distance (mm) of every two of n parallel axes, shape (n, n), while carriers turn."""
 
     near: Floats
     far: Floats
 
     def overlap(self, disc: Disc, axis: int, other: Disc, other_axis: int) -> bool:
-        """True if wheels of two axes, at one height, run into each other."""
+        """Return whether wheels of two axes, at one height, collide."""
         return overlap(disc, other, float(self.near[axis, other_axis]), float(self.far[axis, other_axis]))
 
 
 class _Swept(NamedTuple):
-    """An axis as a link sees it that bears it: it keeps between `low` and `high` (mm) from the axis `centre`."""
+    """Position of an axis relative to a link that carries it: from `low` to `high` (mm) from the axis `centre`."""
 
     at: int
     centre: str
@@ -67,11 +68,11 @@ class _Swept(NamedTuple):
 
 
 def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> SweptDistances:
-    """Distances of parallel axes at any turns of their carriers.
+    """Return distances of parallel axes at any angles of their carriers.
 
-    Axes borne by a link that turns about another direction are far from all that it does not bear.
+    Axes carried by a link that turns about another direction are infinitely far from all that it does not carry.
     """
-    seen: dict[tuple[str, ...], list[_Swept]] = {}  # by the link that sees, with all that bear it
+    seen: dict[tuple[str, ...], list[_Swept]] = {}  # by link, with all links that carry it
     for at, line in enumerate(lines):
         centre, low, high = line.label, 0.0, 0.0
         for depth in range(len(line.bearers)):
@@ -85,7 +86,7 @@ def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> S
             centre = pivot
     count = len(lines)
     found = SweptDistances(np.full((count, count), np.inf), np.zeros((count, count)))
-    # the nearest common bearer counts: it has the most above it, so it comes last and overwrites the others
+    # the nearest common carrier has the longest chain to the frame, so it comes last and overwrites the others
     for _, members in sorted(seen.items(), key=lambda each: len(each[0])):
         _fill(found, members, places)
     return found
@@ -97,10 +98,11 @@ def _fill(found: SweptDistances, members: Sequence[_Swept], places: Mapping[str,
     low, high = np.array([member.low for member in members]), np.array([member.high for member in members])
     apart = np.hypot(*(points[:, None, axis] - points[None, :, axis] for axis in (0, 1)))
     block = np.ix_(index, index)
-    if not high.any():  # none is carried round: the distance itself, not a difference that rounds
+    if not high.any():  # none is carried: the distance itself, without rounding errors of differences
         found.near[block] = found.far[block] = apart
         return
     reach = high[:, None] + high[None, :]
+    # one annulus may be inside the inner circle of the other
     inside, outside = low[:, None] - high[None, :] - apart, low[None, :] - high[:, None] - apart
     found.near[block] = np.maximum.reduce([apart - reach, inside, outside, 0 * apart])
     found.far[block] = apart + reach
@@ -112,33 +114,32 @@ class WheelBlock:
 
     wheel: str
     axis: int
-    """Index of its axis; link, that of its arbor."""
+    """Index of its axis. `link` is the link of its arbor."""
     link: str
     stack: int
-    """Number of the wheels that keep their heights to each other: those that mesh."""
+    """Number of its stack, a set of wheels with fixed relative heights because they mesh."""
     offset: float
-    """Its height in its stack; low and high, how far it reaches along the direction from there."""
+    """Height in its stack. `low` and `high` are the extents below and above it."""
     low: float
     high: float
     inner: float
-    """Of a ring, the radius within which all is free."""
+    """Radius of the free space inside a ring; 0 for other wheels."""
     outer: float
-    """The radius that it needs."""
+    """Outer radius, including clearance."""
     across: bool = False
-    """It stands across, and meshes with a wheel of this stack."""
+    """True for a wheel of an axis that crosses this group, which meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
-    """Of a wheel across that keeps its place: the ends of its trace in plan, on both sides of which `outer` is
-    taken; None of others."""
+    """Ends of the trace in plan of a crossing wheel that stays in place, whose half width is `outer`; else None."""
 
 
 @dataclass(frozen=True)
 class PlanOverlap:
-    """What stands in whose way, in plan."""
+    """Overlaps of wheels and arbors in plan."""
 
     clash: Flags
-    """(blocks, blocks): two that must not share a height."""
+    """Shape (blocks, blocks): pairs that must not be at the same height."""
     pierce: Flags
-    """(links and pins, blocks): wheels that an arbor, or a pin, would go through at their height."""
+    """Shape (links and pins, blocks): wheels that an arbor, or a pin, would pass through at their height."""
 
 
 def find_plan_overlap(
@@ -150,9 +151,10 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> PlanOverlap:
-    """Which blocks overlap in plan, and through which an arbor at its place would go, or a pin from wheel to wheel.
+    """Return the blocks that overlap in plan, and the blocks that arbors or pins would pass through.
 
-    plates   arbor -> the wheel that bears its axis, and has a hole for it
+    plates   arbor -> the wheel that carries its axis, and has a hole for it
+    pins     wheel of a pin and wheel of its slot
     """
     if not blocks:
         return PlanOverlap(np.zeros((0, 0), bool), np.zeros((len(links), 0), bool))
@@ -162,7 +164,7 @@ def find_plan_overlap(
     inner = np.array([block.inner for block in blocks])
     stacks = np.array([block.stack for block in blocks])
     apart = swept.near[np.ix_(axis, axis)]
-    off = swept.near[:, axis].copy()  # axes against blocks
+    off = swept.near[:, axis].copy()  # shape (axes, blocks)
     for at, block in enumerate(blocks):
         if block.trace is not None:
             away = np.array([segment_distance(places[line.label], *block.trace) for line in lines])
@@ -178,13 +180,13 @@ def find_plan_overlap(
     for row, link in enumerate(links):
         if link in plates:
             pierce[row, named[plates[link]]] = False
-    rows = [_in_the_way(blocks, off, (named[pin], named[slot])) for pin, slot in pins]
+    rows = [_pin_obstacles(blocks, off, (named[pin], named[slot])) for pin, slot in pins]
     pierce = np.vstack([pierce, *rows])
     return PlanOverlap(clash, pierce)
 
 
-def _in_the_way(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
-    """Blocks of other links that a pin may meet between its wheel and that of its slot."""
+def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
+    """Return blocks of other links that a pin may meet between its wheel and that of its slot."""
     pin, slot = (blocks[at] for at in ends)
     outer = np.array([block.outer for block in blocks])
     own = np.array([block.link in (pin.link, slot.link) for block in blocks])
@@ -192,7 +194,7 @@ def _in_the_way(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]
 
 
 def segment_distance(point: Point, start: Point, end: Point) -> float:
-    """Distance of a point from a segment."""
+    """Return the distance of a point from a segment."""
     u, v = end[0] - start[0], end[1] - start[1]
     x, y = point[0] - start[0], point[1] - start[1]
     square = u * u + v * v

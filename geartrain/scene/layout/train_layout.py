@@ -1,9 +1,10 @@
-"""From a train to its layout: every axis and every wheel in space, in the pose in which all angles are zero.
+"""Layout of a train: every axis and every wheel in space, in the pose in which all angles are zero.
 
-Wheels are turned on their arbors so that teeth of one meet spaces of the other, breadth first over the gear pairs: the
-first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches by which a tooth is past
-the pitch point, positive as the wheel turns, teeth and spaces meet where s_1 + s_2 = 1/2 (mod 1) if positive angles
-turn the pitch point against each other, and s_1 - s_2 = 1/2 if not. What a layout could not meet is reported in words.
+Wheels are rotated on their arbors so that teeth of one mesh with tooth spaces of the other, in a breadth-first search
+over the gear pairs: the first wheel of a train has a tooth at a pitch point, and each mate follows. With s the pitches
+by which a tooth is past the pitch point, positive as the wheel turns, teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1)
+when positive angles move the pitch point in opposite senses, and s_1 - s_2 = 1/2 otherwise. Conditions that a layout
+could not satisfy are reported as notices.
 """
 
 from __future__ import annotations
@@ -27,13 +28,13 @@ from geartrain.scene.layout.wheel_stacks import WheelStack
 # --------------------------------------------------------------------------------------------------- layout diagnostics
 
 
-_TOUCH = 1e-9  # of the pitch radii: nearer than this, pitch circles touch
-_MEET = 1e-6  # of them, where axes meet, for directions are rounded as written
+_TOUCH = 1e-9  # gap over the pitch radii below which pitch circles touch
+_MEET = 1e-6  # the same for axes that are not parallel, whose declared directions are rounded
 _SHOWN = 6
 
 
 def pitch_gaps(found: Arrangement) -> dict[str, float]:
-    """Pairs whose pitch circles do not touch, and how far (mm) they are apart, negative into each other."""
+    """Return pairs whose pitch circles do not touch, with their gap (mm), negative for an overlap."""
     sizes = found.geometry.sizes
     gaps = {}
     for contact in found.geometry.declared.contacts:
@@ -52,6 +53,7 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
         first, second = (found.points[axis] for axis in contact.axes)
         apart = pitch_distance(declared, found.geometry.modules.module, contact)
         far = size(across(minus(second, first), lines[0].direction)) - apart
+        # a wheel too far from the centre of a ring overlaps it
         return -far if contact.kind == "ring" else far
     centres = [found.centres[wheel] for wheel in contact.wheels]
     if contact.kind == "screw":
@@ -70,11 +72,12 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
 def notices(
     train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
 ) -> Iterator[Problem]:
-    """All that a reader of a picture must know: what cannot be built first.
+    """Yield all notices on a layout, those that prevent a build first.
 
-    gaps     of pairs whose pitch circles do not touch (mm)
-    misses   of pairs whose teeth do not meet (pitches)
+    gaps     gaps of pairs whose pitch circles do not touch (mm)
+    misses   phase errors of pairs whose teeth do not mesh (pitches)
     """
+    # what cannot be built at all comes first
     yield from (each.problem for each in train.build_findings)
     declared = found.geometry.declared
     place = {gear.name: train.declaration.place("gears", at) for at, gear in enumerate(train.declaration.gears)}
@@ -87,9 +90,9 @@ def notices(
     for name, miss in misses.items():
         if name not in gaps:
             yield Problem(
-                f"the teeth of '{name}' do not meet: they are off by {abs(miss):.3g} of a pitch",
-                "it closes a loop of wheels whose places leave no other choice",
-                "give the axes places where teeth meet, or other tooth numbers",
+                f"the teeth of '{name}' do not mesh: their phase is wrong by {abs(miss):.3g} of a pitch",
+                "the pair closes a loop of wheels, whose places determine the phases of all teeth",
+                "declare positions of the axes at which teeth mesh, or change tooth counts",
                 place[name],
             )
 
@@ -99,41 +102,42 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
     return Problem(
         f"the pitch circles of '{first}' and '{second}' "
         + (f"are {gap:.3g} mm apart" if gap > 0 else f"overlap by {-gap:.3g} mm"),
-        f"pair '{contact.name}' wants another distance of axes '{axis}' and '{other}' than other pairs, declared "
-        "positions, modules or offsets leave it",
-        "change a tooth number, a position or a module; the motion does not depend on it",
+        f"pair '{contact.name}' requires a distance of axes '{axis}' and '{other}' that other pairs, declared "
+        "positions, modules or offsets do not allow",
+        "change a tooth count, a position or a module; the motion does not depend on the distance",
         place,
     )
 
 
 def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
-    """Wheels that are not drawn as they are declared."""
+    """Yield notices on wheels that are not drawn as they are declared."""
     for stray in declared.strays:
         yield Problem(
-            f"wheel '{stray.wheel}' is drawn on axis '{declared.axis[stray.wheel]}' only",
-            f"pair '{stray.pair}' has it on axis '{stray.axis}' too",
-            "give each of its meshes a wheel of its own",
+            f"wheel '{stray.wheel}' is drawn only on axis '{declared.axis[stray.wheel]}'",
+            f"pair '{stray.pair}' has it on axis '{stray.axis}' as well",
+            "declare a separate wheel for each of its meshes",
             place[stray.pair],
         )
 
 
 def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
-    """Wheels that share a height and a place, and arbors that go through wheels."""
+    """Yield notices on wheels that collide, and on arbors that pass through wheels."""
     mates = {frozenset(contact.wheels) for contact in found.geometry.declared.contacts}
     height = {block.wheel: dot(found.centres[block.wheel], stack.up) for block in stack.upright}
+    # mates overlap by the depth of their teeth
     collide = [pair for pair in stack.collisions(height) if frozenset(pair) not in mates]
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
-            "they lie in one level, as their mates do, and their places leave no room between them",
-            "give their axes positions, or their pairs another order",
+            "they are in one level, like their mates, and their axes are too close together",
+            "declare positions of their axes, or change the order of their pairs",
         )
     pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
     if pierced:
         yield Problem(
-            f"arbors go through wheels: {_listed(pierced)}",
+            f"arbors pass through wheels: {_listed(pierced)}",
             "no order of the levels was found that keeps all arbors clear",
-            "give the axes positions that leave them room",
+            "declare positions of the axes at which the arbors are clear of wheels",
         )
 
 
@@ -145,56 +149,60 @@ def _listed(words: Sequence[str]) -> str:
 # ------------------------------------------------------------------------------------------------------- mesh alignment
 
 
-_TEETH_MEET = 1e-6  # of a pitch: nearer, teeth meet
+_TEETH_MEET = 1e-6  # phase error (pitches) below which teeth mesh
 
 
 @dataclass(frozen=True, slots=True)
 class PitchSide:
-    """The pitch point of a pair as one of its wheels sees it."""
+    """Pitch point of a pair from the side of one of its wheels."""
 
     wheel: str
     teeth: int
     angle: float
-    """Of the pitch point about the wheel's axis, from the axis' reference (rad)."""
+    """Angle of the pitch point about the wheel's axis, from the reference of the axis (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
 class PitchPoint:
-    """The pitch point of a pair."""
+    """Pitch point of a pair."""
 
     name: str
     first: PitchSide
     second: PitchSide
     sense: int
-    """1 where positive angles about both axes turn the pitch point the same way, -1 where against each other."""
+    """1 if positive angles about both axes move the pitch point the same way, -1 if opposite ways."""
 
     def seen_from(self, wheel: str) -> tuple[PitchSide, PitchSide]:
-        """A wheel of the pair, and its mate."""
+        """Return the side of a wheel of the pair, and that of its mate."""
         return (self.first, self.second) if self.first.wheel == wheel else (self.second, self.first)
 
 
 @dataclass(frozen=True, slots=True)
 class MeshAlignment:
-    """Angles of the first tooth of each wheel (rad, from 0 to a pitch); misses (pitches) of pairs that close a loop."""
+    """Angles at which wheels mesh.
+
+    turns    angle of the first tooth of each wheel (rad, from 0 to a pitch)
+    misses   phase errors of pairs that close a loop (pitches)
+    """
 
     turns: Mapping[str, float]
     misses: Mapping[str, float]
 
 
 def reference(direction: Vector) -> Vector:
-    """Unit vector across an axis from which angles are counted: x where the axis is z."""
+    """Return the unit vector across an axis from which angles are measured: x if the axis is z."""
     return frame(direction)[0]
 
 
 def align_meshes(found: Arrangement) -> MeshAlignment:
-    """Angles at which the wheels of a train mesh, as they stand."""
+    """Return the angles at which the wheels of a train mesh, as placed."""
     return _aligned([_pitch_point(found, contact) for contact in found.geometry.declared.contacts])
 
 
 def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
     declared = found.geometry.declared
     directions = [declared.lines[axis].direction for axis in contact.axes]
-    outs = _side_by_side(found, contact) if contact.parallel else _seated(found, contact)
+    outs = _parallel_directions(found, contact) if contact.parallel else _seat_directions(found, contact)
     first, second = (
         PitchSide(wheel, declared.count(wheel), azimuth(across(out, direction), direction, reference(direction)))
         for wheel, direction, out in zip(contact.wheels, directions, outs, strict=True)
@@ -203,14 +211,14 @@ def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
     return PitchPoint(contact.name, first, second, contact.worm_sense or (1 if same else -1))
 
 
-def _seated(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
-    """Where wheels of axes that are not parallel touch, as each wheel sees it."""
+def _seat_directions(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
+    """Return directions to the pitch point for axes that are not parallel, one for each wheel."""
     first, second = (found.geometry.seats[contact.name, wheel] for wheel in contact.wheels)
     return first.out, second.out
 
 
-def _side_by_side(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
-    """Towards each other, but away from the axis of a wheel that runs in a ring."""
+def _parallel_directions(found: Arrangement, contact: PitchContact) -> tuple[Vector, Vector]:
+    """Return directions to the pitch point for parallel axes, which are opposite, or equal for a pair with a ring."""
     declared = found.geometry.declared
     direction = declared.lines[contact.axes[0]].direction
     apart = across(minus(found.points[contact.axes[1]], found.points[contact.axes[0]]), direction)
@@ -244,14 +252,14 @@ def _aligned(points: Iterable[PitchPoint]) -> MeshAlignment:
 
 
 def _past(side: PitchSide, turn: float) -> float:
-    """Pitches by which the first tooth is past the pitch point."""
+    """Return by how many pitches the first tooth is past the pitch point."""
     return (turn - side.angle) * side.teeth / (2 * pi)
 
 
 def _turn_of_mate(own: PitchSide, mate: PitchSide, sense: int, turn: float) -> float:
-    """The angle of the mate of a wheel whose angle is known."""
+    """Return the angle (rad) of the mate of a wheel whose angle is known."""
     pitch = 2 * pi / mate.teeth
-    # s_2 = 1/2 - s_1 where against each other, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
+    # s_2 = 1/2 - s_1 for opposite senses, else s_1 - 1/2, which is s_1 + 1/2 (mod 1)
     return (mate.angle + (0.5 + sense * _past(own, turn)) * pitch) % pitch
 
 
@@ -264,8 +272,8 @@ def _miss(one: PitchPoint, turns: Mapping[str, float]) -> float:
 
 
 How = Literal["given", "found", "free"]
-_Z: Vector = (0.0, 0.0, 1.0)  # the axis of what is declared to stand on none
-_PARALLEL = 1e-9  # of the cosine: directions are rounded to floats
+_Z: Vector = (0.0, 0.0, 1.0)  # direction for wheels without an axis
+_PARALLEL = 1e-9  # of the cosine, because directions are rounded to floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,19 +282,19 @@ class AxisPlace(Shown):
 
     See Also
     --------
-    lay_out : gives it, in `Layout.axes`.
+    lay_out : returns it in `Layout.axes`.
     """
 
     label: str
-    """Its name in the declaration."""
+    """Label in the declaration."""
     point: Vector
-    """A point of it [mm]."""
+    """Point of the axis [mm]."""
     direction: Vector
-    """Unit vector as declared: speeds of its links are positive about it."""
+    """Declared unit vector, about which speeds of its links are positive."""
     how: How
-    """Given in the declaration, found from wheels that mesh, or free: put where there is room."""
+    """`given` in the declaration, `found` from wheels that mesh, or `free`: placed without overlap."""
     carrier: str
-    """The link that bears it, the frame or a carrier."""
+    """Link that carries it: the frame or a carrier."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -295,39 +303,40 @@ class WheelPlace(Shown):
 
     See Also
     --------
-    lay_out : gives it, in `Layout.wheels`.
+    lay_out : returns it in `Layout.wheels`.
     """
 
     wheel: str
-    """Its name."""
+    """Name of the wheel."""
     link: str
-    """The link that carries it."""
+    """Link that carries it."""
     axis: str
-    """The axis about which it turns."""
+    """Axis about which it turns."""
     centre: Vector
-    """Middle of its pitch circle, on its axis [mm]."""
+    """Centre of its pitch circle, on its axis [mm]."""
     radius: float
-    """Of its pitch circle [mm]; at the wide end of a bevel wheel."""
+    """Pitch radius [mm], of a bevel wheel at its wide end."""
     module: float
-    """Pitch diameter over tooth count [mm]."""
+    """Pitch diameter divided by the tooth count [mm]."""
     thickness: float
-    """Of its rim along the axis [mm]."""
+    """Thickness of its rim along the axis [mm]."""
     given: bool = False
     """True if the declaration gives the module of this wheel, or of one that it meshes with."""
     cone: float = 0.0
-    """Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel."""
+    """Half angle of its pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
-    """Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 of a cylinder."""
+    """Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 for a cylinder."""
     layer: int | None = 0
-    """Number of the level it stands in, 0 nearest the origin, growing along the axis; None off the main axes."""
+    """Number of its level, from 0 for the level nearest the origin, increasing along the axis; None off the main axes.
+    """
     turn: float = 0.0
-    """Angle of its first tooth about its axis' direction from `reference`, so that teeth mesh [rad]."""
+    """Angle of its first tooth about the direction of its axis from `reference`, at which teeth mesh [rad]."""
     reference: Vector = (1.0, 0.0, 0.0)
-    """Unit vector across the axis from which `turn` is counted."""
+    """Unit vector across the axis from which `turn` is measured."""
 
     @property
     def span(self) -> tuple[float, float]:
-        """Between which places of its axis its body stands, from its centre along the axis' direction [mm]."""
+        """Lower and upper end of its body along the direction of the axis, from its centre [mm]."""
         return span(self.facing, *bare_reach(self.cone, self.radius, self.thickness, self.module))
 
 
@@ -337,37 +346,38 @@ class Layout(Shown):
 
     See Also
     --------
-    lay_out : gives it.
+    lay_out : returns it.
     """
 
     axes: Mapping[str, AxisPlace]
-    """By label."""
+    """Axes by label."""
     wheels: Mapping[str, WheelPlace]
-    """By name."""
+    """Wheels by name."""
     notices: tuple[Problem, ...] = ()
-    """What could not be placed as declared, or collides: what, why and what to do."""
+    """Wheels and axes that could not be placed as declared, or that collide, with reasons and remedies."""
     front: int = 1
-    """The side of z from which the train is looked at: 1 or -1."""
+    """Side of z from which the train is viewed: 1 or -1."""
     apart: Mapping[str, float] = field(default_factory=dict)
-    """Gear pairs whose wheels do not touch as placed: how far their pitch circles are apart [mm], negative into each
-    other."""
+    """Gap of the pitch circles [mm] of gear pairs whose wheels do not touch as placed, negative for an overlap."""
 
     def _summary(self) -> str:
         notices = f", {len(self.notices)} notices" if self.notices else ""
         return f"{len(self.axes)} axes, {len(self.wheels)} wheels{notices}"
 
     def axis_distance(self, first: str, second: str) -> float | None:
-        """How far apart the axes of two wheels are, where they are parallel.
+        """Return the distance of the axes of two wheels, if they are parallel.
 
         Parameters
         ----------
-        first, second : str
-            Names of wheels.
+        first : str
+            Name of a wheel.
+        second : str
+            Name of another wheel.
 
         Returns
         -------
         float or None
-            In mm; None where the axes are not parallel.
+            Distance [mm]; None if the axes are not parallel.
         """
         one, other = self.wheels[first], self.wheels[second]
         directions = [self.axes[each.axis].direction if each.axis in self.axes else _Z for each in (one, other)]
@@ -377,31 +387,31 @@ class Layout(Shown):
 
 
 def lay_out(train: GearTrain) -> Layout:
-    """Places of all axes and wheels of a train by beam search and local search; the same for the same declaration.
+    """Return places of all axes and wheels of a train, by beam search and local search; the result is deterministic.
 
-    Declared positions, modules and offsets of pins always hold. What is left open is found so that pitch circles
-    touch, wheels of one level keep apart and the plan is compact. Every train that loads has a layout. The time grows
-    with the square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
+    Declared positions, modules and offsets of pins are always kept. All other sizes are chosen so that pitch circles
+    touch, wheels of one level do not overlap and the plan is compact. Every train that loads has a layout. The time
+    grows with the square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
 
     Parameters
     ----------
     train : GearTrain
-        Loaded or declared; it need not be able to turn.
+        Loaded or declared train; it need not be able to turn.
 
     Returns
     -------
     Layout
-        Lengths in mm, in the pose in which all angles are zero; its `notices` tell what could not be met.
+        Lengths in mm, in the pose in which all angles are zero. Its `notices` report conditions that are not satisfied.
 
     Notes
     -----
-    In this order: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), of each group
-    the plan (`plan_search`) and the heights of its wheels (`wheel_stacks`), then the angles at which
-    teeth mesh (`mesh_alignment`).
+    The steps are: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), for each group
+    the plan (`plan_search`) and the heights of its wheels (`wheel_stacks`), then the angles at which teeth mesh
+    (`align_meshes`).
 
     Examples
     --------
-    A sun of 24, a planet of 18 and a ring of 60 teeth, where nothing gives a size, have a module of 1 mm.
+    A sun of 24, a planet of 18 and a ring of 60 teeth have a module of 1 mm if no size is declared.
 
     >>> import geartrain
     >>> layout = lay_out(geartrain.load("planetary-24-18-60"))
@@ -461,14 +471,14 @@ def _wheel_places(found: Arrangement, turns: Mapping[str, float]) -> dict[str, W
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """The seat of each wheel that has a cone; a wheel that also meshes about a parallel axis has none."""
+    """Return the seat of each wheel that has a cone; a wheel that also meshes about a parallel axis has none."""
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
     return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Numbers of levels of the wheels on the main axes, from below; a broad wheel counts where it begins."""
+    """Return level numbers of the wheels on the main axes, from the lowest; a broad wheel counts at its lower end."""
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot
@@ -478,7 +488,7 @@ def _layers(found: Arrangement) -> dict[str, int]:
     levels: list[float] = []
     layers = {}
     for wheel, height in sorted(heights.items(), key=lambda each: each[1]):
-        if not levels or height - levels[-1] > 1e-6 * sizes[wheel].thickness:  # less is rounding
+        if not levels or height - levels[-1] > 1e-6 * sizes[wheel].thickness:  # smaller differences are rounding errors
             levels.append(height)
         layers[wheel] = len(levels) - 1
     return layers

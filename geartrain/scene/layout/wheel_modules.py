@@ -1,12 +1,12 @@
-"""Modules and sizes of wheels: ratios that the train forces, sizes that the declaration gives, and the rest chosen.
+"""Modules and sizes of wheels, as forced by the train, given by the declaration, or chosen.
 
-Wheels that mesh share a module, so a cluster of them has one. Two pairs between the same two axes force the ratio of
-their clusters' modules: those ratios are a weighted union-find in exact fractions. The scale of a group of clusters is
-a declared module, else the least squares of declared distances, else the median of all that are known.
+Wheels that mesh share a module, so each cluster of them has one. Two pairs between the same two axes force the ratio of
+their clusters' modules. These ratios are a weighted union-find in exact fractions. The scale of a group of clusters is
+a declared module, else a least squares fit of declared distances, else the median of all known modules.
 
 Free modules are changed until every closed chain of axes can close. A chain closes if none of its distances is longer
-than all others together (polygon inequality). Relaxation: each distance that is longer than the shortest way round it
-is shortened, or the way is lengthened, in rounds.
+than all others together (polygon inequality). Relaxation: each distance that is longer than the shortest path between
+its ends is shortened, or that path is lengthened, repeatedly.
 
 `SizedGeometry` is the input of all placements: the declared geometry with modules, sizes of wheels, and seats of
 pairs whose axes are not parallel.
@@ -32,30 +32,30 @@ from geartrain.teeth.standard_teeth import DEDENDUM
 # -------------------------------------------------------------------------------------------------------- closed chains
 
 
-_ROUNDS = 12  # over all distances; each changes what the others need
-_MOST = 300  # distances on closed chains up to which modules are balanced: time grows with their square
-_TIGHT = 0.97  # of the way round: a distance that is longer leaves wheels no room
-_LOOSE = 0.85  # what it is made then
-_MINIMUM = Fraction(1, 1000)  # factor by which a module may shrink in one step
+_ROUNDS = 12  # passes over all distances, because changes affect each other
+_MOST = 300  # maximum number of distances on closed chains: time grows with its square
+_TIGHT = 0.97  # maximum of a distance over the path round it: more leaves no space for wheels
+_LOOSE = 0.85  # target of that ratio
+_MINIMUM = Fraction(1, 1000)  # minimum factor of a module in one step
 
 
 @dataclass(frozen=True, slots=True)
 class AxisDistance:
-    """Two axes, and their distance: `times` the module of `root`, or `times` mm where that is None."""
+    """Distance of two axes: `times` the module of `root`, or `times` mm if that is None."""
 
     axes: tuple[str, str]
     times: float
     root: int | None
 
     def length(self, modules: Mapping[int, Fraction]) -> float:
-        """The distance (mm) with these modules."""
+        """Return the distance (mm) at given modules."""
         return self.times * (1.0 if self.root is None else float(modules[self.root]))
 
 
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Modules of roots, those in `free` changed by simple factors where a chain could not close."""
+    """Return modules of roots, those in `free` multiplied by simple factors until all chains can close."""
     distances = _on_cycles(distances)
     found = dict(modules)
     if not free or len(distances) > _MOST:
@@ -68,7 +68,7 @@ def close_chains(
 
 
 def _on_cycles(distances: Sequence[AxisDistance]) -> list[AxisDistance]:
-    """The 2-core of the graph of distances: what is left when loose ends are taken off again and again."""
+    """Return the 2-core of the graph of distances, by repeated removal of leaves."""
     at: dict[str, set[int]] = {}
     for number, one in enumerate(distances):
         for axis in one.axes:
@@ -84,7 +84,10 @@ def _on_cycles(distances: Sequence[AxisDistance]) -> list[AxisDistance]:
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance that is longer than the way round, or lengthen the way; True if a module was changed."""
+    """Shorten a distance that is longer than the path round it, or lengthen the path.
+
+    Return whether a module was changed.
+    """
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)
@@ -93,7 +96,7 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
     rest = [other for other in way if other.root != one.root]
     if one.root in free and rest:
         same = way_length - sum(other.length(modules) for other in rest)
-        # the part of the way with the same module shrinks along; the floor keeps the factor's sign where both are even
+        # distances of the path with the same module shrink too; the floor keeps the factor positive if both are equal
         factor = _LOOSE * (way_length - same) / max(length - _LOOSE * same, 1e-9 * length)
         if 0 < factor < 1:
             modules[one.root] *= _simple(factor) or _MINIMUM
@@ -109,12 +112,12 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """A fraction near a factor, so that modules stay short fractions; it may be 0."""
+    """Return a short fraction near a factor, so that modules stay simple; it may be 0."""
     return Fraction(factor).limit_denominator(1000)
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Dijkstra's shortest way between the axes of a distance that does not use it; empty where there is none."""
+    """Return the shortest path between the axes of a distance without this distance (Dijkstra); empty without one."""
     joined: dict[str, list[tuple[str, int]]] = {}
     for number, one in enumerate(distances):
         if number != at:
@@ -123,7 +126,7 @@ def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int,
             joined.setdefault(second, []).append((first, number))
     start, goal = distances[at].axes
     waiting: list[tuple[float, str, int, str]] = [(0.0, start, -1, "")]
-    came: dict[str, tuple[int, str]] = {}  # axis -> the distance by which it was reached first, and from where
+    came: dict[str, tuple[int, str]] = {}  # axis -> distance on its shortest path, and the axis before it
     while waiting:
         length, here, by, before = heappop(waiting)
         if here in came:
@@ -145,44 +148,45 @@ def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int,
 # -------------------------------------------------------------------------------------------------------- wheel modules
 
 
-_MODULE = Fraction(1)  # mm, where nothing of a train has a size
+_MODULE = Fraction(1)  # mm: default module
 
 
 @dataclass(frozen=True, slots=True)
 class WheelModules:
-    """Modules of a train, and the distances that follow."""
+    """Modules of a train, and the resulting distances."""
 
     cluster: Mapping[str, int]
-    """Wheel -> number of the group of wheels it meshes with, directly or through others."""
+    """Wheel -> number of its cluster, the wheels connected by meshes."""
     module: Mapping[str, float]
     """Wheel -> module (mm)."""
     declared: frozenset[str]
-    """Wheels of clusters where the declaration gives it."""
+    """Wheels of clusters whose module is declared."""
     distances: Mapping[tuple[str, str], float]
-    """Pairs of axes -> how far apart they must be (mm), the mean of what their pairs ask for."""
+    """Pairs of axes -> required distance (mm), the mean of the requirements of their pairs."""
 
 
 def find_wheel_modules(geometry: DeclaredGeometry) -> WheelModules:
-    """Modules of all wheels, exact where the declaration is, and distances of axes that follow.
+    """Return modules of all wheels, exact if the declaration is, and the resulting distances of axes.
 
-    A declared module wins, then declared positions, then the ratios that pairs between the same axes force; what is
-    still free gets the median of all known modules, or 1 mm, and is changed where closed chains of axes need it.
+    A declared module takes precedence, then declared positions, then the ratios that pairs between the same axes force.
+    A free module is the median of all known modules, or 1 mm, and is changed if closed chains of axes require it.
     """
     return _ModuleSearch(geometry).found()
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
-    """How far apart (mm) axes are whose wheels mesh: pitch circles touch, or are as far off as declared teeth want."""
+    """Return the distance of the axes of a pair (mm), at which pitch circles touch or declared teeth mesh."""
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
     return float(contact.stretch) * (abs(first - second) if contact.kind == "ring" else first + second)
 
 
 class _ModuleSearch:
-    """Modules of the clusters of one train.
+    """Search for the modules of the clusters of one train.
 
     cluster   number of the cluster of each wheel
-    between   gear pairs by their axes, of those that have a distance: parallel ones, and worms
-    own       declared modules by wheel; given, by cluster, the first of its wheels
+    between   gear pairs by their axes, for pairs with a distance: parallel ones, and worms
+    own       declared modules by wheel
+    given     declared module by cluster, that of the first of its wheels
     """
 
     def __init__(self, geometry: DeclaredGeometry) -> None:
@@ -220,7 +224,7 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """The root of each cluster, and how many times the root's module its own is."""
+        """Root of each cluster, and the ratio of its module to that of the root."""
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -231,16 +235,16 @@ class _ModuleSearch:
         return [ratios.root(at) for at in self.clusters]
 
     def _join(self, ratios: RatioSets[int], first: PitchContact, second: PitchContact) -> None:
-        """Two pairs have axes equally far apart: that forces the ratio of their modules."""
+        """Record the ratio of the modules of two pairs, which follows from their equal centre distance."""
         ends = self.cluster[first.wheels[0]], self.cluster[second.wheels[0]]
         far, other = self.geometry.distance(first), self.geometry.distance(second)
         if far and other and not (ends[0] in self.given and ends[1] in self.given):
             ratios.join(*ends, far / other)
 
     def _join_nearby(self, ratios: RatioSets[int], tie: PinSlotTie) -> None:
-        """Axes of a pin inside its slot's circle stand close together, and so equally far from an axis both mesh with.
+        """Record equal distances of an axis from the axes of a pin and its slot, which are close together.
 
-        That is chosen, not forced, so it comes after all that is.
+        This is a choice and not a constraint, so it comes after all constraints.
         """
         for other in self.geometry.lines if tie.encloses else ():
             met = [self.between.get((min(end, other), max(end, other)), [])[:1] for end in tie.axes]
@@ -248,9 +252,9 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Modules of roots that follow from declared modules, else in least squares from positions and offsets.
+        """Return modules of roots from declared modules, else by least squares from positions and offsets.
 
-        Of distances d_i = m a_i with one unknown module m the least squares are m = sum a_i d_i / sum a_i^2.
+        For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.
         """
         roots: dict[int, Fraction] = {}
         for at, module in self.given.items():
@@ -270,7 +274,7 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """How far apart two axes are by their declared points, else by the offset of a pin; None if nothing says it."""
+        """Return the distance of two axes from their declared points, else from the offset of a pin, else None."""
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -280,7 +284,7 @@ class _ModuleSearch:
         return next((tie.offset for tie in self.geometry.ties if set(tie.axes) == set(axes)), None)
 
     def _chained(self) -> Iterator[AxisDistance]:
-        """Distances of parallel axes over the module they depend on."""
+        """Yield distances of parallel axes relative to the module on which they depend."""
         lines = self.geometry.lines
         placed = [label for label, line in lines.items() if line.given is not None]
         for pair in pairwise(placed):
@@ -306,31 +310,31 @@ class _ModuleSearch:
 # ---------------------------------------------------------------------------------------------------------- wheel sizes
 
 
-_TIP = DEDENDUM  # modules beyond the pitch circle that are kept free: a tooth, and clearance
-_RING = 3.5  # modules of a ring's rim
-WIDE = 2.5  # modules of a wheel's thickness
-_SLOT = 1.4  # thicknesses from slot to slot
-_WORM = 12.0  # modules of a worm's length
+_TIP = DEDENDUM  # modules of free space beyond the pitch circle: addendum and clearance
+_RING = 3.5  # modules from the pitch circle of a ring to the outside of its rim
+WIDE = 2.5  # default thickness in modules
+_SLOT = 1.4  # spacing of slots in thicknesses
+_WORM = 12.0  # length of a worm in modules
 
 
 @dataclass(frozen=True, slots=True)
 class Seat:
-    """Where a wheel of a crossing pair sits."""
+    """Position of a wheel of a pair whose axes are not parallel."""
 
     far: float
-    """Way (mm) along its axis' direction from the point where the axes meet, or pass nearest, to its centre."""
+    """Distance (mm) from the point where the axes intersect, or are nearest, to its centre, along its axis."""
     cone: float
     """Half angle of its pitch cone (rad)."""
     out: Vector
-    """Unit vector across its axis to the pitch point."""
+    """Unit vector across its axis, towards the pitch point."""
 
 
 def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float, float]) -> tuple[Seat, Seat]:
-    """The seats of both wheels of a pair, its first and second, from the declared directions and sides.
+    """Return the seats of the first and second wheel of a pair, from the declared directions and sides.
 
-    The pitch point lies on the side to which both wheels face. Bevel: tan d_1 = sin S / (z_2/z_1 + cos S) with the
-    shaft angle S between the ways n_i = f_i u_i from the apex to the wheels. Crown: the pinion's pitch cylinder rolls
-    on a cone of half angle S, a plane where S is a right angle.
+    The pitch point is on the side to which both wheels face. Bevel: tan d_1 = sin S / (z_2/z_1 + cos S) with the shaft
+    angle S between the directions n_i = f_i u_i from the apex to the wheels. Crown: the pinion's pitch cylinder rolls
+    on a cone of half angle S, which is a plane if S is a right angle.
     """
     if contact.kind == "screw":
         out = _from_worm(geometry, contact)
@@ -348,7 +352,7 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
             Seat(facing * (second * sine + reach * cosine), atan2(sine, cosine), out),
             Seat(other_facing * reach, 0.0, other_out),
         )
-    cone = atan2(sine * first, second + first * cosine)  # not atan: beyond a right angle the cosine is negative
+    cone = atan2(sine * first, second + first * cosine)  # not atan: for obtuse shaft angles the cosine is negative
     other_cone = atan2(sine * second, first + second * cosine)
     return (
         Seat(facing * first / tan(cone), cone, out),
@@ -357,13 +361,15 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
 
 
 def opposite(v: Vector) -> Vector:
-    """A vector turned round; from zero, so that no part becomes -0.0, which pictures would write."""
+    """Return the opposite of a vector without components -0.0, which pictures would print."""
     return minus((0.0, 0.0, 0.0), v)
 
 
 def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
-    """Unit vector from a worm's axis to its wheel's; where no positions say it, the side on which a right-hand worm
-    reverses."""
+    """Return the unit vector from a worm's axis to its wheel's.
+
+    Without declared positions it is the side on which a right-hand worm reverses.
+    """
     worm, wheel = (geometry.lines[axis] for axis in contact.axes)
     way = unit(cross(wheel.direction, worm.direction))
     if worm.given is not None and wheel.given is not None and dot(minus(wheel.given, worm.given), way) < 0:
@@ -376,35 +382,35 @@ class WheelSize:
     """Sizes of a wheel (mm)."""
 
     radius: float
-    """Of its pitch circle."""
+    """Pitch radius."""
     module: float
-    """Transverse: its diameter over tooth count."""
+    """Transverse module: pitch diameter divided by the tooth count."""
     thickness: float
-    """Of its rim along the axis."""
+    """Thickness of its rim along the axis."""
     inner: float
-    """Within it all is free inside a ring; 0 of other wheels."""
+    """Radius of the free space inside a ring; 0 for other wheels."""
     outer: float
-    """The radius it needs."""
+    """Outer radius, including clearance."""
     slot: float = 0.0
-    """Its middle over that of the lowest wheel of its level, where that is divided into slots."""
+    """Height of its middle above that of the lowest slot, if its level is divided into slots."""
     plain: float = 0.0
-    """Its thickness were it not broad enough to meet several mates."""
+    """Thickness before it was broadened to mesh with several mates."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
-        """The same wheel, as broad as it must be to stand in some slots, counted from below."""
+        """Return the wheel broadened to occupy the slots from `low` to `high`, counted from the lowest."""
         step = _SLOT * self.thickness
         broad = (high - low) * step + self.thickness
         return replace(self, thickness=broad, slot=(low + high) / 2 * step)
 
     @property
     def foot(self) -> float:
-        """How far the middle of a wheel in the lowest of its slots is under its own (mm)."""
+        """Distance of its middle above that of a wheel in the lowest of its slots (mm)."""
         return (self.thickness - self.plain) / 2
 
 
 @dataclass(frozen=True, slots=True)
 class CrossingSide:
-    """A pair whose axes are not parallel, as one of its wheels sees it, with the seats of both."""
+    """A pair whose axes are not parallel, from the side of one of its wheels, with the seats of both."""
 
     contact: PitchContact
     side: ContactSide
@@ -414,13 +420,13 @@ class CrossingSide:
 
 @dataclass(frozen=True)
 class SizedGeometry:
-    """The declared geometry with sizes."""
+    """Declared geometry with sizes."""
 
     declared: DeclaredGeometry
     modules: WheelModules
     sizes: Mapping[str, WheelSize]
     crossing: tuple[CrossingSide, ...]
-    """Each pair whose axes are not parallel, twice: as its first wheel sees it, and as its second."""
+    """Pairs whose axes are not parallel, each twice, once from the side of each wheel."""
 
     @cached_property
     def seats(self) -> Mapping[tuple[str, str], Seat]:
@@ -429,7 +435,7 @@ class SizedGeometry:
 
 
 def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
-    """Modules, sizes and seats of all wheels."""
+    """Return modules, sizes and seats of all wheels."""
     modules = find_wheel_modules(declared)
     sizes = {
         wheel: _size(declared, wheel, modules.module[wheel], wheel in modules.declared) for wheel in declared.wheels
@@ -448,7 +454,7 @@ def _size(geometry: DeclaredGeometry, wheel: str, module: float, is_given: bool)
     declared = geometry.wheel(wheel)
     radius = float(geometry.radius(wheel)) * module
     usual = (_WORM if declared.kind == "worm" else WIDE) * module
-    # of a wheel that may have any size a thickness says nothing
+    # a declared thickness is not used for a wheel of undetermined size
     thickness = geometry.thickness.get(wheel, usual) if is_given else usual
     across_axis = module * declared.slant
     if declared.internal:

@@ -1,9 +1,9 @@
-"""Heights of the wheels of parallel axes at which no wheel collides with another, and where there are none.
+"""Heights of the wheels of parallel axes without collisions, and the collisions that could not be avoided.
 
-The order of levels is found first, so that few arbors pass through wheels and all are short: local search on keys, one
-for each stack, which increase upwards; stacks with one key share a level. Each stack in turn is put where it costs
-least, then runs of levels are moved or reversed together, until nothing improves. In a very large train each stack is
-put into the first level that fits, and stays there.
+The order of levels is found first, so that few arbors pass through wheels and all arbors are short. It is a local
+search on keys, one for each stack, which increase upwards; stacks with one key share a level. Each stack in turn is
+moved to its place of minimum cost, then runs of levels are moved or reversed together, until nothing improves. In a
+very large train each stack is put into the first level that fits, and stays there.
 """
 
 from __future__ import annotations
@@ -25,51 +25,52 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats, Indices
 
-_PIERCED = 1.0  # cost of an arbor that goes through a wheel
-_HELD = (0.0, 4.0, 2.0)  # of one that reaches into what stands still: in turn, as dear from the start finds less
-_LONG = 0.02  # of a level that an arbor spans
-_LEVEL = 0.005  # of a level used
-_PASSES = 8  # over all stacks
-_RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved together
-_AT_ONCE = 500  # orders of which costs are worked out together: more would not stay in the cache
-_SEARCHED = 80  # stacks up to which every place is tried
+_PIERCED = 1.0  # cost of an arbor that passes through a wheel
+# cost of an arbor that interleaves with fixed wheels, in successive passes: a high initial cost gives worse optima
+_FIXED_COSTS = (0.0, 4.0, 2.0)
+_LONG = 0.02  # cost of a level that an arbor spans
+_LEVEL = 0.005  # cost of a level
+_PASSES = 8  # maximum number of passes over all stacks
+_RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved or reversed
+_AT_ONCE = 500  # orders evaluated at once: more would not fit into the cache
+_SEARCHED = 80  # maximum number of stacks for the local search
 
 
 @dataclass(frozen=True)
 class StackProblem:
-    """What is to be stacked."""
+    """Stacking problem of one group of parallel axes."""
 
     blocks: Sequence[WheelBlock]
     overlap: PlanOverlap
-    """Of the blocks in plan."""
+    """Overlaps of the blocks in plan."""
     arbors: Sequence[str]
-    """Links that carry wheels; the rows of `overlap.pierce`."""
+    """Links that carry wheels, in the order of the rows of `overlap.pierce`."""
     ends: Mapping[str, DialEnds]
-    """Of arbors that run out of the stack to a dial."""
+    """Ends of arbors that extend beyond the stack to a dial."""
     plates: Mapping[str, str]
-    """Arbor -> the wheel on which its axis is carried round."""
+    """Arbor -> the wheel that carries its axis."""
     pins: Sequence[tuple[str, str]] = ()
-    """Wheels with a pin and with its slot; rows of `overlap.pierce` after those of arbors."""
+    """Wheels with a pin and with its slot, in the order of the rows of `overlap.pierce` after those of arbors."""
     still: str = ""
-    """The link that stands still: where it has several wheels on an axis, they are as an arbor that does."""
+    """Fixed link. Several wheels of it on one axis form a fixed arbor."""
 
     @property
     def count(self) -> int:
-        """How many stacks there are."""
+        """Number of stacks."""
         return 1 + max((block.stack for block in self.blocks), default=-1)
 
 
 def order_stacks(problem: StackProblem) -> Floats:
-    """A key for each stack, growing upwards; stacks of one key share a level."""
+    """Return a key for each stack, increasing upwards; stacks with one key share a level."""
     search = _OrderSearch(problem)
     return search.first_fit() if problem.count > _SEARCHED else search.local_search()
 
 
 class _OrderSearch:
-    """One search.
+    """Search for the order of the stacks of one problem.
 
     clash     stacks that must not share a level, by stack
-    carried   stacks of each arbor, and of the wheel that carries its axis round
+    carried   stacks of each arbor, and of the wheel that carries its axis
     bearing   arbors of each stack
     """
 
@@ -88,7 +89,7 @@ class _OrderSearch:
 
     def _carried(self) -> list[tuple[int, ...]]:
         problem = self.problem
-        carried: dict[str, dict[int, None]] = {arbor: {} for arbor in problem.arbors}  # keys in order, each once
+        carried: dict[str, dict[int, None]] = {arbor: {} for arbor in problem.arbors}  # used as an ordered set
         for block in problem.blocks:
             if block.link in carried:
                 carried[block.link][block.stack] = None
@@ -99,8 +100,8 @@ class _OrderSearch:
         return [*(tuple(stacks) for stacks in carried.values()), *pins]
 
     @cached_property
-    def _standing(self) -> dict[int, tuple[int, ...]]:
-        """Stacks of wheels that stand still, by axis, where there are several: one piece holds them all."""
+    def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
+        """Stacks of fixed wheels by axis, if there are several, which are one piece."""
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
             if block.link and block.link == self.problem.still and not block.across and not block.inner:
@@ -108,14 +109,14 @@ class _OrderSearch:
         return {axis: tuple(stacks) for axis, stacks in found.items() if len(stacks) > 1}
 
     def _mates(self, at: int) -> Iterator[int]:
-        """Stacks that share an arbor with a stack, as often as they do, itself among them."""
+        """Return stacks that share an arbor with a stack, repeated for each shared arbor, including itself."""
         return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
 
     @cached_property
     def order(self) -> list[int]:
-        """From the stack with most arbors on, always one that shares an arbor with those before."""
+        """Order from the stack with most arbors, each next one sharing most arbors with those before."""
         score = np.array([len(arbors) for arbors in self.bearing], float)
-        weight = float(score.sum()) + 1  # one shared arbor outweighs any number of own ones
+        weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
         for _ in range(self.count):
             at = int(np.argmax(score))
@@ -128,35 +129,37 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Put in all stacks, then settle each again and move runs of levels until nothing gets better."""
+        """Place all stacks, then improve each again and move runs of levels until nothing improves."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
-            self._settle(keys, at, 0.0)
-        for held in _HELD if self._standing else (0.0,):
-            keys = self._converged(keys, held)
+            self._place_best(keys, at, 0.0)
+        for fixed_cost in _FIXED_COSTS if self._fixed_stacks else (0.0,):
+            keys = self._converged(keys, fixed_cost)
         return keys
 
-    def _converged(self, keys: Floats, held: float) -> Floats:
+    def _converged(self, keys: Floats, fixed_cost: float) -> Floats:
         for _ in range(_PASSES):
             before = keys.copy()
             for at in self.order:
-                self._settle(keys, at, held)
-            keys, better = self._shifted(keys, held)
+                self._place_best(keys, at, fixed_cost)
+            keys, better = self._best_shift(keys, fixed_cost)
             if not better and np.array_equal(before, keys):
                 break
         return keys
 
-    def _shifted(self, keys: Floats, held: float) -> tuple[Floats, bool]:
-        """Some levels together moved past others, or turned over, where that costs less; and whether it does."""
+    def _best_shift(self, keys: Floats, fixed_cost: float) -> tuple[Floats, bool]:
+        """Return the best order with one run of levels moved or reversed, and whether it is an improvement."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
-        costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE], held) for at in range(0, len(ranks), _AT_ONCE)])
-        # rounded, so that of equal costs the first wins, whatever the order of summation made of the last digits
+        costs = np.concatenate(
+            [self._costs(ranks[at : at + _AT_ONCE], fixed_cost) for at in range(0, len(ranks), _AT_ONCE)]
+        )
+        # rounded, so that ties are broken alike whatever the order of summation
         best = int(np.argmin(costs.round(9)))
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
-    def _settle(self, keys: Floats, at: int, held: float) -> None:
-        """Put one stack where it costs least: in a level (a whole key), or between two (a half)."""
+    def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
+        """Move one stack to its place of minimum cost, in a level (integer key) or between two (half-integer key)."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -169,25 +172,25 @@ class _OrderSearch:
         tries = (np.nonzero(free)[0] - 1) / 2
         every = np.repeat(keys[None, :], len(tries), axis=0)
         every[:, at] = tries
-        # rounded as in `_shifted`: of equal costs the first
-        keys[at] = tries[int(np.argmin(np.round(self._costs(every, held), 9)))]
+        # rounded as in `_best_shift`, to break ties
+        keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
-    def _costs(self, every: Floats, held: float) -> Floats:
-        """Costs of several orders of the same stacks, a row each; stacks not yet put in are nan.
+    def _costs(self, every: Floats, fixed_cost: float) -> Floats:
+        """Return costs of several orders of the same stacks, one per row; stacks that are not placed yet are nan.
 
-        held   cost of an arbor that reaches into what stands still
+        fixed_cost   cost of an arbor that interleaves with fixed wheels
         """
-        keys = np.ascontiguousarray(every.T, np.float32)  # halves of small numbers: exact, and soon compared
-        low, high = keys[self._borne[0]], keys[self._borne[0]]  # two arrays: each is changed in place below
-        for stacks in self._borne[1:]:
-            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin, fmax: pass over nan
-        out_below, out_above = self._running_out
+        keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
+        low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below
+        for stacks in self._stack_table[1:]:
+            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin and fmax ignore nan
+        out_below, out_above = self._dial_arbors
         low[out_below], high[out_above] = np.nanmin(keys, axis=0), np.nanmax(keys, axis=0)
-        span = np.nansum(high - low, axis=0)  # that to a dial is as long as it is
+        span = np.nansum(high - low, axis=0)  # without the part to a dial, which cannot be shortened
         low[out_below] -= np.inf
         high[out_above] += np.inf
-        tangled = self._tangled(keys, low, high) + (held * self._unheld(keys) if held else 0.0)
-        for core, *pipes in self._coaxial_arbors:  # the arbor inside bears its pipes: it reaches as far as they do
+        tangled = self._interleaved(keys, low, high) + (fixed_cost * self._split_fixed(keys) if fixed_cost else 0.0)
+        for core, *pipes in self._coaxial_arbors:  # the inner arbor carries its pipes, so it is at least as long
             low[core] = np.fmin(low[core], np.fmin.reduce(low[pipes]))
             high[core] = np.fmax(high[core], np.fmax.reduce(high[pipes]))
         arbor, wheel, times = self._pierced
@@ -195,8 +198,8 @@ class _OrderSearch:
         levels = (np.diff(np.sort(keys, axis=0), axis=0) > 0).sum(axis=0)
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
-    def _tangled(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
-        """How many pairs of arbors on one axis reach into each other, so that neither can be the other's pipe."""
+    def _interleaved(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
+        """Return the number of pairs of coaxial arbors that interleave, so that neither can be a pipe."""
         arbor, stack, starts = self._coaxial
         if not len(starts):
             return np.zeros(keys.shape[1])
@@ -204,22 +207,22 @@ class _OrderSearch:
         covers = np.logical_or.reduceat(inside, starts, axis=0)
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
-    def _unheld(self, keys: NDArray[np.float32]) -> Floats:
-        """How often arbors reach into what stands still on their axis, so that nothing can hold it in one piece.
+    def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
+        """Return how often arbors interleave with fixed wheels on their axis, so that these cannot be one piece.
 
-        From below, wheels of the one and of the other come by turns: one turn is an arbor beside what stands still; of
-        more, each is half a reach.
+        Going upwards, wheels of the two alternate. One alternation means an arbor beside the fixed wheels; each further
+        one counts as half.
         """
         found = np.zeros(keys.shape[1])
-        below, above = (frozenset(each.tolist()) for each in self._running_out)
-        for axis, still in self._standing.items():
+        below, above = (frozenset(each.tolist()) for each in self._dial_arbors)
+        for axis, still in self._fixed_stacks.items():
             for arbor, turning in self._hubs.get(axis, {}).items():
                 rows = [keys[list(still)], keys[list(turning)]]
                 rows += [
                     np.full((1, keys.shape[1]), end) for end, out in ((-np.inf, below), (np.inf, above)) if arbor in out
                 ]
                 heights = np.concatenate(rows)
-                order = np.argsort(heights, axis=0)  # nan last
+                order = np.argsort(heights, axis=0)  # nan is sorted last
                 stands, put = order < len(still), ~np.isnan(np.take_along_axis(heights, order, axis=0))
                 turns = ((stands[1:] != stands[:-1]) & put[1:]).sum(axis=0)
                 found += np.maximum(turns - 1, 0) / 2
@@ -227,7 +230,10 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Arbors beside each stack of another on their axis, and where rows of each pair begin, one way and back."""
+        """Rows (arbor, stack) of each arbor with each stack of another arbor on its axis, as three arrays.
+
+        They are the arbors, the stacks, and the first row of each ordered pair of arbors.
+        """
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
             for one, other in combinations(about, 2):
@@ -252,25 +258,25 @@ class _OrderSearch:
         return [list(about) for about in self._hubs.values() if len(about) > 1]
 
     @cached_property
-    def _borne(self) -> Indices:
-        """The first stack of every arbor, the second, and so on; the first again where it has no more."""
+    def _stack_table(self) -> Indices:
+        """Stacks of every arbor, shape (maximum number, arbors); the first is repeated for arbors with fewer."""
         most = max(map(len, self.carried), default=1)
         filled = [[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried]
         return np.array(filled, np.intp).reshape(-1, most).T
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, stacks they go through at their height, and how many wheels of each."""
+        """Arbors, stacks that they pass through at the same height, and the number of wheels of each."""
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.overlap.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
-        times[np.arange(len(self.carried)), self._borne] = 0
+        times[np.arange(len(self.carried)), self._stack_table] = 0
         arbor, stack = np.nonzero(times)
         return arbor, stack, times[arbor, stack]
 
     @cached_property
-    def _running_out(self) -> tuple[Indices, Indices]:
-        """Arbors that run out of the stack at the low end, and at the high one."""
+    def _dial_arbors(self) -> tuple[Indices, Indices]:
+        """Arbors that extend beyond the low end of the stack, and beyond the high end."""
         ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
         ends += [DialEnds()] * len(self.problem.pins)
         low, high = np.array(ends, bool).reshape(-1, 2).T
@@ -279,7 +285,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ too many for that
 
     def first_fit(self) -> Floats:
-        """Each stack in the level nearest to those it shares arbors with that is free; else in a new one on top."""
+        """Return keys with each stack in the free level nearest to stacks on its arbors, else in a new top level."""
         keys = np.full(self.count, np.nan)
         levels = 0
         for at in self.order:
@@ -296,7 +302,7 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Ranks of `count` levels, (orders, count): as they are, then with a run of them moved, or turned over in place."""
+    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with one run moved, or reversed."""
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -305,7 +311,7 @@ def _shifts(count: int) -> Iterator[Indices]:
         run = (rank >= start) & (rank < start + length)
         moved = np.where(run, rank - start + at, np.where(rest < at, rest, rest + length)).reshape(-1, count)
         turned = np.where(run, 2 * start + length - 1 - rank, rank)[:, 0]
-        # each turned run follows the same run left where it is
+        # each reversed run follows the identity of that run
         stay = np.arange(len(turned)) * (count - length + 2) + 1
         yield np.insert(moved, stay, turned, axis=0)
 
@@ -313,11 +319,11 @@ def _shifts(count: int) -> Iterator[Indices]:
 # -------------------------------------------------------------------------------------------------------------- heights
 
 
-_SLACK = 1e-9  # of the radii: wheels that touch as placed do not collide by rounding
+_SLACK = 1e-9  # relative to the radii: touching wheels must not collide by rounding errors
 
 
 def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
-    """Height of each stack (mm), the lowest upright wheel of all at 0; `gap` is kept free between levels."""
+    """Return the height of each stack (mm), the lowest upright wheel at 0, with a `gap` between levels."""
     if not problem.count:
         return {}
     keys = order_stacks(problem)
@@ -330,7 +336,10 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Levels from below: each above all that is in its way, and above the level before."""
+    """Return heights of levels from the lowest.
+
+    Each level is above all blocks that clash with it, and above the level before.
+    """
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
     bottom = np.array([block.offset - block.low for block in blocks])
@@ -348,27 +357,30 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
 
 
 def _thickest(blocks: Sequence[WheelBlock], which: Indices) -> float:
-    """Of some blocks that stand at the height of their stack."""
+    """Return the maximum thickness of some blocks at the height of their stack."""
     sizes = [blocks[at].low + blocks[at].high for at in which.tolist() if not blocks[at].offset]
     return max(sizes, default=0.0)
 
 
 @dataclass(frozen=True)
 class WheelStack:
-    """The wheels of some parallel axes, one above the other."""
+    """Wheels of some parallel axes, one above the other."""
 
     up: Vector
-    """Direction in which heights grow."""
+    """Direction of increasing heights."""
     problem: StackProblem
     gap: float
-    """(mm) that is kept free between levels."""
+    """Gap between levels (mm)."""
     swept: SweptDistances
     """Distances of the axes."""
     given: Mapping[int, float]
-    """Stack -> height (mm) that is set by what stands already."""
+    """Stack -> height (mm) that is determined by parts already placed."""
 
     def heights(self) -> dict[str, float]:
-        """Heights of upright wheels: as given, all other stacks moved along with the first that is."""
+        """Return heights of upright wheels (mm).
+
+        Given heights are kept, and all other stacks are shifted by the same amount as the first given one.
+        """
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)
         found = {stack: self.given.get(stack, height + shift) for stack, height in found.items()}
@@ -380,7 +392,7 @@ class WheelStack:
         return [block for block in self.problem.blocks if not block.across]
 
     def collisions(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Wheels on different axes or arbors that would run into each other at their heights."""
+        """Yield pairs of wheels on different axes or arbors that collide at their heights."""
         blocks = self.upright
         axis = np.array([block.axis for block in blocks], np.intp)
         outer = np.array([block.outer for block in blocks])
@@ -388,7 +400,7 @@ class WheelStack:
         high = np.array([height[block.wheel] + block.high for block in blocks])
         level = np.triu((low[:, None] < high[None, :]) & (low[None, :] < high[:, None]), 1)
         first, second = np.nonzero(level)
-        # only pairs that are near enough are looked at one by one
+        # the exact test only for pairs that are near enough
         near = self.swept.near[axis[first], axis[second]] < (outer[first] + outer[second]) * (1 - _SLACK)
         for at, to in zip(first[near].tolist(), second[near].tolist(), strict=True):
             one, other = blocks[at], blocks[to]
@@ -397,7 +409,7 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Arbors with the wheels they go through, but of pins and slots, whose axes share one stud."""
+        """Yield arbors with the wheels that they pass through, except for pins and slots, whose axes share one stud."""
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}

@@ -1,12 +1,13 @@
-"""Parts that make a mechanism of wheels: plates, pillars, arbors, pipes, studs, and how they fit into each other.
+"""Parts that make a mechanism of wheels: plates, pillars, arbors, pipes, studs, and their fits.
 
-In: wheels as cut, their places, and what the frame and the carriers bear. Out: a `FramePlan`: every part with its link,
-wheels moved along their axes so that plates have room, the hole of every wheel, and what could not be placed and why.
+The input is wheels as cut, their places, and the axes that the frame and the carriers carry. The output is a
+`FramePlan`: every part with its link, wheels moved along their axes to make space for plates, the hole of every wheel,
+and notices on parts that could not be placed.
 
-    processes        laser, mill, printer, hand: kerf, minimum web, running and press fit, play
+    processes        laser, mill, printer, hand: kerf, minimum web, running and press fit, backlash
     stack_discs      wheels and plates as discs in the stack; gaps between them; passages through plates
     frame_stack      the upright axes, with their wheels as discs, eccentrics and pins in plates
-    arbor_columns    the members on one axis, from plate to plate; which arbor runs inside which; obstacles
+    arbor_columns    the members on one axis, from plate to plate; nesting of pipes; obstacles
     carried_axes     plates and studs of carriers; discs of turning rings
     eccentrics       eccentric discs on arbors for wheels carried close to the centre; circles of pins; cups of waves
     turned_parts     arbors, pipes, studs, pillars as bodies of revolution

@@ -1,8 +1,8 @@
-"""What stands on one axis of the frame: an arbor from plate to plate, or a stud in one, and pipes round it.
+"""Members on one axis of the frame: an arbor from plate to plate, or a stud in one plate, and pipes round it.
 
-A pipe covers the arbor inside it from its lowest wheel to its highest: no wheel of that arbor may be there. Each pair
-that leaves no choice is an edge of a graph; a topological order of it is the order of nesting, and a cycle is an axis
-whose arbors cannot be nested.
+A pipe covers the arbor inside it from its lowest wheel to its highest, so that no wheel of that arbor may be in this
+interval. Each pair with only one possible nesting is an edge of a graph. A topological order of the graph is the order
+of nesting, and a cycle means that the arbors cannot be nested.
 """
 
 from __future__ import annotations
@@ -15,25 +15,25 @@ from functools import cached_property
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc, by_piece
 
-OVER = 0.2  # mm that a pipe is longer than what it carries, at either end
-SHAKE = 0.2  # mm along the axis
+OVER = 0.2  # mm by which a pipe extends beyond its wheels at either end
+SHAKE = 0.2  # mm of end shake
 HEAD = 0.6  # mm: thickness of a stud's head
-COLLAR = 1.0  # mm: length of a collar, and its wall
-HEAD_OVER = 1.0  # mm that a head is wider than its stud, all round
-APART = 0.2  # mm between a column and a wheel of another axis
-HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and what turns before its head
-INTEGRAL = 0.6  # modules: a pinion with less between its roots and its arbor is cut from the arbor's solid
-HAND = 1.6  # mm that an arbor stands out beyond the pipe round it where both bear hands
-_MINIMUM = 0.8  # mm: the thinnest arbor
+COLLAR = 1.0  # mm: length and wall of a collar
+HEAD_OVER = 1.0  # mm: radius of a head minus that of its stud
+APART = 0.2  # mm of clearance between a column and a wheel of another axis
+HEAD_ROOM = OVER + SHAKE + HEAD + APART  # mm between wheels on a stud and turning parts before its head
+INTEGRAL = 0.6  # modules between roots and arbor: with less a pinion is cut from the solid arbor
+HAND = 1.6  # mm by which an arbor extends beyond its pipe if both carry hands
+_MINIMUM = 0.8  # mm: minimum diameter of an arbor
 USUAL = 2 / 3
-"""Diameter of an arbor over the root radius of its smallest wheel."""
-_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: arbors that are tried where a wheel is in the way, thickest first
-_PIVOT = 0.55  # of its arbor: so that the shoulder bears
-_WIDEST = 6.0  # mm, of one whose size nobody gives
+"""Diameter of an arbor relative to the root radius of its smallest wheel."""
+_CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: diameters of arbors that are tried to avoid obstacles
+_PIVOT = 0.55  # diameter of a pivot over that of its arbor, which leaves a shoulder
+_WIDEST = 6.0  # mm: maximum default diameter
 
 
 class AxisBearing(StrEnum):
-    """How an axis is borne."""
+    """Bearing of an axis."""
 
     THROUGH = "through"
     BACK_STUD = "stud in the back plate"
@@ -43,7 +43,7 @@ class AxisBearing(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class FramePlaces:
-    """Heights (mm) of the faces of both plates."""
+    """Heights (mm) of the lower and upper face of both plates."""
 
     back: tuple[float, float]
     front: tuple[float, float]
@@ -51,7 +51,7 @@ class FramePlaces:
 
 @dataclass(frozen=True, slots=True)
 class ColumnMember:
-    """An arbor or a pipe of a column: its link, its reach, the diameters inside (0: solid) and outside (mm)."""
+    """An arbor or a pipe of a column: its link, its ends, the diameters inside (0: solid) and outside (mm)."""
 
     link: str
     low: float
@@ -64,83 +64,86 @@ class ColumnMember:
 
 @dataclass(frozen=True, slots=True)
 class AxisColumn:
-    """All that stands on an axis."""
+    """All members on an axis."""
 
     axis: str
     at: Point
     bearing: AxisBearing
     core: float
-    """Diameter (mm) of the arbor or the stud in the middle, which goes from `low` to `high`."""
+    """Diameter (mm) of the arbor or the stud in the middle, which extends from `low` to `high`."""
     pivot: float
     """Diameter (mm) of an arbor's pivots."""
     low: float
     high: float
     members: tuple[ColumnMember, ...]
-    """From the innermost; of a through arbor the first is the core."""
+    """Members from the innermost; for a through arbor the first is the core."""
     hit: tuple[tuple[StackDisc, float], ...] = ()
-    """Discs of other axes in the way, with the gap to them (mm, below `APART`)."""
+    """Obstructing discs of other axes, with the gap to them (mm, below `APART`)."""
     tangled: tuple[str, str] | None = None
     """Two links of which neither can be inside the other."""
     on: str = ""
-    """Of a stud that stands on the end of another one, the axis of that; `topped`, of the other."""
+    """Axis of the stud on whose end this stud is turned; empty for other columns.
+
+    `topped` marks the lower stud of such a pair.
+    """
     topped: bool = False
 
     @property
     def is_stud(self) -> bool:
-        """True if the core stands still in one plate."""
+        """True if the core is fixed in one plate."""
         return self.bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD)
 
     def passes(self, plate: tuple[float, float]) -> bool:
-        """True if something of it goes on beyond both faces of a plate."""
+        """Return whether a member extends beyond both faces of a plate."""
         middle = sum(plate) / 2
         return any(each.low < middle < each.high for each in self.members)
 
     def radius(self, low: float, high: float) -> float:
-        """Of the widest part between two heights."""
+        """Return the radius of the widest part between two heights (mm)."""
         wide = [each.outer / 2 for each in self.members if each.low < high and low < each.high]
         return max([*wide, self.core / 2 if self.low < high and low < self.high else 0.0])
 
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """An axis with its discs, those of other axes, and what reaches out to dials."""
+    """An axis with its discs, those of other axes, and the links that extend to dials."""
 
     axis: str
     at: Point
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[bool, bool]]
-    """Link -> whether it goes out below and above the stack."""
+    """Link -> whether it extends below and above the stack."""
     span: tuple[float, float]
-    """Of the whole stack, with room for dials."""
+    """Lowest and highest point of the stack, including the space of dials (mm)."""
     frame: str
     process: Process
     core: float | None = None
-    """Diameter of the arbor (mm) if it is given."""
+    """Diameter of the arbor (mm), if it is given."""
     pivot: float | None = None
-    """Of its pivots (mm) if that is."""
+    """Diameter of its pivots (mm), if it is given."""
     head: float = SHAKE + HEAD
-    """How far a stud goes on beyond what it bears (mm)."""
+    """Length of a stud beyond the parts that it bears (mm)."""
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes with the gaps to them, which are the same at all places of plates."""
+        """Discs of other axes with the gaps to them, which do not depend on the places of plates."""
         return beside(self.axis, self.at, self.others)
 
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
-        """Ways to bear the axis, the better first; each says what is in its way."""
+        """Yield possible columns, in order of preference, with their obstacles."""
         order, tangled = self._ordered(places)
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Borne in a bridge alone, between two collars."""
+        """Return the column with a bearing only in a bridge, between two collars."""
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
 
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """With the thickest usual core that passes all wheels, if no core is given; else with the first."""
+        """Return the column with the given core, else with the thickest standard core that clears all wheels."""
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -148,7 +151,7 @@ class ColumnProblem:
 
         first = column(self._core(order, stud))
         thinner = [core for core in _CORES if core < first.core]
-        # a column becomes thinner with its core at every height: what blocks the thinnest blocks all
+        # the radius of a column increases with its core at every height: an obstacle of the thinnest blocks all
         if self.core is not None or not first.hit or not thinner or column(thinner[-1]).hit:
             return first
         return next(each for each in map(column, thinner) if not each.hit)
@@ -170,31 +173,31 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Pieces from the innermost, and two links of which neither can be inside the other, if there are such."""
-        if not self._standing:
+        """Return pieces from the innermost, and two links of which neither can be inside the other, if any."""
+        if not self._fixed_discs:
             return self._turning_order
         tangled = None
-        for still in self._still(places, [height for each in self._moving for height in each.hubs]):
-            order, clash = nested([*still, *self._moving])
+        for still in self._fixed_pieces(places, [height for each in self._turning_pieces for height in each.hubs]):
+            order, clash = nested([*still, *self._turning_pieces])
             if not clash:
                 return order, None
             tangled = tangled or clash
-        return nested([self._in_one(places), *self._moving])[0], tangled
+        return nested([self._single_piece(places), *self._turning_pieces])[0], tangled
 
     @cached_property
     def _turning_order(self) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """The same if nothing on the axis is at rest: then it does not depend on the places of plates."""
-        return nested(self._moving)
+        """Order of nesting without fixed wheels, which does not depend on the places of plates."""
+        return nested(self._turning_pieces)
 
     @cached_property
-    def _moving(self) -> tuple[CoaxialLink, ...]:
-        """Pieces of what turns."""
+    def _turning_pieces(self) -> tuple[CoaxialLink, ...]:
+        """Pieces that turn."""
         found = []
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
         parted = {link for link, apart in pieces if apart}
         for (link, apart), discs in pieces.items():
             below, above = self.ends.get(link, (False, False))
-            if link in parted:  # what is apart goes out on its own side, the rest on the other
+            if link in parted:  # a separate piece extends on its own side, the rest on the other
                 under = min(disc.low for disc in pieces[link, True]) < min(disc.low for disc in pieces[link, False])
                 below, above = below and under == apart, above and under != apart
             low, high = min(disc.low for disc in discs), max(disc.high for disc in discs)
@@ -204,35 +207,37 @@ class ColumnProblem:
         return tuple(found)
 
     @cached_property
-    def _standing(self) -> list[StackDisc]:
-        """Wheels that stand still, from below."""
+    def _fixed_discs(self) -> list[StackDisc]:
+        """Fixed wheels, from the lowest."""
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
-    def _in_one(self, places: FramePlaces) -> CoaxialLink:
-        """What stands still as one piece, to the nearer plate, whatever is in its way."""
-        held = self._held(self._standing, self._nearer(places)[0])
+    def _single_piece(self, places: FramePlaces) -> CoaxialLink:
+        """Return fixed wheels as one piece, held by the nearer plate, ignoring obstacles."""
+        held = self._fixed_piece(self._fixed_discs, self._nearer(places)[0])
         return replace(held, hubs=held.hubs[:-1])
 
     def _nearer(self, places: FramePlaces) -> list[tuple[float, float]]:
-        """Both plates, first the one that is nearer to what is at rest."""
-        middle = (self._standing[0].low + self._standing[-1].high) / 2
+        """Return both plates, first the one that is nearer to fixed wheels."""
+        middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
-    def _still(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Ways to hold what stands still: in one piece, or what nothing parts from a plate by a piece of its own.
+    def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
+        """Yield ways to hold fixed wheels: as one piece, or as two, one of wheels with no obstacle before a plate.
 
-        hubs   heights of all that turns on the axis
+        hubs   heights of all turning discs on the axis
         """
-        own, plates = self._standing, self._nearer(places)
-        yield from ([self._held(own, plate)] for plate in plates)
+        own, plates = self._fixed_discs, self._nearer(places)
+        yield from ([self._fixed_piece(own, plate)] for plate in plates)
         for plate in plates:
             next_to = [disc for disc in own if not any(_between(height, disc, plate) for height in hubs)]
             rest = [disc for disc in own if disc not in next_to]
             if next_to and rest:
-                yield from ([self._held(rest, other), self._held(next_to, plate)] for other in plates[::-1])
+                yield from (
+                    [self._fixed_piece(rest, other), self._fixed_piece(next_to, plate)] for other in plates[::-1]
+                )
 
-    def _held(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
-        """A piece that stands still, from its discs into a plate, which must come to it past all that turns there."""
+    def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
+        """Return a fixed piece that extends from its discs into a plate, with its hubs there."""
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
@@ -263,12 +268,12 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Diameter of the core: as given, or so that every pipe fits into the roots of its smallest wheel."""
+        """Return the diameter of the core (mm), as given, else such that every pipe fits into its smallest wheel."""
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
         found = [_WIDEST, *(USUAL * root for root in roots)]
-        thick = [each.outer for each in self._members(order, 0.0, stud)]  # what pipes add
+        thick = [each.outer for each in self._members(order, 0.0, stud)]  # thickness added by pipes
         found += [2 * root - outer for outer, root in zip(thick, roots, strict=True)]
         return max(_MINIMUM, round(min(found), 2))
 
@@ -278,7 +283,7 @@ class ColumnProblem:
             if not found and not stud:
                 found.append(ColumnMember(each.link, low, high, 0.0, core, each.discs, each.fixed))
                 continue
-            # the first is the core, and goes through all
+            # the first is the core, and passes through all
             under = [one.outer for k, one in enumerate(found) if not (k or stud) or (one.low < high and low < one.high)]
             inner = round(max([core, *under]) + self.process.running, 3)
             outer = round(inner + 2 * self.process.wall, 3)
@@ -287,7 +292,7 @@ class ColumnProblem:
 
 
 def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
-    """Ends of each piece: what goes out to hands goes the further out the further inside it is."""
+    """Return the ends of each piece; of pieces that bear hands, inner ones extend farther."""
     found, steps = [], [0, 0]
     for each in reversed(order):
         below, above = each.ends
@@ -297,18 +302,18 @@ def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
 
 
 def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool:
-    """True if a height is between a disc and a plate."""
+    """Return whether a height is between a disc and a plate."""
     return min(disc.middle, plate[0]) < height < max(disc.middle, plate[1])
 
 
 def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[StackDisc, float]]:
-    """Discs of other axes, each with the gap (mm) between it and the middle of an axis."""
-    return [(disc, disc.room_for(at, 0.0)) for disc in discs if disc.axis != axis]
+    """Return discs of other axes, each with the gap (mm) between it and the middle of an axis."""
+    return [(disc, disc.clearance_to(at, 0.0)) for disc in discs if disc.axis != axis]
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
-    """The column with all that is in its way: discs at its heights that leave too little room."""
-    # most discs are too far off for any part of the column, and its radius at their height is not computed
+    """Return the column with its obstacles, the discs at its heights with too small a gap."""
+    # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
     hit = tuple((disc, free - radius) for disc, free, radius in near if radius and free - radius < APART)
@@ -320,29 +325,32 @@ def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> 
 
 @dataclass(frozen=True, slots=True)
 class CoaxialLink:
-    """What one link has in one piece on an axis, and how far it reaches (to a dial, or a plate)."""
+    """A piece of one link on an axis, with its ends (at a dial, or a plate)."""
 
     link: str
     hubs: tuple[float, ...]
-    """Heights at which something holds it or is held by it: of its discs, and of the plate that holds what stands."""
+    """Heights at which it holds discs or is held: those of its discs, and for fixed wheels that of the plate."""
     low: float
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """On it; `ends`, whether it goes out below and above the stack."""
+    """Discs on it. `ends` states whether it extends beyond the stack, below and above."""
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:
-        """True if a hub of the other sits where this one would be its pipe."""
+        """Return whether a hub of the other piece is where this one would be a pipe round it."""
         return any(self.low < height < self.high for height in other.hubs)
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Links from the innermost, each outside all before it; if that cannot be, as given, with two that clash."""
+    """Return links from the innermost, each outside all before it, and two links that conflict, or None.
+
+    The order is a topological sort. If there is a cycle, the links are returned as given.
+    """
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()
     while left:
-        # one that no other must be inside of; of several the one that reaches farthest, what does not turn last
+        # the next may contain no other: the longest first, fixed pieces last
         free = [at for at in left if around[at].isdisjoint(left)]
         if not free:
             both = ((links[a].link, links[b].link) for a in left for b in left if a in around[b] and b in around[a])

@@ -1,4 +1,4 @@
-"""What carriers and turning rings need beside their wheels: a plate with studs, or a wheel that is one; a disc."""
+"""Additional parts of carriers and turning rings: a plate with studs, or a wheel used as one; a disc."""
 
 from __future__ import annotations
 
@@ -11,33 +11,33 @@ from geartrain.scene.parts.arbor_columns import HEAD, SHAKE, AxisColumn, ColumnP
 from geartrain.scene.parts.processes import Process
 from geartrain.scene.parts.stack_discs import Point, StackDisc
 
-BOSS = 2.0  # mm of plate round a stud, at least
-NEAREST = 0.4  # mm in a gap from its middle: plates of pins are nearest to the disc in which these work
-_NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm in a gap: then carriers to what they carry, then discs of rings
-WIDEST = 3.0  # mm: a stud's radius, reckoned with before it is known
-_STEP = 3.0  # mm: diameter of a stud that stands on the end of another, at most
-_BLADE = 0.1  # mm of metal between two holes, or round the foot of a stud
+BOSS = 2.0  # mm: minimum width of plate round a stud
+NEAREST = 0.4  # mm from the middle of a gap: plates of pins are nearest to their disc
+_NEAR, _FAR, _THIN = 0.3, 0.2, 0.02  # mm from the middle of a gap: then carriers, then discs of rings
+WIDEST = 3.0  # mm: assumed radius of a stud before it is known
+_STEP = 3.0  # mm: maximum diameter of a stud on the end of another
+_BLADE = 0.1  # mm: minimum metal between two holes, or round the foot of a stud
 
 
 @dataclass(frozen=True, slots=True)
 class TurningPlate:
-    """A plate to be put into a gap of the stack: where it turns, and what it bears."""
+    """A plate to be inserted into a gap of the stack, with the axes that it bears."""
 
     disc: StackDisc
-    """As what it sweeps; its height is that of its gap."""
+    """Cylinder that it sweeps, at the height of its gap."""
     spots: tuple[str, ...] = ()
     """Axes that it bears (carrier), or none (disc of a ring)."""
     ring: str = ""
-    """The ring wheel that it holds."""
+    """Name of the ring wheel that it holds."""
     round: bool = False
-    """Whether it is as wide all round as what it sweeps."""
+    """True if its outline is the full circle that it sweeps."""
     flange: bool = False
-    """Whether it is what brakes and clutches take hold of, on a shaft that bears nothing else."""
+    """True if it is the flange for brakes and clutches, on a shaft that carries nothing else."""
 
 
 @dataclass(frozen=True, slots=True)
 class CarrierSeat:
-    """A way to bear the axes that a link carries: on one of its wheels, or on a plate of its own."""
+    """A way to bear the axes that a link carries, on one of its wheels, or on a separate plate."""
 
     link: str
     seat: str
@@ -45,13 +45,13 @@ class CarrierSeat:
 
     @property
     def is_bearing(self) -> bool:
-        """False for the disc of a ring, for an arm, and for the flange of a shaft that bears nothing."""
+        """False for the disc of a ring, for an arm, and for the flange of a shaft, which bear no axis."""
         return not any(plate.ring or plate.disc.apart or plate.flange for plate in self.plates)
 
 
 @dataclass(frozen=True, slots=True)
 class CarriedAxis:
-    """An axis that a link carries round; `through`, wheels of others that have holes for what is on its arbor."""
+    """An axis that a link carries. `through` are wheels of other links with holes for the parts on its arbor."""
 
     label: str
     carrier: str
@@ -68,7 +68,7 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Ways to bear the carried axes, those on a wheel first."""
+    """Return ways to bear the carried axes, those on a wheel first."""
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
     found = [CarrierSeat(link, disc.name, ()) for disc in fit]
@@ -83,7 +83,7 @@ def carrier_seats(
 
 
 def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[CarrierSeat]:
-    """Discs that hold a turning ring, behind it or before it."""
+    """Return discs that hold a turning ring, behind it or before it."""
     found = []
     for height in (gap_beside(slab_gaps, ring.high, 1) - _FAR, gap_beside(slab_gaps, ring.low, -1) + _FAR):
         name = f"{ring.name} disc"
@@ -95,7 +95,7 @@ def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[
 
 
 def gap_beside(slab_gaps: Sequence[float], face: float, side: int) -> float:
-    """The gap nearest to a face on one side of it."""
+    """Return the height of the gap nearest to a face on one side of it."""
     return min((each for each in slab_gaps if (each - face) * side > 0), key=lambda each: abs(each - face))
 
 
@@ -107,10 +107,10 @@ def carried_columns(
     core: float | None,
     head: float = SHAKE + HEAD,
 ) -> list[AxisColumn]:
-    """What stands on the axes that one carrier bears, in their order, seen from it; 0 for heads still without room.
+    """Return the columns of the axes that one carrier bears, in their order, relative to the carrier.
 
-    Where two axes are so near that their studs would meet, the farther one stands on the end of the nearer: one stud,
-    turned with a step.
+    With a `head` of 0, heads of studs take no space yet. If two axes are so close that their studs would intersect, the
+    farther one is on the end of the nearer, as one stud turned with a step.
     """
     seen = [seen_from_carrier(seat.link, seat.at, disc) for disc in discs if disc.name != seat.name]
     found = [_carried_column(axis, seat, seen, process, core, head) for axis in axes]
@@ -119,7 +119,8 @@ def carried_columns(
         apart, meeting = dist(axes[near].at, axes[far].at), (found[near].core + found[far].core) / 2 + _BLADE
         if 0 < apart < meeting and found[near].bearing is found[far].bearing and found[near].is_stud:
             thin = min(found[far].core, _STEP)
-            wide = round(thin + 2 * apart + _BLADE, 2)  # the nearer wheel's end holds all of the farther stud
+            # the end of the nearer stud contains the section of the farther one
+            wide = round(thin + 2 * apart + _BLADE, 2)
             foot = _carried_column(axes[near], seat, seen, process, wide, head)
             end = _carried_column(axes[far], seat, seen, process, thin, head)
             found[near], found[far] = _stepped(foot, end, _others(axes[near], seen))
@@ -127,7 +128,7 @@ def carried_columns(
 
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
-    """The stud of the nearer axis without a head, and that of the other one from its end on."""
+    """Return the stud of the nearer axis without a head, and that of the other one, which starts at its end."""
     up = max(each.high for each in far.members) > max(each.high for each in near.members)
     if up:
         end = max(each.high for each in near.members) + SHAKE / 2
@@ -139,7 +140,7 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:
-    """How far from its seat its wheels begin."""
+    """Return the distance of its nearest wheel from its seat (mm)."""
     return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
 
 
@@ -151,7 +152,7 @@ def _carried_column(
     core: float | None,
     head: float,
 ) -> AxisColumn:
-    """The first way, as there is but one plate."""
+    """Return the preferred column of an axis, with only one plate."""
     ends: Mapping[str, tuple[bool, bool]] = {}
     faces = seat.low, seat.high
     others = _others(axis, seen)
@@ -164,6 +165,6 @@ def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """A disc as one who turns with a carrier sees it: what the carrier bears stands, all else goes round."""
+    """Return a disc relative to a turning carrier, on which the parts it carries are fixed and all others revolve."""
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)

@@ -1,11 +1,11 @@
-"""Plates, pillars, arbors, pipes and studs of a train: chosen, placed, and given room in the stack.
+"""Plan of plates, pillars, arbors, pipes and studs of a train, with their places in the stack.
 
-The two plates of the frame, and those of carriers, are tried in every gap between levels: for each axis the best
-bearing is taken, and the obstacles are counted. Of the places with the fewest obstacles, that with the fewest studs and
-arbors that pass a plate is chosen.
+The two plates of the frame, and those of carriers, are tried in every gap between levels. For each axis the best
+bearing is selected, and the obstacles are counted. Of the places with the fewest obstacles, the one with the fewest
+studs and arbors that pass through a plate is selected.
 
-Plates of shafts are arms, which go round obstacles, and flanges, which clutches grip. Heights of wheels as laid out
-become heights as built, with room for all plates.
+Plates of shafts are arms, which bypass obstacles, and flanges for clutches. Heights of wheels as laid out become
+heights as built, with space for all plates.
 """
 
 from __future__ import annotations
@@ -48,21 +48,22 @@ if TYPE_CHECKING:
 # ----------------------------------------------------------------------------------------------------- places of plates
 
 
-_TRIED = 64  # ways to place plates of carriers
-_INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs: a stud between the plates, one beyond them, an arbor through one
+_TRIED = 64  # maximum number of combinations of carrier plates
+_INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates or beyond, of an arbor through one
 
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Heights of both plates in the stack as it is laid out, seats of carriers, and what stands on each axis."""
+    """Heights of both plates in the stack as laid out, seats of carriers, and the columns of all axes."""
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
     columns: tuple[AxisColumn, ...]
     outside: int
-    """1 if the train goes on above the front plate, -1 if below the back one, 0 if it does not."""
+    """1 if the train extends above the front plate, -1 if below the back one, 0 if neither."""
     cost: tuple[int, int]
-    """Obstacles on all axes, with wheels across that a plate would cut; then studs and arbors that pass a plate."""
+    """Obstacles on all axes, including crossing wheels that a plate would cut; then studs and arbors through a plate.
+    """
 
 
 def best_places(
@@ -73,18 +74,20 @@ def best_places(
     blocked: Callable[[Sequence[CarrierSeat]], int],
     cut: Callable[[float], int],
 ) -> PlateChoice:
-    """The best places of the plates with every way to seat carriers, by branch and bound.
+    """Return the best places of the plates and seats of carriers, by branch and bound.
 
-    One plate stands at an end of the stack; only if something is in the way then, both may stand inside it.
+    One plate is at an end of the stack; only if obstacles remain, both may be inside it.
 
-    blocked   counts the obstacles on axes that carriers bear
-    cut       counts wheels across that a plate at some height would cut
+    blocked   number of obstacles on axes that carriers bear
+    cut       number of crossing wheels that a plate at some height would cut
     """
     count = len(slab_gaps)
     best: PlateChoice | None = None
     crossed = [cut(height) for height in slab_gaps]
+    # both plates at the ends come first, a good bound for all others
     pairs = [(low, high) for high in range(count - 1, 0, -1) for low in range(high)]
     ways = []
+    # the product is exponential in the number of carriers, so it is truncated
     for chosen in islice(product(*seats), _TRIED):
         every = [*discs, *(plate.disc for seat in chosen for plate in seat.plates)]
         ways.append((chosen, [with_discs(axis, every) for axis in axes], blocked(chosen)))
@@ -107,9 +110,9 @@ def best_places(
 def _columns(
     problems: list[ColumnProblem], places: FramePlaces, cost: tuple[int, int], bound: tuple[float, int]
 ) -> tuple[dict[str, AxisColumn], tuple[int, int]] | None:
-    """The best column of every axis and the cost of all; None as soon as that reaches the bound.
+    """Return the best column of every axis and their total cost; None as soon as the cost reaches the bound.
 
-    The axis that reaches it becomes the first, because it is likely to exclude the next places too.
+    The axis at which it does is moved to the front, because it is likely to exclude the next places too.
     """
     found: dict[str, AxisColumn] = {}
     for at, problem in enumerate(problems if cost < bound else ()):
@@ -129,19 +132,19 @@ def _effort(column: AxisColumn, places: FramePlaces) -> int:
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
-    """How many things are in the way of some columns."""
+    """Return the number of obstacles of some columns."""
     return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
 
 def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem:
-    """The same axis in another stack."""
+    """Return the same axis in another stack."""
     own = [disc for disc in discs if disc.axis == axis.axis]
     others = [disc for disc in discs if disc.axis != axis.axis]
     return replace(axis, discs=own, others=others)
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """The first without an obstacle, else the first; no more of them are made than are looked at."""
+    """Return the first column without an obstacle, else the first; the iterable is consumed only as far as needed."""
     first = None
     for each in columns:
         if not each.hit and not each.tangled:
@@ -154,22 +157,22 @@ def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
 # ----------------------------------------------------------------------------------------------------------------- plan
 
 
-_DIAL = 6.0  # mm that an arbor stands out towards a dial
+_DIAL = 6.0  # mm by which an arbor extends towards a dial
 
 
 @dataclass(frozen=True)
 class FramePlan:
-    """Where all parts of a mechanism stand, heights along the plates' normal; lengths in mm."""
+    """Places of all parts of a mechanism, with heights along the plates' normal; lengths in mm."""
 
     stack: FrameStack
     """Wheels as laid out."""
     process: Process
     thickness: float
-    """Of plates."""
+    """Thickness of plates."""
     core: float | None
     """Diameter of all arbors, if it is given."""
     ends: Mapping[str, tuple[bool, bool]]
-    """Link -> whether it goes out to a dial below and above the stack."""
+    """Link -> whether it extends to a dial below and above the stack."""
 
     # --------------------------------------------------------------------------------------------------- as laid out
 
@@ -185,8 +188,8 @@ class FramePlan:
     def choice(self) -> PlateChoice:
         """Places of plates with the fewest obstacles, then the fewest studs.
 
-        Where a link cannot go out to its dial inside or outside of what stands in its way, it does by an arm that a bar
-        joins to it, if that leaves fewer obstacles.
+        If a link cannot reach its dial inside or outside of its obstacles, it gets an arm, connected to it by a bar,
+        provided that this leaves fewer obstacles.
         """
         first = self._best([])
         tangled = [each for each in first.columns if each.tangled]
@@ -215,17 +218,17 @@ class FramePlan:
                 yield with_discs(problem, discs)
 
     def _arbor(self, axis: str) -> tuple[float | None, float | None]:
-        """Diameters of the arbor on an axis and of its pivots, as asked for, else as its link declares (mm)."""
+        """Return diameters of the arbor on an axis and of its pivots (mm), as requested, else as its link declares."""
         train = self.stack.train
         links = [link for link in train.declaration.links if train.kinematics.tree.axis(link) == axis]
         declared = [arbor for link in links if (arbor := train.declaration.links[link].arbor) is not None]
         if self.core is not None or not declared:
             return self.core, None
-        thinnest = min(declared, key=lambda arbor: arbor.diameter.si)  # the one that runs in the others
+        thinnest = min(declared, key=lambda arbor: arbor.diameter.si)  # the innermost
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
-        """Ways to seat each carrier and each ring that turns."""
+        """Yield ways to seat each carrier and each turning ring."""
         by_carrier: dict[str, list[CarriedAxis]] = {}
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
@@ -244,7 +247,7 @@ class FramePlan:
         seated: set[str] = set()
         for circle in circles:
             if circle.link in seated:
-                continue  # its pins go through all discs
+                continue  # its pins pass through all discs
             seated.add(circle.link)
             axis = self.stack.train.kinematics.tree.axis(circle.link) or ""
             slots = self._slots(circle)
@@ -261,7 +264,7 @@ class FramePlan:
         return [disc for disc in self.stack.wheel_discs if disc.link in same | {circle.slot}]
 
     def _cut(self, height: float) -> int:
-        """Wheels across at some height that stand among the axes, where a plate would be."""
+        """Return the number of crossing wheels among the axes at some height, where a plate would be."""
         points = [self.stack.flat(axis.point) for axis in self.stack.axes.values()]
         (left, low), (right, high) = ([end(each) for each in zip(*points, strict=True)] for end in (min, max))
         return sum(
@@ -271,7 +274,7 @@ class FramePlan:
         )
 
     def _blocked(self, seats: Sequence[CarrierSeat]) -> int:
-        """Obstacles on all axes that carriers bear, all plates in their gaps."""
+        """Return the number of obstacles on all axes that carriers bear, with all plates in their gaps."""
         plates = [plate for seat in seats for plate in seat.plates]
         return sum(self._carried_cost(seat, self._borne_by(seat), plates) for seat in seats)
 
@@ -283,7 +286,7 @@ class FramePlan:
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
     ) -> int:
-        """Obstacles on the axes that a carrier bears; heads of studs get their room later."""
+        """Return the number of obstacles on the axes that a carrier bears; heads of studs get their space later."""
         every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
         if not carried:
             return 0
@@ -299,7 +302,7 @@ class FramePlan:
 
     @cached_property
     def heights(self) -> StackHeights:
-        """Heights with all plates in."""
+        """Heights with all plates inserted."""
         return stack_up(self._slabs, self.choice.places, self.turning, self.thickness)
 
     @property
@@ -309,7 +312,7 @@ class FramePlan:
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Wheels and turning plates where they stand."""
+        """Wheels and turning plates at heights as built."""
         found = []
         for disc in self.stack.discs:
             rise = self.heights.shift(disc.middle)
@@ -321,7 +324,7 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """What stands on each axis of the frame; in a bridge what finds no other way."""
+        """Column of each axis of the frame, in a bridge if the plates cannot bear it."""
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
         if self.bridge is None:
             return tuple(found)
@@ -329,7 +332,7 @@ class FramePlan:
         return tuple(other if one.hit and not other.hit else one for one, other in zip(found, bridged, strict=True))
 
     def members_of(self, link: str | None) -> list[tuple[AxisColumn, ColumnMember]]:
-        """Arbors and pipes of a link on axes of the frame, each with its axis."""
+        """Return arbors and pipes of a link on axes of the frame, each with its column."""
         return [(column, each) for column in self.columns for each in column.members if each.link == link]
 
     @cached_property
@@ -350,7 +353,7 @@ class FramePlan:
 
     @property
     def bridged_plate(self) -> tuple[float, float]:
-        """Faces of the plate on which the bridge stands."""
+        """Faces of the plate to which the bridge is fixed."""
         above = self.bridge is not None and self.bridge > self.places.front
         return self.places.front if above else self.places.back
 
@@ -360,7 +363,7 @@ class FramePlan:
 
     @cached_property
     def carried(self) -> dict[str, AxisColumn]:
-        """What stands on each axis that is carried round."""
+        """Column of each carried axis."""
         named = {disc.name: disc for disc in self.discs}
         found: dict[str, AxisColumn] = {}
         for seat in self.choice.seats:
@@ -373,29 +376,29 @@ class FramePlan:
         return found
 
     def seat_of(self, carrier: str) -> str:
-        """The wheel or the plate on which a carrier bears its axes, or its pins."""
+        """Return the wheel or the plate on which a carrier bears its axes, or its pins."""
         return next(seat.seat for seat in self.choice.seats if seat.link == carrier and seat.is_bearing)
 
     @property
     def plated_pins(self) -> dict[str, str]:
-        """The plate of each coupling whose pins stand in one that turns."""
+        """Plate of each coupling whose pins are fixed in a turning plate."""
         bearing = {seat.link for seat in self.choice.seats if seat.is_bearing}
         circles = self.stack.pin_circles.values()
         return {each.name: self.seat_of(each.link) for each in circles if each.link in bearing}
 
     @cached_property
     def all_columns(self) -> tuple[AxisColumn, ...]:
-        """Those of the frame, then those of carriers."""
+        """Columns of the frame, then those of carriers."""
         return *self.columns, *self.carried.values()
 
     @cached_property
     def members(self) -> dict[str, ColumnMember]:
-        """The arbor or pipe of each wheel, and of each plate that turns."""
+        """Arbor or pipe of each wheel, and of each turning plate."""
         return {disc.name: each for column in self.all_columns for each in column.members for disc in each.discs}
 
     @cached_property
     def cut(self) -> frozenset[str]:
-        """Pinions with too little between roots and arbor: they are cut from the arbor's own piece."""
+        """Pinions cut from the solid arbor, because there is too little material between their roots and the arbor."""
         wheels = self.stack.layout.wheels
         return frozenset(
             disc.name
@@ -407,7 +410,7 @@ class FramePlan:
 
     @cached_property
     def bores(self) -> dict[str, float]:
-        """Diameter of the hole of each wheel and plate that turns; 0: it is one piece with its arbor."""
+        """Diameter of the hole of each wheel and turning plate; 0 if it is one piece with its arbor."""
         found = {}
         for name, member in self.members.items():
             found[name] = member.inner if name in self.cut else member.outer + self.process.press
@@ -418,21 +421,21 @@ class FramePlan:
 
     @cached_property
     def layout(self) -> Layout:
-        """The layout with wheels moved along the plates' normal, those of axes across with their mates."""
+        """Layout with wheels moved along the plates' normal, and wheels of crossing axes moved with their mates."""
         return self.stack.raised(self.heights.shift)
 
     @cached_property
     def wheels_across(self) -> tuple[AcrossWheel, ...]:
-        """Wheels that do not stand upright, where they are once there are plates."""
+        """Wheels that are not upright, at their places as built."""
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Circles that hold those of them that stand between two heights."""
+        """Return circles that contain the wheels that are not upright between two heights."""
         return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property
     def notices(self) -> tuple[Problem, ...]:
-        """What cannot be made as it is laid out."""
+        """Parts that cannot be made as laid out."""
         return tuple(self._problems())
 
     def _problems(self) -> Iterator[Problem]:
@@ -441,17 +444,17 @@ class FramePlan:
             if column.tangled:
                 one, other = column.tangled
                 why = f"each has a wheel between two of the other, on axis '{column.axis}'"
-                fix = "give one of them another axis, or do without one of these wheels"
-                yield Problem(f"arbors '{one}' and '{other}' cannot run in each other", why, fix)
+                fix = "move one of them to another axis, or remove one of these wheels"
+                yield Problem(f"arbors '{one}' and '{other}' cannot be nested", why, fix)
             for disc, room in column.hit:
                 who = f"arbor on axis '{column.axis}'"
-                what = f"the {who} {'passes through' if room < 0 else 'has no room beside'} '{disc.name}'"
-                why = f"the gap is {room:.3f} mm where {APART:g} mm is asked for"
-                yield Problem(what, why, "move the axis, change the order of the wheels, or give a thinner --bore")
+                what = f"the {who} {'passes through' if room < 0 else 'is too close to'} '{disc.name}'"
+                why = f"the gap is {room:.3f} mm, and at least {APART:g} mm is required"
+                yield Problem(what, why, "move the axis, change the order of the wheels, or use a smaller --bore")
         yield from self._thin_roots()
         for each in self.stack.eccentrics:
-            if each.name in self.members and (told := too_thin(each, self.members[each.name].outer)):
-                yield told
+            if each.name in self.members and (problem := too_thin(each, self.members[each.name].outer)):
+                yield problem
 
     def _thin_roots(self) -> Iterator[Problem]:
         for name, member in self.members.items():
@@ -459,23 +462,23 @@ class FramePlan:
             root = next(disc.root for disc in member.discs if disc.name == name)
             if place is not None and root < member.outer / 2 - 1e-9:
                 what = f"wheel '{name}' is too small for its {'pipe' if member.inner else 'arbor'}"
-                why = f"its roots stand at {root:.3f} mm, the {member.outer:g} mm of '{member.link}' go on beside it"
-                yield Problem(what, why, "give a thinner --bore, or a larger module")
+                why = f"its root radius is {root:.3f} mm, and '{member.link}' has a diameter of {member.outer:g} mm"
+                yield Problem(what, why, "use a smaller --bore, or a larger module")
 
 
 # ------------------------------------------------------------------------------------------------------ seats of shafts
 
-_ARM, _FLANGE, _THIN = 0.3, 0.2, 0.02  # mm in the outermost gaps: arms are nearer to the wheels
-_PART = 0.4  # of the widest disc on its axis: a flange
-_ROOM = 4.0  # mm of a disc beyond all others on its axis: there a bar stands
+_ARM, _FLANGE, _THIN = 0.3, 0.2, 0.02  # mm from the middle of the outermost gaps: arms are nearer to the wheels
+_PART = 0.4  # radius of a flange over that of the widest disc on its axis
+_ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 
 
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[bool, bool]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Arms for links that are tangled on an axis, and go out to dials on one side.
+    """Yield arms for links that cannot be nested on an axis, and extend to dials on one side.
 
-    An arm turns beyond all wheels; a bar beside the axis joins it to the widest disc of its link.
+    An arm turns beyond all wheels; an eccentric bar connects it to the widest disc of its link.
     """
     for link in column.tangled or ():
         below, above = ends.get(link, (False, False))
@@ -495,7 +498,7 @@ def arm_seats(
 
 
 def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
-    """Flanges, before or behind all wheels, on shafts that have nothing but brakes or clutches."""
+    """Yield flanges, before or behind all wheels, on shafts that have nothing but brakes or clutches."""
     train = stack.train
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}
@@ -512,30 +515,30 @@ def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list
 
 # -------------------------------------------------------------------------------------------------------------- heights
 
-BEHIND = 1.5  # mm between a plate of the frame and what turns next to it
-BETWEEN = HEAD_ROOM  # mm between a plate that turns and its neighbours
+BEHIND = 1.5  # mm between a plate of the frame and the nearest turning part
+BETWEEN = HEAD_ROOM  # mm between a turning plate and its neighbours
 
 
 @dataclass(frozen=True, slots=True)
 class StackHeights:
-    """Where everything stands once plates are in."""
+    """Heights of all parts with plates inserted."""
 
     starts: tuple[float, ...]
-    """Lower face of each slab as laid out; shifts: how far it moves up (mm)."""
+    """Lower face of each slab as laid out. `shifts` are the distances by which they move up (mm)."""
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
-    """Faces of the plates that turn, by name."""
+    """Faces of the turning plates, by name."""
 
     def shift(self, height: float) -> float:
-        """How far what stands at a height moves up."""
+        """Return the distance by which a part at some height moves up (mm)."""
         return self.shifts[max(bisect_right(self.starts, height + 1e-6) - 1, 0)]
 
 
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Heights from the lowest slab, which stays, up; plates below it are put under it."""
+    """Return heights with plates inserted, the lowest slab unchanged; plates below it are placed under it."""
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [
@@ -552,6 +555,7 @@ def stack_up(
             top += low - before[0] - before[1] if slabs else max(room, before[2])
         faces[name] = top, top + tall
         top, before = top + tall, row
+    # the lowest slab keeps its height
     rise = taken[0][0] - faces["slab", "0"][0]
     moved = {name: (low + rise, high + rise) for name, (low, high) in faces.items()}
     shifts = tuple(moved["slab", str(at)][0] - low for at, (low, _) in enumerate(taken))

@@ -1,4 +1,4 @@
-"""Outlines of plates: those of the frame with pillars between them, those that turn, and posts that hold rings."""
+"""Outlines of plates: those of the frame with pillars between them, turning ones, and posts that hold rings."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from geartrain.scene.solids.bearing_plates import around
 from geartrain.teeth.outlines.contour import Contour
 
 _PILLAR_MOST, _PILLAR_MINIMUM = 4.0, 1.5  # mm: radius of a pillar
-_PILLAR_PART = 0.025  # of the width of all that turns between the plates: a clock's is 10 mm thick over 200 mm
-_LAND = 3.0  # mm of plate round a hole
-_WIDE = 6.0  # bores in the radius of a wave that is lightened
-_BLADE = 0.05  # mm: holes nearer to each other are one
+_PILLAR_PART = 0.025  # over the diagonal of all turning parts between the plates: 10 mm in diameter at 200 mm
+_LAND = 3.0  # mm: width of plate round a hole
+_WIDE = 6.0  # minimum radius of a wave generator with windows, over its bore
+_BLADE = 0.05  # mm: minimum web between holes
 
 
 @dataclass(frozen=True, slots=True)
 class Hole:
-    """A round hole: what it is for, its middle across the stack, its diameter (mm)."""
+    """A round hole: its purpose, its centre in the stack, its diameter (mm)."""
 
     name: str
     at: Point
@@ -38,35 +38,35 @@ class Hole:
 
 @dataclass(frozen=True, slots=True)
 class FlatPlate:
-    """A plate across the stack."""
+    """A plate perpendicular to the axis of the stack."""
 
     link: str
-    """The link it belongs to and its name."""
+    """Link to which it belongs."""
     name: str
-    """The link it belongs to and its name."""
+    """Name of the plate."""
     outline: Contour
-    """Its edge, in the coordinates of the stack [mm]."""
+    """Edge, in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
-    """All of them."""
+    """Round holes."""
     low: float
-    """Its faces along the normal [mm]."""
+    """Height of its lower face along the normal [mm]."""
     high: float
-    """Its faces along the normal [mm]."""
+    """Height of its upper face along the normal [mm]."""
     at: Point = (0.0, 0.0)
-    """What its own coordinates are counted from [mm]."""
+    """Origin of its own coordinates [mm]."""
     windows: tuple[Contour, ...] = ()
-    """For wheels across that go through it, and for brackets [mm]."""
+    """Windows for crossing wheels and for brackets [mm]."""
 
     @property
     def contours(self) -> tuple[Contour, ...]:
-        """Its edge and its holes, counted from `at`."""
+        """Edge and holes, relative to `at`."""
         circles = (Contour.circle(each.diameter / 2, each.at) for each in self.holes)
         every = (self.outline, *circles, *self.windows)
         return tuple(Contour(each.points - np.array(self.at), each.bulges) for each in every)
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """What a wide wave is lightened by: holes between its lobes, at the least six, of bores of some size (mm)."""
+    """Yield holes that lighten a wide wave generator, between its lobes, at least six; `bore` is its hole (mm)."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -85,13 +85,13 @@ class FramePlates:
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
-    """Of dials, and the cock of a pendulum, each in one of the plates."""
+    """Feet of dials, and the cock of a pendulum, each in one of the plates."""
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
-    """Of brackets, round which a plate reaches, by the name of its side."""
+    """Mortises of brackets, within the outline of a plate, by the name of its side."""
     standing: tuple[StandingPins, ...] = ()
-    """Pins that plates bear."""
+    """Pins fixed in plates."""
     barrel: Barrel | None = None
-    """From which a weight hangs."""
+    """Barrel from which a weight hangs."""
 
     @cached_property
     def pillar(self) -> float:
@@ -108,31 +108,31 @@ class FramePlates:
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
-        """What turns between the plates, as circles that hold it wherever it is carried."""
+        """Circles that contain the parts that turn between the plates, in all positions of carriers."""
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
     def _passages(self, faces: tuple[float, float]) -> Iterator[Passage]:
-        """Their ways through a plate."""
+        """Yield the passages of crossing wheels through a plate."""
         return filter(None, (wheel.passage(faces) for wheel in self.plan.wheels_across))
 
     @cached_property
     def pillars(self) -> list[Point]:
-        """Middles of the pillars."""
+        """Centres of the pillars."""
         places = self.plan.places
         across = self.plan.across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
-        axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate is round its pins too
+        axes += [at for each in self.standing if not each.seat for at in each.spots]  # a plate contains its pins too
         beside = [circle for side in self.mortises.values() for each in side for circle in each.circles]
         circles = [*self.circles, *beside]
         found = pillar_places(axes, circles, self.pillar, even=True)
-        if all(clear_of(at, across) > self.pillar for at in found):  # plates are the smaller the nearer pillars are
+        if all(clear_of(at, across) > self.pillar for at in found):  # nearer pillars give smaller plates
             return found
         return pillar_places(axes, [*circles, *across], self.pillar, even=True)
 
     @cached_property
     def bridge_pillars(self) -> list[Point]:
-        """Middles of the pillars of a bridge: round all axes that go into it."""
+        """Centres of the pillars of a bridge, around all axes that extend into it."""
         bridge = self.plan.bridge
         if bridge is None:
             return []
@@ -145,7 +145,7 @@ class FramePlates:
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)
 
     def plates(self) -> Iterator[FlatPlate]:
-        """Both plates of the frame, then those that turn."""
+        """Yield both plates of the frame, then the turning ones."""
         for side, faces in self.sides.items():
             holes = tuple(self._frame_holes(faces))
             mortises = self.mortises.get(side, ())
@@ -177,17 +177,17 @@ class FramePlates:
 
     @cached_property
     def sides(self) -> Mapping[str, tuple[float, float]]:
-        """Faces of the plates by their names: before the front plate are the dials, or the reader."""
+        """Faces of the plates by their names. The front plate is the one towards the dials, or the viewer."""
         places, outside = self.plan.places, self.plan.choice.outside or self.plan.stack.layout.front
         names = ("back", "front") if outside > 0 else ("front", "back")
         return dict(zip(names, (places.back, places.front), strict=True))
 
     def _frame_holes(self, faces: tuple[float, float]) -> list[Hole]:
         own = self._tenon_holes(faces)
-        return [*own, *self._apart(self._bearings(faces), own)]
+        return [*own, *self._disjoint(self._bearings(faces), own)]
 
     def _tenon_holes(self, faces: tuple[float, float]) -> list[Hole]:
-        """Holes of pillars and posts."""
+        """Return the holes of pillars and posts."""
         press = self.plan.process.press
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
@@ -205,7 +205,7 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """The hole in which an axis is borne, or through which it passes."""
+        """Return the hole in which an axis is borne, or through which it passes."""
         process = self.plan.process
         passing = [each for each in column.members if crosses(each, faces) or (each.fixed and _enters(each, faces))]
         if passing:
@@ -220,11 +220,11 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Holes in a wheel or a plate beside its hub: for studs of the axes that it bears, and for posts."""
-        return [*self._apart(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
+        """Return the holes beside the hub in a wheel or plate, for studs of the axes that it bears, and for posts."""
+        return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
     def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:
-        """Of a wheel that turns on several eccentrics."""
+        """Yield the holes of a wheel that turns on several eccentrics."""
         for each in self.plan.stack.eccentrics:
             if each.middle and wheel in each.wheels:
                 yield Hole("eccentric", each.centre, running_hole(each, self.plan.process))
@@ -234,8 +234,8 @@ class FramePlates:
         at = (disc.at for disc in self.plan.discs if disc.name == seat)
         return [] if member is None else [Hole("hub", next(at), self.plan.bores[seat])]
 
-    def _apart(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
-        """Those that run into none before them."""
+    def _disjoint(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
+        """Return the holes that intersect none before them."""
         found: list[Hole] = []
         for hole in holes:
             if not any(_meet(hole, other) for other in (*taken, *found)):
@@ -255,7 +255,7 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """What stands on every axis, spacers and collets, pillars between the plates, and posts of rings."""
+        """Yield the parts of every axis, spacers and collets, pillars between the plates, and posts of rings."""
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None
@@ -303,21 +303,21 @@ class FramePlates:
         return ring_posts(self.plan)
 
     def problems(self) -> Iterator[Problem]:
-        """Holes that run into each other, and posts in the way of wheels."""
+        """Yield problems for holes that intersect each other, and for posts that collide with wheels."""
         for side, faces in self.sides.items():
-            yield from self._lost(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
+            yield from self._missing_holes(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
         for seat in self.plan.choice.seats:
-            yield from self._lost(f"'{seat.seat}'", list(self._seat_holes(seat.seat)), self._hub(seat.seat))
+            yield from self._missing_holes(f"'{seat.seat}'", list(self._seat_holes(seat.seat)), self._hub(seat.seat))
         yield from blocked_posts(self.plan, self.posts)
 
-    def _lost(self, where: str, holes: Sequence[Hole], taken: Sequence[Hole]) -> Iterator[Problem]:
-        kept = self._apart(holes, taken)
+    def _missing_holes(self, where: str, holes: Sequence[Hole], taken: Sequence[Hole]) -> Iterator[Problem]:
+        kept = self._disjoint(holes, taken)
         for hole in holes:
             if hole not in kept:
                 other = next(each for each in (*taken, *kept) if _meet(hole, each))
                 what = f"{where} has no hole for axis '{hole.name}'"
-                why = f"that of '{other.name}', {dist(hole.at, other.at):.3g} mm away, takes its place"
-                yield Problem(what, why, "give a thinner --bore, or turn one stud with a step that bears both")
+                why = f"it would overlap the hole of '{other.name}', {dist(hole.at, other.at):.3g} mm away"
+                yield Problem(what, why, "use a smaller --bore, or turn one stepped stud for both")
 
 
 def _enters(member: ColumnMember, faces: tuple[float, float]) -> bool:

@@ -1,6 +1,6 @@
-"""What a frame and its carriers bear: axes at right angles to the plates, with their wheels as discs.
+"""Stack of a frame and its carriers: axes perpendicular to the plates, with their wheels as discs.
 
-It includes which wheels turn on eccentrics, of which arbors, and which pins of round holes are in plates.
+It includes the eccentrics on which wheels turn, and the pins in plates that work in round holes.
 """
 
 from __future__ import annotations
@@ -46,27 +46,28 @@ if TYPE_CHECKING:
     from geartrain.scene.layout import AxisPlace, Layout, WheelPlace
     from geartrain.scene.solids.wheel_blanks import Blank
 
-_SAME = 1e-6  # mm
-_UPRIGHT = 1e-9  # of a cosine: of an axis at right angles to the normal
-_PASS = 0.4  # mm of air round a wheel that goes through a plate
-_PARALLEL = 1e-9  # of a cosine
-_RIM = 2.0  # modules round the teeth of a ring that is not
+_SAME = 1e-6  # mm: tolerance for equal heights
+_UPRIGHT = 1e-9  # maximum cosine of an axis perpendicular to the normal
+_PASS = 0.4  # mm of clearance round a wheel that passes through a plate
+_PARALLEL = 1e-9  # of a cosine: smaller differences are rounding errors
+_RIM = 2.0  # modules of rim outside the teeth of a ring without a flat shape
 
 
 @dataclass(frozen=True, slots=True)
 class AcrossWheel:
-    """A wheel about an axis that does not stand upright: between which heights it reaches, and circles that hold it."""
+    """A wheel about an axis that is not upright: the heights between which it extends, and circles that contain it."""
 
     name: str
     low: float
     high: float
     circles: tuple[tuple[Point, float], ...]
     section: tuple[Point, Point, float, float, float] | None = None
-    """Of one that the frame bears at right angles to the normal: its middle across the stack, the way of its axis
-    there, its height, how far it reaches, and half its thickness (mm)."""
+    """Section of a wheel that the frame carries, with its axis perpendicular to the normal; None for others. Its items
+    are: centre in the plane of the stack, direction of its axis there, height, radius, and half its thickness (mm).
+    """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Its way through a plate, if it goes into one."""
+        """Return its passage through a plate, if it intersects one."""
         if self.section is None:
             return None
         (x, y), (u, v), height, reach, half = self.section
@@ -76,13 +77,13 @@ class AcrossWheel:
         return Passage((x, y), (-v, u), sqrt((reach + _PASS) ** 2 - near**2), half + _PASS)
 
     def is_between(self, low: float, high: float) -> bool:
-        """True if some of it stands between two heights."""
+        """Return whether some of it is between two heights."""
         return self.low < high and low < self.high
 
 
 @dataclass(frozen=True)
 class FrameStack:
-    """A train as placed, seen from above its plates; `core`, diameter of all arbors (mm), if it is given."""
+    """A train as placed, in plan view of its plates. `core` is the diameter of all arbors (mm), if it is given."""
 
     train: GearTrain
     layout: Layout
@@ -91,33 +92,34 @@ class FrameStack:
 
     @property
     def frame(self) -> str:
-        """The link that stands still."""
+        """Fixed link."""
         return self.train.declaration.frame
 
     @cached_property
     def normal(self) -> Vector | None:
-        """The direction of most wheels that the frame bears; None if it bears no axis."""
+        """Axis direction of most wheels that the frame carries; None if it carries none."""
         count: Counter[Vector] = Counter()
         for place in self.layout.wheels.values():
             axis = self.layout.axes[place.axis]
             if axis.carrier == self.frame:
+                # both senses of a direction count as one
                 count[_upwards(axis.direction)] += 1
         return count.most_common(1)[0][0] if count else None
 
     @cached_property
     def turn(self) -> Floats:
-        """The stack's right, up and normal as columns."""
+        """Rotation matrix with right, up and normal of the stack as columns."""
         assert self.normal is not None
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:
-        """A point of the stack where it stands."""
+        """Return a point of the stack in space (mm)."""
         x, y, z = (self.turn @ np.array([*at, height])).tolist()
         return x, y, z
 
     @cached_property
     def axes(self) -> dict[str, AxisPlace]:
-        """Axes of the frame at right angles to its plates."""
+        """Axes of the frame perpendicular to its plates."""
         return {
             label: axis
             for label, axis in self.layout.axes.items()
@@ -125,18 +127,18 @@ class FrameStack:
         }
 
     def is_upright(self, axis: AxisPlace) -> bool:
-        """True for an axis at right angles to the plates."""
+        """Return whether an axis is perpendicular to the plates."""
         return self.normal is not None and abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
 
     def flat(self, point: Vector) -> Point:
-        """A point seen against the normal."""
+        """Return the coordinates of a point in plan view."""
         assert self.normal is not None
         right, up = basis(self.normal)
         return dot(point, right), dot(point, up)
 
     @cached_property
     def carried(self) -> dict[str, CarriedAxis]:
-        """Axes that a carrier on an axis of the frame bears."""
+        """Axes that are borne by a carrier on an axis of the frame."""
         return {
             label: CarriedAxis(
                 label,
@@ -152,7 +154,7 @@ class FrameStack:
         }
 
     def carrier_axis(self, axis: AxisPlace) -> str | None:
-        """The axis of the frame about which an upright axis is carried round."""
+        """Return the axis of the frame about which an upright axis is carried; None for other axes."""
         own = (
             None
             if axis.carrier == self.frame or not self.is_upright(axis)
@@ -162,12 +164,12 @@ class FrameStack:
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Wheels on axes of the frame, and on those that its carriers bear, and eccentrics."""
+        """Wheels on axes of the frame and of its carriers, and eccentrics."""
         return tuple(on_eccentrics(self.wheel_discs, self.eccentrics))
 
     @cached_property
     def wheel_discs(self) -> tuple[StackDisc, ...]:
-        """Wheels on axes of the frame, and on those that its carriers bear."""
+        """Wheels on axes of the frame and of its carriers."""
         return tuple(self._discs())
 
     def _discs(self) -> Iterator[StackDisc]:
@@ -202,30 +204,32 @@ class FrameStack:
 
     @cached_property
     def eccentrics(self) -> tuple[Eccentric, ...]:
-        """All of them."""
+        """All eccentrics."""
         return tuple(StackEccentrics(self).found())
 
     @cached_property
     def on_eccentrics(self) -> frozenset[str]:
-        """Axes of what turns on eccentrics."""
+        """Axes whose wheels turn on eccentrics."""
         return frozenset(each.carried for each in self.eccentrics)
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Pins in round holes that no wheel of their own link is wide enough to bear, by coupling."""
+        """Pins in round holes for which no wheel of their own link is wide enough, by coupling."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
     def cups(self) -> tuple[FlexibleCup, ...]:
-        """Of thin wheels."""
+        """Cups of flexible wheels."""
         return tuple(find_cups(self))
 
     @property
     def ends(self) -> dict[str, tuple[bool, bool]]:
-        """Links of a reducer that go out of the stack, below and above.
+        """Links of a reducer that extend beyond the stack, below and above.
 
-        The shaft of an eccentric goes out below, what bears pins above; a carrier of cranks below, their sun above.
+        The shaft of an eccentric extends below, the link of pins above. A carrier of cranks extends below, its sun
+        above.
         """
+        # eccentrics on the main axis: a cycloidal or strain wave drive; on carried axes: parallel cranks
         inner = {each.link for each in self.eccentrics if each.axis in self.axes}
         if inner:
             pins = {each.link for each in self.pin_circles.values()} | {cup.link for cup in self.cups}
@@ -237,7 +241,7 @@ class FrameStack:
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
-        """Heights, by axis at an angle to the plates, between which no plate may go: its mates keep their places."""
+        """Heights, by inclined axis, between which no plate may be inserted, because mates keep their distance."""
         heights: dict[str, list[float]] = {}
         upright = {disc.name: disc for disc in self.discs}
         for gear in self.train.declaration.gears:
@@ -249,7 +253,7 @@ class FrameStack:
 
     @cached_property
     def across(self) -> tuple[AcrossWheel, ...]:
-        """Wheels that do not stand upright."""
+        """Wheels that are not upright."""
         upright = {disc.name for disc in self.discs}
         return tuple(self._across(place) for name, place in self.layout.wheels.items() if name not in upright)
 
@@ -276,7 +280,7 @@ class FrameStack:
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
-        """The layout with what stands at each height moved along the normal, wheels of axes across with their mates."""
+        """Return the layout with heights shifted along the normal, wheels of crossing axes with their mates."""
         normal, old = self.normal, self.layout
         assert normal is not None
         rise = {disc.name: shift(disc.middle) for disc in self.discs}
@@ -292,7 +296,7 @@ class FrameStack:
         return replace(old, wheels=wheels, axes=axes)
 
     def with_head_room(self) -> FrameStack:
-        """With room for a stud's head beside whatever carriers bear."""
+        """Return the stack with space for heads of studs beside the wheels that carriers bear."""
         taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:
             return self
@@ -307,27 +311,27 @@ class FrameStack:
         return replace(self, layout=self.raised(lambda height: shifts[max(bisect_right(starts, height) - 1, 0)]))
 
     def left_out(self) -> Iterator[Problem]:
-        """Axes for which no bearings are made."""
+        """Yield problems for axes without bearings."""
         for label, axis in self.layout.axes.items():
             used = any(place.axis == label for place in self.layout.wheels.values())
             if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:
                 upright = self.is_upright(axis)
                 why = (
-                    f"'{axis.carrier}', which bears it, is itself carried round"
+                    f"its carrier '{axis.carrier}' is itself carried"
                     if upright
-                    else "it is not at right angles to the plates"
+                    else "it is not perpendicular to the plates"
                 )
                 what = f"axis '{label}' has no bearings"
-                yield Problem(what, why, f"bear it in a bracket on '{axis.carrier}', made by hand")
+                yield Problem(what, why, f"make a bracket for it on '{axis.carrier}' by hand")
 
 
 def rim(blank: Blank) -> float:
-    """Radius of the outside of a ring, or of a lantern's discs (mm)."""
+    """Return the outside radius of a ring, or of a lantern's discs (mm)."""
     return float(abs(blank.contours[0].points).max())
 
 
 def _ends(discs: Sequence[StackDisc]) -> tuple[float, float]:
-    """Lowest and highest face."""
+    """Return the lowest and highest face of some discs."""
     return min(disc.low for disc in discs), max(disc.high for disc in discs)
 
 
@@ -336,7 +340,7 @@ def _moved(point: Vector, normal: Vector, by: float) -> Vector:
 
 
 def _upwards(direction: Vector) -> Vector:
-    """One of both senses of a direction: rounded, its last part that is not 0 above it."""
+    """Return the sense of a direction in which the last nonzero coordinate is positive, rounded."""
     x, y, z = (round(each, 12) + 0.0 for each in direction)
     last = next((each for each in (z, y, x) if each), 1.0)
     return (x, y, z) if last > 0 else (0.0 - x, 0.0 - y, 0.0 - z)
@@ -344,21 +348,21 @@ def _upwards(direction: Vector) -> Vector:
 
 # -------------------------------------------------------------------------------------------------- eccentrics and pins
 
-_BESIDE = 1.0  # mm in the middle of a wheel between its hole and an arbor that passes
+_BESIDE = 1.0  # mm of clearance between the central hole of a wheel and an arbor in it
 
 
 @dataclass(frozen=True)
 class StackEccentrics:
-    """Of one stack.
+    """Eccentrics of one stack.
 
-    A wheel whose axis a link carries round close to its own turns on an eccentric of that link. Where the link is only
-    what cranks side by side bear together, each crank has one.
+    A wheel whose axis is carried close to that of its carrier turns on an eccentric of the carrier. If the carrier
+    represents parallel cranks, each crank has one.
     """
 
     stack: FrameStack
 
     def found(self) -> Iterator[Eccentric]:
-        """All of them; those of one arbor are numbered from the second on."""
+        """Yield all eccentrics; those of one arbor are numbered from the second on."""
         count: Counter[str] = Counter()
         for each in self._each():
             count[each.name] += 1
@@ -370,7 +374,7 @@ class StackEccentrics:
         for label, axis in self.stack.layout.axes.items():
             own = self.stack.carrier_axis(axis)
             discs = [disc for disc in self.stack.wheel_discs if disc.axis == label]
-            if own is None or len(slabs(discs)) != 1:  # wheels apart are one body by their pipe alone
+            if own is None or len(slabs(discs)) != 1:  # wheels at different heights are connected by a pipe
                 continue
             at = self._place(own)
             if dist(at, discs[0].at) < ON_ECCENTRIC * min(disc.root for disc in discs):
@@ -382,7 +386,7 @@ class StackEccentrics:
                     yield from self._on_arbor(axis.carrier, own, label, discs)
 
     def _wave(self, bent: BentWheel, label: str, at: Point) -> Eccentric:
-        """What bends a thin wheel."""
+        """Return the generator of a strain wave."""
         (x, y), blank = self._place(label), self.stack.blanks[bent.wheel]
         thin = wall(blank.pitch_radius)
         wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
@@ -400,14 +404,14 @@ class StackEccentrics:
         yield Eccentric(f"{link} eccentric", link, own, at, centre, radius, tuple(d.name for d in discs), label)
 
     def _arbor(self, link: str) -> float | None:
-        """Diameter of the arbor of a link (mm), if it is given."""
+        """Return the diameter of the arbor of a link (mm), if it is given."""
         declared = self.stack.train.declaration.links[link].arbor
         return self.stack.core if self.stack.core is not None or declared is None else 1000 * declared.diameter.si
 
     # ---------------------------------------------------------------------------------------------- cranks side by side
 
     def _cranks(self, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-        """Links that bear together what one stands for, on axes that are carried about its own: axes, couplings."""
+        """Yield the parallel cranks that a link represents, carried about its own axis, as link, axis and coupling."""
         tree = self.stack.train.kinematics.tree
         for coupling in self.stack.train.declaration.couplings:
             pair = coupling.pin, coupling.slot
@@ -434,7 +438,7 @@ class StackEccentrics:
 
 
 def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
-    """Walls between thin wheels and links on axes of the frame."""
+    """Yield the walls between flexible wheels and links on axes of the frame."""
     declared, tree = stack.train.declaration, stack.train.kinematics.tree
     for coupling in (each for each in declared.couplings if isinstance(each, Parallel)):
         for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):
@@ -448,7 +452,7 @@ def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
 
 
 def find_pin_circles(stack: FrameStack) -> Iterator[PinCircle]:
-    """Pins in round holes that no wheel of their own link is wide enough to bear."""
+    """Yield pins in round holes for which no wheel of their own link is wide enough."""
     for declared in stack.train.declaration.couplings:
         places = [
             stack.layout.axes.get(stack.train.kinematics.tree.axis(link) or "")

@@ -1,7 +1,7 @@
 """Places of pillars and posts.
 
-Pillars stand outside all that turns between the plates, and round all axes. Posts hold rings, in a plate of the frame
-or in the disc of a ring that turns.
+Pillars are outside of all parts that turn between the plates, and surround all axes. Posts hold rings, in a plate of
+the frame or in the disc of a turning ring.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.frame_plan import FramePlan
 
-_WAYS = 24  # directions from the middle of the axes in which a pillar is tried
-_STEP = 0.25  # mm
-_GAP = 1.0  # mm between a pillar and a tip circle
-_HOLE = 4.0  # mm of plate between a pillar and the middle of a pivot's hole
+_WAYS = 24  # directions of candidate places from the middle of the axes
+_STEP = 0.25  # mm beyond the blocked part of a ray
+_GAP = 1.0  # mm of clearance between a pillar and a tip circle
+_HOLE = 4.0  # mm from a pillar to the centre of a pivot hole
 _FEWEST, _MOST = 3, 5
-_SPREAD = 4.0  # radii between the middles of neighbours, at least
-_UNEVEN = 0.3  # mm of outline that a mm from the middle of the axes to that of the pillars outweighs
-_UPWARDS = 0.05  # the same, for a mm of their mean distance from the middle upwards
+_SPREAD = 4.0  # minimum distance of neighbours in radii
+_UNEVEN = 0.3  # mm of perimeter per mm from the middle of the axes to that of the pillars
+_UPWARDS = 0.05  # mm of perimeter per mm of their mean vertical distance from the middle
 
 
 def pillar_places(
@@ -38,11 +38,12 @@ def pillar_places(
     suits: Callable[[Point], bool] = lambda _: True,
     even: bool = False,
 ) -> list[Point]:
-    """Four places, three or more if four do not do, whose polygon holds all axes and has the least outline (mm).
+    """Return four places, else three or five, whose polygon contains all axes and has the shortest perimeter (mm).
 
-    In each direction from the middle of the axes the nearest place that is free from there on outwards is taken, if it
-    `suits`; where too few do, any. About one axis many polygons are as short, and three places at one end with one at
-    the other do: with `even` they lie about it, wide and not high.
+    In each direction from the middle of the axes the candidate is the innermost place with free space outwards.
+    Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
+    same perimeter, some with three places at one end and one at the other. With `even` the places surround it evenly,
+    wider than high.
     """
     points = np.array(axes, dtype=float)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -59,7 +60,7 @@ def pillar_places(
 
 
 def _far_apart(tried: Floats, middle: Floats) -> Floats:
-    """The place farthest from the middle, then always the one farthest from those taken."""
+    """Return five places: the farthest from the middle, then repeatedly the one farthest from those chosen."""
     taken = [int(np.argmax(np.hypot(*(tried - middle).T)))]
     while len(taken) < _MOST:
         away = np.hypot(*(tried[:, None, :] - tried[None, taken, :]).transpose(2, 0, 1)).min(axis=1)
@@ -68,7 +69,7 @@ def _far_apart(tried: Floats, middle: Floats) -> Floats:
 
 
 def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:
-    """The end of the last circle that a ray meets."""
+    """Return the point of a ray beyond the last circle that it intersects."""
     along = np.array([cos(angle), sin(angle)])
     far = 0.0
     for centre, reach in blocked:
@@ -80,12 +81,12 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """The shortest polygon of so many of the places, counted from the middle of the axes, that has all axes inside."""
+    """Return the shortest polygon of `count` candidates that contains all axes, relative to the middle, or None."""
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
     cross = cross - steps[:, :, None, 1] * (axes[None, None, :, 0] - tried[:, None, None, 0])
-    left = np.all(cross > 0, axis=2)  # of the edge from one place to another
+    left = np.all(cross > 0, axis=2)  # all axes are to the left of the edge from one place to another
     length = np.hypot(steps[..., 0], steps[..., 1])
     left &= length >= minimum_edge
     for chosen in combinations(range(len(tried)), count):
@@ -101,7 +102,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Least distance (mm) of a point from some circles, below 0 inside one."""
+    """Return the minimum distance (mm) of a point from some circles, negative inside one."""
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 
@@ -109,14 +110,14 @@ def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
 
 
 TENON = 0.6
-"""Of the radius of a pillar or a post: what stands in a plate."""
+"""Radius of the end in a plate relative to that of a pillar or a post."""
 _POSTS, _TRIED = 3, 72
-_POST_WIDEST = 2.0  # mm: radius of a post
-_RIM_PART = 0.3  # of a ring's rim: the radius of what goes through it
+_POST_WIDEST = 2.0  # mm: maximum radius of a post
+_RIM_PART = 0.3  # radius of a post over the width of a ring's rim
 
 
 def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
-    """All posts of a plan."""
+    """Return all posts of a plan."""
     found: list[TurnedPart] = []
     discs = {plate.ring: plate.disc.name for plate in plan.turning if plate.ring}
     for disc in plan.discs:
@@ -130,14 +131,14 @@ def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
 
 
 def nearer_plate(plan: FramePlan, height: float) -> tuple[float, float]:
-    """The plate of the frame that is nearer to a height."""
+    """Return the faces of the plate of the frame that is nearer to a height."""
     return min((plan.places.back, plan.places.front), key=lambda each: abs(sum(each) / 2 - height))
 
 
 def _posts(
     plan: FramePlan, ring: StackDisc, plate: tuple[float, float], through: tuple[str, ...]
 ) -> Iterator[TurnedPart]:
-    """Of one ring; in a plate of the frame where they are in nobody's way."""
+    """Yield the posts of one ring; in a plate of the frame they are placed clear of other parts."""
     wide = ring.outer - ring.root
     radius = min(_RIM_PART * wide, _POST_WIDEST)
     away = (ring.outer + ring.root) / 2
@@ -151,7 +152,7 @@ def _posts(
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Three places on a rim that no axis, and nothing between it and the plate, comes near to; evenly if free."""
+    """Return three equally spaced places on a rim, as far as possible from axes and from parts before the plate."""
     low, high = sorted((sum(plate) / 2, ring.middle))
     between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
     circles = [swept_circle(disc) for disc in between]
@@ -162,14 +163,14 @@ def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: f
 
 
 def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Problem]:
-    """Posts in the frame that are in the way of wheels."""
+    """Yield problems for posts in the frame that collide with wheels."""
     low, high = plan.places.back[0], plan.places.front[1]
     for post in (each for each in posts if each.link == plan.stack.frame):
         inside = [disc for disc in plan.discs if post.ends[0] < disc.low and disc.high < post.ends[1]]
         for disc in (each for each in inside if low < each.middle < high and each.hub):
             if (room := clear_of(post.at, [swept_circle(disc)]) - post.diameter / 2) < 0:
-                what = f"{post.name} has no way past '{disc.name}'"
-                yield Problem(what, f"they overlap by {-room:.3f} mm", "hold the ring by a bracket from its side")
+                what = f"{post.name} collides with '{disc.name}'"
+                yield Problem(what, f"they overlap by {-room:.3f} mm", "support the ring by a bracket at its side")
 
 
 def _evenly(at: Point, away: float, count: int, start: float = 0.0) -> list[Point]:

@@ -1,7 +1,7 @@
-"""How parts are made: what a process cuts away, the thinnest web it leaves, and the fits that it can hold.
+"""Manufacturing processes: kerf, minimum web, and attainable fits.
 
-The numbers are usual ones of makers and of their machines' vendors, not limits: cut a test piece. Their sources
-stand in docs/export.md.
+The numbers are typical values of makers and machine vendors, not limits, so a test piece should be cut. Their sources
+are listed in docs/export.md.
 """
 
 from __future__ import annotations
@@ -13,24 +13,24 @@ from geartrain.errors import Problem, QuestionError, suggest
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A way to make flat parts and what turns in them; lengths in mm."""
+    """A process for flat parts and the parts that turn in them; lengths in mm."""
 
     name: str
-    """Laser, cnc, fdm or hand."""
+    """Name: laser, cnc, fdm or hand."""
     kerf: float
-    """Width that the cut takes away; half of it is added to every outline."""
+    """Width of the cut; half of it is added to every outline."""
     web: float
-    """The thinnest wall or land that holds."""
+    """Minimum thickness of a wall or land."""
     running: float
-    """Diametral clearance of what turns, and of what is joined (0: nominal sizes, fitted as `joint` says)."""
+    """Diametral clearance of a running fit."""
     press: float
-    """Diametral clearance of what turns, and of what is joined (0: nominal sizes, fitted as `joint` says)."""
+    """Diametral clearance of a fixed joint; 0 means nominal sizes, fitted as described by `joint`."""
     backlash: float
-    """Of teeth along the pitch circle [modules]."""
+    """Circumferential backlash at the pitch circle [modules]."""
     wall: float
-    """The thinnest wall of a pipe."""
+    """Minimum wall thickness of a pipe."""
     joint: str
-    """How wheels are held on arbors."""
+    """Method by which wheels are fixed on arbors."""
 
 
 PROCESSES = {
@@ -42,16 +42,16 @@ PROCESSES = {
         Process("hand", 0.0, 0.5, 0.08, 0.0, 0.05, 0.5, "broached to a tight fit, or soldered"),
     )
 }
-"""By name."""
+"""Processes by name."""
 
 USUAL = "hand"
-"""The process of those who name none: true size, a clockmaker's fits."""
+"""Default process: nominal sizes, a clockmaker's fits."""
 
 
 def process_named(name: str | None) -> Process:
-    """The process of a name; the usual one for None. Raises `QuestionError` for any other."""
+    """Return the process with a name; the default one for None. Raise `QuestionError` for an unknown name."""
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         fix = suggest(wanted, PROCESSES)
-        raise QuestionError(Problem(f"there is no process '{wanted}'", "", fix, "--process"))
+        raise QuestionError(Problem(f"'{wanted}' is not a process", "", fix, "--process"))
     return PROCESSES[wanted]

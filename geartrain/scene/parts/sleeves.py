@@ -20,34 +20,36 @@ if TYPE_CHECKING:
     from geartrain.scene.parts.frame_plan import FramePlan
     from geartrain.scene.parts.stack_discs import Point
 
-_WALLS = (1.5, 1.0, 0.6)  # mm: the thickest for which there is room
-_SHORTEST = 0.5  # mm
-_LONGEST = 1.2  # diameters of its arbor, of a collet
-_SAME = 1e-6  # mm: faces that touch but for rounding do not overlap
-_FREE = 0.3  # mm between a collet and what turns before it
+_WALLS = (1.5, 1.0, 0.6)  # mm: walls, of which the thickest that fits is used
+_SHORTEST = 0.5  # mm: minimum length
+_LONGEST = 1.2  # maximum length of a collet in diameters of its arbor
+_SAME = 1e-6  # mm: touching faces must not overlap by rounding errors
+_FREE = 0.3  # mm between a collet and the next turning part
 
 
 def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
-    """Of all arbors and pipes of a plan; none where pins and slots work beside the wheels, or there is no room.
+    """Yield the spacers and collets of all arbors and pipes of a plan, if there is space.
 
-    held   a wheel that needs no collet, for a barrel is fixed to it
+    There are none on links with pins and slots, which work beside the wheels.
+
+    held   a wheel that needs no collet, because a barrel is fixed to it
     """
     coupled = {link for each in plan.stack.train.declaration.couplings for link in (each.pin, each.slot)}
     for column in plan.all_columns:
-        around = _Around(plan, column)
+        around = _Obstacles(plan, column)
         for member in column.members:
             if member.link not in coupled:
-                yield from _OnMember(around, member).all(held)
+                yield from _MemberSleeves(around, member).all(held)
 
 
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Heights beside a wheel between which a drum on its arbor is in nobody's way.
+    """Return heights beside a wheel between which a drum on its arbor is clear of all other parts; None without space.
 
-    size   its radius, and its length, of which less is taken where there is no room for it (mm)
+    size   radius and length of the drum (mm); the length is reduced if necessary
     """
-    around, (radius, longest) = _Around(plan, column), size
+    around, (radius, longest) = _Obstacles(plan, column), size
     disc = next(each for each in member.discs if each.name == name)
     for part in (1.0, 0.75, 0.5, 0.25):
         for low, high in ((disc.high, disc.high + part * longest), (disc.low - part * longest, disc.low)):
@@ -58,15 +60,15 @@ def free_beside(
 
 
 @dataclass(frozen=True)
-class _Around:
-    """What is in the way of rings on an axis."""
+class _Obstacles:
+    """Obstacles of rings on an axis."""
 
     plan: FramePlan
     column: AxisColumn
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """All of the train, and arbors, as one sees them who moves with the axis."""
+        """Discs and arbors of the train, relative to a possibly carried axis."""
         discs = *self.plan.discs, *self._rods()
         if self.column.axis in self.plan.carried:
             carrier = self.plan.stack.carried[self.column.axis].carrier
@@ -75,7 +77,7 @@ class _Around:
         return discs
 
     def _rods(self) -> Iterator[StackDisc]:
-        """Arbors and pipes of other axes."""
+        """Yield arbors and pipes of other axes."""
         for other in self.plan.all_columns:
             if other is not self.column:
                 for each in other.members:
@@ -86,7 +88,7 @@ class _Around:
 
     @cached_property
     def walls(self) -> tuple[tuple[float, float], ...]:
-        """Heights that plates of the frame take, with room for shoulders and collars."""
+        """Heights occupied by plates of the frame, including shoulders and collars."""
         places = [self.plan.places.back, self.plan.places.front, *([self.plan.bridge] if self.plan.bridge else [])]
         goes_on = any(crosses(each, faces) for each in self.column.members for faces in places)
         room = SHAKE + COLLAR if goes_on else SHAKE
@@ -94,37 +96,37 @@ class _Around:
 
     @cached_property
     def span(self) -> tuple[float, float]:
-        """Beyond it are dials."""
+        """Lowest and highest face of all discs, beyond which are dials."""
         faces = [face for disc in self.plan.discs for face in (disc.low, disc.high)]
         return min(faces), max(faces)
 
     def is_free(self, member: ColumnMember, low: float, high: float, radius: float) -> bool:
-        """True if nothing comes near to a ring on a member between two heights."""
+        """Return whether a ring on a member between two heights is clear of all other parts."""
         if low < self.span[0] or high > self.span[1] or low < member.low or member.high < high:
             return False
         inner = [each for each in self.column.members if each is not member and each.low < high and low < each.high]
         if any(each.outer > member.outer for each in inner) or any(a < high and low < b for a, b in self.walls):
             return False
         near = (disc for disc in self.discs if disc.low < high - _SAME and low + _SAME < disc.high)
-        return all(disc.room_for(self.column.at, radius) >= APART for disc in near) and not any(
+        return all(disc.clearance_to(self.column.at, radius) >= APART for disc in near) and not any(
             wheel.is_between(low, high) for wheel in self.plan.wheels_across
         )
 
 
 @dataclass(frozen=True)
-class _OnMember:
+class _MemberSleeves:
     """An arbor or a pipe with its wheels."""
 
-    around: _Around
+    around: _Obstacles
     member: ColumnMember
 
     @cached_property
     def discs(self) -> Sequence[StackDisc]:
-        """From below."""
+        """Discs on it, from the lowest."""
         return sorted(self.member.discs, key=lambda disc: disc.low)
 
     def all(self, fixed: str) -> Iterator[TurnedPart]:
-        """Spacers, then collets of wheels that touch none."""
+        """Yield spacers, then collets of wheels that touch none."""
         held = {*self.around.plan.cut, fixed}
         for below, above in pairwise(self.discs):
             band = self._ring(below.high, above.low)
@@ -138,14 +140,14 @@ class _OnMember:
                 yield self._part(f"collet of {disc.name}", "collet", band, f"{joint}, its wheel against it")
 
     def _ring(self, low: float, high: float) -> Band | None:
-        """The thickest for which there is room."""
+        """Return the thickest ring for which there is space; None without space."""
         bore = self.member.outer / 2
         walls = (wall for wall in _WALLS if self.around.is_free(self.member, low, high, bore + wall))
         wall = next(walls, None)
         return None if wall is None else Band(low, high, bore + wall, bore + self.around.plan.process.press / 2)
 
     def _collet(self, disc: StackDisc) -> Band | None:
-        """The longest for which there is room on either side of a wheel, with air before what turns next to it."""
+        """Return the longest collet that fits on either side of a wheel with clearance to turning parts, or None."""
         longest = _LONGEST * self.member.outer
         for part in (1.0, 0.75, 0.5, 0.25):
             length = max(part * longest, _SHORTEST)
@@ -163,37 +165,37 @@ class _OnMember:
 # --------------------------------------------------------------------------------------------------------------- barrel
 
 
-_LONGEST_BARREL = 10.0  # mm
+_LONGEST_BARREL = 10.0  # mm: maximum length of a barrel
 
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """A drum fixed to a wheel, whose collet it is."""
+    """A drum fixed to a wheel, which it also holds on the arbor as a collet."""
 
     link: str
-    """The link, and the wheel beside which it is."""
+    """Link to which it belongs."""
     wheel: str
-    """The link, and the wheel beside which it is."""
+    """Wheel beside which it is."""
     at: Point
-    """Of its axis across the stack (mm)."""
+    """Position of its axis in the stack (mm)."""
     low: float
-    """Its ends along the normal (mm)."""
+    """Height of its lower end along the normal (mm)."""
     high: float
-    """Its ends along the normal (mm)."""
+    """Height of its upper end along the normal (mm)."""
     radius: float
-    """Outside and inside radius (mm)."""
+    """Outside radius (mm)."""
     bore: float
-    """Outside and inside radius (mm)."""
+    """Inside radius (mm)."""
 
     @property
     def part(self) -> TurnedPart:
-        """As it is turned."""
+        """Turned part that it is."""
         band = Band(self.low, self.high, self.radius, self.bore)
         return TurnedPart(self.link, f"{self.link} barrel", "barrel", self.at, (band,), f"pinned to {self.wheel}")
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Of the link at which power enters, where a weight and a drum are declared and there is room."""
+    """Return the barrel of the link at which power enters, if a weight and a drum are declared and there is space."""
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:
         return None

@@ -17,46 +17,49 @@ from geartrain.teeth.outlines.contour import Contour
 
 Point = tuple[float, float]
 
-EDGE = 1.0  # mm below and above the stack, where it counts as a gap
-_SAME = 1e-6  # mm: faces that touch but for rounding do not overlap
+EDGE = 1.0  # mm from the stack to the middle of the gaps below and above it
+_SAME = 1e-6  # mm: touching faces must not overlap by rounding errors
 
 
 @dataclass(frozen=True, slots=True)
 class StackDisc:
-    """A wheel, or a plate that turns, as what it sweeps; lengths in mm."""
+    """Cylinder that contains a wheel or a turning plate; lengths in mm."""
 
     name: str
-    """Its name, the link it belongs to and its axis."""
+    """Name of the wheel or plate."""
     link: str
-    """Its name, the link it belongs to and its axis."""
+    """Link to which it belongs."""
     axis: str
-    """Its name, the link it belongs to and its axis."""
+    """Label of its axis."""
     at: Point
-    """Its axis across the stack."""
+    """Position of its axis, perpendicular to the stack."""
     low: float
-    """Its faces."""
+    """Height of its lower face."""
     high: float
-    """Its faces."""
+    """Height of its upper face."""
     outer: float
-    """Of its teeth, or its rim."""
+    """Outer radius of its teeth or its rim."""
     inner: float = 0.0
-    """Radius that is free inside: of a ring's teeth; 0 of any other."""
+    """Radius of the free space inside, within the teeth of a ring; 0 for other discs."""
     root: float = 0.0
-    """Of its teeth."""
+    """Root radius of its teeth."""
     hub: bool = True
-    """True if it sits on the arbor of its link; a ring does not."""
+    """True if it is mounted on the arbor of its link; False for a ring."""
     carrier: Point | None = None
-    """The axis about which its own is carried round, if it is."""
+    """Position of the axis about which its own is carried, if any."""
     apart: bool = False
-    """True of an arm that a bar beside the axis joins to its link, round what stands between them."""
+    """True for an arm that an eccentric bar connects to its link, past the parts between them."""
 
     @property
     def middle(self) -> float:
         """Height of its middle plane."""
         return (self.low + self.high) / 2
 
-    def room_for(self, at: Point, radius: float) -> float:
-        """Least gap to a column of some radius that stands still, wherever the disc is carried; below 0: overlap."""
+    def clearance_to(self, at: Point, radius: float) -> float:
+        """Return the minimum gap (mm) to a fixed column over all positions of a carried disc.
+
+        It is negative for an overlap.
+        """
         if self.carrier is None:
             away = dist(at, self.at)
             return max(away - self.outer, self.inner - away if self.inner else -self.outer) - radius
@@ -66,7 +69,10 @@ class StackDisc:
 
 
 def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) -> list[tuple[float, float]]:
-    """Heights that are taken, from below: discs that overlap make one, and so does all between ends that are tied."""
+    """Return occupied intervals of height, from the lowest.
+
+    Discs that overlap are merged, and so are all between tied ends.
+    """
     found: list[tuple[float, float]] = []
     for low, high in sorted([*((disc.low, disc.high) for disc in discs), *tied]):
         if found and low < found[-1][1] - _SAME:
@@ -77,20 +83,20 @@ def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) 
 
 
 def gaps(taken: Sequence[tuple[float, float]]) -> list[float]:
-    """Middle heights of the gaps below, between and above slabs."""
+    """Return the middle heights of the gaps below, between and above slabs."""
     between = [(below[1] + above[0]) / 2 for below, above in pairwise(taken)]
     return [taken[0][0] - EDGE, *between, taken[-1][1] + EDGE]
 
 
 def swept_circle(disc: StackDisc) -> tuple[Point, float]:
-    """The circle that holds a disc wherever it is carried."""
+    """Return the circle that contains a disc in all positions of its carrier, as centre and radius (mm)."""
     if disc.carrier is None:
         return disc.at, disc.outer
     return disc.carrier, dist(disc.carrier, disc.at) + disc.outer
 
 
 def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[StackDisc]]:
-    """Discs of each link, in order; those apart from the rest of it by themselves."""
+    """Return the discs of each link, in order, with those that are apart from it as separate pieces."""
     found: dict[tuple[str, bool], list[StackDisc]] = {}
     for disc in discs:
         found.setdefault((disc.link, disc.apart), []).append(disc)
@@ -100,38 +106,38 @@ def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[Stack
 # ------------------------------------------------------------------------------------------------------------- passages
 
 
-_FINE = 0.005  # mm that chords of a notched edge may leave its arcs
+_FINE = 0.005  # mm: tolerance of chords of a notched edge
 _CORNERS = (-1, -1), (1, -1), (1, 1), (-1, 1)
-_WEB = 1.0  # mm of plate at the least between a window and the edge, and between two windows
+_WEB = 1.0  # mm: minimum web between a window and the edge, and between two windows
 
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """A rectangle in a plate."""
+    """Rectangular passage in a plate."""
 
     middle: Point
-    """Of it, across the stack (mm)."""
+    """Centre, in the coordinates of the stack (mm)."""
     way: Point
-    """Unit vector along its length; `length`, half of that, and `width`, half of that (mm)."""
+    """Unit vector along its length. `length` and `width` are half the sides (mm)."""
     length: float
     width: float
 
     @property
     def corners(self) -> list[Point]:
-        """Counter-clockwise."""
+        """Corners, counter-clockwise."""
         (x, y), (u, v) = self.middle, self.way
         ends = [(a * self.length, b * self.width) for a, b in _CORNERS]
         return [(x + u * along - v * aside, y + v * along + u * aside) for along, aside in ends]
 
     @property
     def circles(self) -> list[tuple[Point, float]]:
-        """Such in a row that hold next to all of it."""
+        """Circles in a row that cover nearly all of it."""
         (x, y), (u, v), count = self.middle, self.way, ceil(self.length / self.width)
         steps = [self.length * k / count for k in range(-count, count + 1)]
         return [((x + u * step, y + v * step), self.width) for step in steps]
 
     def is_clear_of(self, other: Passage) -> bool:
-        """True if a web of plate is left between them: along a side of one of them they are apart."""
+        """Return whether a web of plate is left between two passages (separating axis theorem)."""
         for u, v in (self.way, other.way):
             for x, y in ((u, v), (-v, u)):
                 spans = [[a * x + b * y for a, b in each.corners] for each in (self, other)]
@@ -140,18 +146,18 @@ class Passage:
         return False
 
     def meets(self, at: Point, radius: float) -> bool:
-        """True if it runs into a round hole."""
+        """Return whether it intersects a round hole."""
         x, y = at[0] - self.middle[0], at[1] - self.middle[1]
         along, aside = abs(x * self.way[0] + y * self.way[1]), abs(y * self.way[0] - x * self.way[1])
         return hypot(max(along - self.length, 0.0), max(aside - self.width, 0.0)) < radius
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """A convex edge with notches, and windows within it; what would cut it in two is left out."""
+    """Return a convex edge with notches, and the windows within it; passages that would cut it in two are omitted."""
     windows = []
     for each in passages:
         x, y = each.way
-        turn = np.array([[x, -y], [y, x]])  # columns: along and across
+        turn = np.array([[x, -y], [y, x]])  # columns: unit vectors along and across
         line = (edge.flattened(_FINE) - np.array(each.middle)) @ turn
         corners = np.array([(u * each.length, v * each.width) for u, v in _CORNERS])
         inside = [_is_inside(line, corner) for corner in corners]
@@ -169,7 +175,7 @@ def _contour(points: Floats) -> Contour:
 
 
 def _is_inside(line: Floats, point: Floats) -> bool:
-    """Of a closed line: whether it goes round a point, with a web between."""
+    """Return whether a closed line encloses a point (winding number) and leaves a web around it."""
     a, b = line - point, np.roll(line, -1, axis=0) - point
     turned = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)).sum()
     edge = b - a
@@ -179,14 +185,14 @@ def _is_inside(line: Floats, point: Floats) -> bool:
 
 
 def _notched(line: Floats, start: float, width: float) -> Floats:
-    """A closed line, counter-clockwise, with what lies beyond `start` along x and within `width` of it cut away."""
+    """Return a closed line, counter-clockwise, with a notch beyond `start` along x and within `width` of the x axis."""
     (last, below), (first, above) = (_exit(line, level, start) for level in (-width, width))
     order = (first + 1 + np.arange((last - first - 1) % len(line) + 1)) % len(line)
     return np.vstack([above, line[order], below, [[start, -width], [start, width]]])
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """The edge of a line, by its first point, that crosses a level beyond `start` at its farthest, and where."""
+    """Return the farthest edge beyond `start` that crosses a level, by its first point, and the intersection."""
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
     a, b = line[crossing], after[crossing]
@@ -196,7 +202,10 @@ def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
 
 
 def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
-    """Those that run into no hole, and leave a web between each other: middles and radii of holes (mm)."""
+    """Return the passages that intersect no hole and leave a web between each other.
+
+    holes   centres and radii (mm)
+    """
     there, found = list(holes), list[Passage]()
     for each in passages:
         apart = all(each.is_clear_of(other) for other in found)

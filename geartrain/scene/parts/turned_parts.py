@@ -33,7 +33,7 @@ _SAME = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """A part of a turned body between two heights along its axis, outside and inside radius (mm)."""
+    """Part of a turned body between two heights along its axis, with outside and inside radius (mm)."""
 
     low: float
     high: float
@@ -46,37 +46,40 @@ class TurnedPart:
     """A body of revolution."""
 
     link: str
-    """The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post."""
+    """Link to which it belongs."""
     name: str
-    """The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post."""
+    """Name of the part."""
     kind: str
-    """The link it belongs to, its name, and arbor, pipe, stud, collar, spacer, collet, pillar or post."""
+    """Kind of part.
+
+    It is one of arbor, pipe, stud, collar, spacer, collet, pillar, post, foot, cock, pin, barrel, rod, bob or weight.
+    """
     at: Point
-    """Its axis across the stack [mm]."""
+    """Position of its axis in the stack [mm]."""
     bands: tuple[Band, ...]
-    """From below; where one does not begin at the end of the one before, a pinion cut from the same piece stands."""
+    """Bands from the lowest; a gap between two is a pinion cut from the same piece."""
     joint: str = ""
-    """What it is joined to, and how."""
+    """Part to which it is joined, and method."""
     through: tuple[str, ...] = ()
     """Wheels and turning plates that have a hole for it."""
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Lowest and highest point."""
+        """Height of its lowest and its highest point [mm]."""
         return self.bands[0].low, self.bands[-1].high
 
     @property
     def diameter(self) -> float:
-        """Of the round stock it is turned from."""
+        """Diameter of the round stock from which it is turned [mm]."""
         return 2 * max(band.radius for band in self.bands)
 
     @property
     def volume(self) -> float:
-        """In mm3, without pinions that are cut from the same piece."""
+        """Volume [mm3], without pinions that are cut from the same piece."""
         return sum(pi * (band.radius**2 - band.bore**2) * (band.high - band.low) for band in self.bands)
 
     def sections(self) -> list[list[Band]]:
-        """Bands that are connected."""
+        """Return the bands grouped into connected sections."""
         found = [[self.bands[0]]]
         for before, band in pairwise(self.bands):
             if band.low > before.high + _SAME:
@@ -85,15 +88,16 @@ class TurnedPart:
         return found
 
     def solid(self) -> Solid:
-        """As triangles, about its own axis, heights along z."""
+        """Return the surface as triangles, about its own axis along z."""
         return joined(revolved(profile(section)) for section in self.sections())
 
 
 def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
-    """Radius and height of the corners of half a section, counter-clockwise, without corners of no angle."""
+    """Return radius and height of the corners of half a section, counter-clockwise, without collinear corners."""
     outside = [corner for band in bands for corner in ((band.radius, band.low), (band.radius, band.high))]
     inside = [corner for band in bands[::-1] for corner in ((band.bore, band.high), (band.bore, band.low))]
     corners = [*outside, *inside]
+    # bands of equal radius give collinear corners, and so triangles without area
     bent = (
         (here, before, after)
         for here, before, after in zip(corners, [corners[-1], *corners[:-1]], [*corners[1:], corners[0]], strict=True)
@@ -106,18 +110,20 @@ def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
 
 
 def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
-    """The closed surface that half a section makes when it is turned about z."""
+    """Return the closed surface of revolution of half a section about z."""
     turn = 2 * pi * np.arange(SIDES) / SIDES
     vertices: list[Floats] = []
     rings: list[Integers] = []
     start = 0
     for radius, height in corners:
         count = SIDES if radius else 1
+        # a corner on the axis is one vertex, to which the whole ring refers
         rings.append(start + np.arange(SIDES) * (count > 1))
         start += count
         column = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), np.full(SIDES, height)])
         vertices.append(column[:count])
     faces = []
+    # triangles with two corners in one vertex on the axis are omitted
     for low, high in zip(rings, [*rings[1:], rings[0]], strict=True):
         here, after = (low, high), (np.roll(low, -1), np.roll(high, -1))
         if low[0] != low[1]:
@@ -130,7 +136,7 @@ def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
 def column_parts(
     column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Arbor or stud, pipes and collars of an axis; `cut` are pinions cut from the same piece."""
+    """Yield the arbor or stud, the pipes and the collars of an axis; `cut` are pinions cut from the same piece."""
     members = column.members
     if column.is_stud or not members or members[0].inner:
         if column.is_stud:
@@ -148,7 +154,7 @@ def column_parts(
 
 
 def rod_name(column: AxisColumn, member: ColumnMember) -> str:
-    """The name of an arbor or a pipe: of several pipes of one link on an axis with the wheel that tells them apart."""
+    """Return the name of an arbor or a pipe; a wheel's name distinguishes several pipes of one link on an axis."""
     if not member.inner:
         return f"{member.link} arbor"
     first = next(each for each in column.members if each.link == member.link and each.inner)
@@ -157,7 +163,7 @@ def rod_name(column: AxisColumn, member: ColumnMember) -> str:
 
 
 def without(bands: Sequence[Band], member: ColumnMember, cut: frozenset[str]) -> list[Band]:
-    """The bands where no pinion is cut from the same piece."""
+    """Return the bands without the heights of pinions that are cut from the same piece."""
     found = list(bands)
     for disc in member.discs:
         if disc.name in cut:
@@ -177,7 +183,7 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """From shoulder to shoulder with a pivot in either plate; where it goes on, a collar bears in place of it."""
+    """Yield an arbor from shoulder to shoulder, with a pivot in each plate, or a collar where it passes through."""
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)
@@ -190,6 +196,7 @@ def _core(
     for passes, face, way in ((below, low, 1), (above, high, -1)):
         ends = sorted((face, face + way * COLLAR))
         free = all(each is member or each.high <= ends[0] or ends[1] <= each.low for each in column.members)
+        # a collar replaces the shoulder of an arbor without pivots
         if passes and free:
             ring = Band(ends[0], ends[1], thick + COLLAR, thick + process.press / 2)
             side = "back" if way > 0 else "front"
@@ -200,7 +207,7 @@ def _core(
 def _in_bridge(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """An arbor as thick as it is all along, with a collar to either side of the plate."""
+    """Yield an arbor of uniform thickness, with a collar on either side of the plate."""
     radius = column.core / 2
     bands = without([Band(column.low, column.high, radius)], member, cut)
     yield TurnedPart(member.link, f"{member.link} arbor", "arbor", column.at, tuple(bands), _carries(member))
@@ -212,12 +219,12 @@ def _in_bridge(
 
 
 def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
-    """True if a member goes on beyond both faces of a plate."""
+    """Return whether a member extends beyond both faces of a plate."""
     return member.low < plate[0] and plate[1] < member.high
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """A pin held in one plate, with a head that keeps on it what turns; or the foot of another pin in its place."""
+    """Return a pin held in one plate, with a head that retains the turning parts, or with another stud on its end."""
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high

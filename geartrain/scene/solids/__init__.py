@@ -7,7 +7,7 @@ solid_part           one solid and its place
 triangle_solids      closed surfaces from flat shapes (ear clipping); approximate bevels, crown wheels and worms
 wheel_blanks         the flat shape of every wheel, and windows between its spokes
 bearing_plates       flat drawings to scale; curves round holes; discs of pins and slots
-standing_pins        pins, slots and bars: in wheels, in plates, or parts of their own
-carrier_cages        brackets of arbors across the plates, cages of carriers; the pendulum and the weight
+standing_pins        pins, slots and bars: in wheels, in plates, or separate parts
+carrier_cages        brackets of arbors parallel to the plates, cages of carriers; the pendulum and the weight
 dial_plates          plates of dials, their scales and feet
 """

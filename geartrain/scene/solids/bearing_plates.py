@@ -1,4 +1,4 @@
-"""Flat drawings to scale, with what is cut and what is only marked; curves round holes; discs of pins and slots.
+"""Flat drawings to scale, with cut contours and marks; curves round holes; discs of pins and slots.
 
 Lengths are in mm, y upwards.
 """
@@ -24,16 +24,16 @@ if TYPE_CHECKING:
 
 CUT, PITCH, ENGRAVE = "CUT", "PITCH", "ENGRAVE"
 LAYERS = (CUT, PITCH, ENGRAVE)
-"""Names of the layers: what a laser follows, circles that only guide, and letters."""
+"""Names of the layers: contours for a laser, circles for orientation, and letters."""
 
-MARGIN = 2.0  # mm of white round the part
-_MANY = 64  # vertices, which then bound a contour well enough
-TOLERANCE = 0.001  # mm, how far a chord may leave a curve
+MARGIN = 2.0  # mm of margin round the part
+_MANY = 64  # number of vertices above which they bound a contour sufficiently
+TOLERANCE = 0.001  # mm: tolerance of chords
 
 
 @dataclass(frozen=True, slots=True)
 class EngravedText:
-    """Letters of some height (mm), their middle at a point (mm), their line turned from the x axis (degrees)."""
+    """Letters of a given height (mm), with their centre (mm) and the angle of the text from the x axis (degrees)."""
 
     text: str
     at: tuple[float, float]
@@ -43,34 +43,34 @@ class EngravedText:
 
 @dataclass(frozen=True, slots=True)
 class FlatDrawing:
-    """One part."""
+    """Drawing of one part."""
 
     title: str
-    """What it is, in a line."""
+    """Title, in one line."""
     cut: tuple[Contour, ...]
     """Closed curves to cut: the outer one first, then holes."""
     pitch: tuple[Contour, ...] = ()
-    """What guides and is not cut: pitch circles, the edge of a sheet."""
+    """Curves that are not cut: pitch circles, the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
-    """Letters that are engraved."""
+    """Engraved letters."""
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
-    """Chords that are engraved, (n, 2) each."""
+    """Engraved polylines, shape (n, 2) each."""
 
     @property
     def box(self) -> tuple[Floats, Floats]:
-        """Least and greatest x and y, with white around."""
+        """Minimum and maximum of x and y, including a margin."""
         points = np.concatenate([_bounds(each) for each in (self.cut[0], *self.pitch)])
         return points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
 
 
 def _bounds(contour: Contour) -> Floats:
-    """Points that bound a contour but for the margin: of many vertices these themselves."""
+    """Return points that bound a contour to within the margin; for many vertices these are the vertices."""
     return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 
 
 def wheel_drawing(wheel: WheelOutline) -> FlatDrawing:
-    """The outline of a wheel of one pair."""
+    """Return the drawing of a wheel of one pair."""
     what = "pins" if wheel.kind == "pins" else "teeth"
     title = (
         f"{wheel.z} {what}, module {wheel.module:g} mm, pitch diameter {2 * wheel.pitch_radius:.4f} mm, "
@@ -84,15 +84,15 @@ def wheel_drawing(wheel: WheelOutline) -> FlatDrawing:
 
 Point = tuple[float, float]
 
-_DISC = 3.0  # mm: sheet of discs of pins and slots
-_LAND = 3.0  # mm of plate round a hole
-_PARALLEL = 1e-9  # of a cosine, or mm: less is rounding
-_PIN = 0.25  # of the pin's distance from its axis: its diameter, 2 mm at most
+_DISC = 3.0  # mm: thickness of discs of pins and slots
+_LAND = 3.0  # mm: width of plate round a hole
+_PARALLEL = 1e-9  # of a cosine, or mm: smaller values are rounding errors
+_PIN = 0.25  # diameter of a pin over its distance from the axis, at most 2 mm
 
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A flat part of a link, as it is drawn, and how thick its sheet is (mm)."""
+    """A flat part of a link: its drawing and its sheet thickness (mm)."""
 
     link: str
     name: str
@@ -102,7 +102,7 @@ class Plate:
 
 @dataclass(frozen=True, slots=True)
 class Plates:
-    """Plates of a train, and what could not be drawn on them."""
+    """Plates of a train, and notices on what could not be drawn."""
 
     plates: tuple[Plate, ...]
     notices: tuple[Problem, ...]
@@ -111,14 +111,18 @@ class Plates:
 def coupling_discs(
     couplings: Sequence[Coupling], bores: Mapping[str, float], holed: frozenset[str] = frozenset()
 ) -> Plates:
-    """Discs of pins and slots; `bores` are holes (mm) for arbors, by link; `holed`, whose holes are in a wheel."""
+    """Return discs of pins and slots.
+
+    bores   diameters of holes for arbors by link (mm)
+    holed   couplings whose holes are in a wheel
+    """
     notices: list[Problem] = []
     plates = tuple(_discs(couplings, bores, holed, notices))
     return Plates(plates, tuple(notices))
 
 
 def around(points: Sequence[Point], radius: float) -> Contour:
-    """The convex curve that keeps `radius` from the outermost of the points: straight edges and arcs about them."""
+    """Return the offset curve of the convex hull of points at the distance `radius`: straight edges and arcs."""
     corners = _hull(points)
     if len(corners) == 1:
         return Contour.circle(radius, corners[0])
@@ -128,15 +132,15 @@ def around(points: Sequence[Point], radius: float) -> Contour:
         first = atan2(y - before[1], x - before[0]) - pi / 2
         last = atan2(after[1] - y, after[0] - x) - pi / 2
         sweep = (last - first) % (2 * pi)
-        # a bulge is the tangent of a quarter of the arc's angle
+        # the bulge is the tangent of a quarter of the arc's angle
         vertices.append((x + radius * cos(first), y + radius * sin(first), tan(sweep / 4)))
         vertices.append((x + radius * cos(last), y + radius * sin(last), 0.0))
     return Contour.of(vertices)
 
 
 def _hull(points: Sequence[Point]) -> list[Point]:
-    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
-    # rounded, so that axes at one place are one point
+    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    # rounded, so that coincident axes are one point
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
     if len(ordered) < 3:
         return ordered
@@ -146,7 +150,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
         for x, y in row:
             while len(kept) > 1:
                 (ax, ay), (bx, by) = kept[-2:]
-                # mm2: a corner that lies on the edge but for rounding is none
+                # mm2: a collinear point is not a corner
                 if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-9:
                     break
                 kept.pop()
@@ -157,7 +161,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Two unit vectors across the normal, right and up for one who looks against it; x and y for plus z."""
+    """Return two unit vectors across the normal, right and up for a viewer who looks against it; x and y for plus z."""
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
         return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)
@@ -174,40 +178,42 @@ def _discs(
 ) -> Iterator[Plate]:
     for coupling in couplings:
         if isinstance(coupling, Parallel):
-            what, why = f"'{coupling.name}' is in no part", "what keeps its two links parallel is not declared"
+            what = f"'{coupling.name}' is not made"
+            why = "the mechanism that keeps its two links parallel is not declared"
             notices.append(Problem(what, why, "add it by hand, or declare `kind: pins_in_holes`"))
             continue
         if isinstance(coupling, PinsInHoles):
             lacking = "pins" if coupling.name in holed else "pins and holes"
-            what = f"the {lacking} of '{coupling.name}' are in no part"
-            why = "they are cut into wheels of both links, wide enough for them, where sizes are declared"
-            fix = "give pin_radius, offset and pin_diameter, and both links a wheel; else add them by hand"
+            what = f"the {lacking} of '{coupling.name}' are not made"
+            why = "they are cut into sufficiently wide wheels of both links if sizes are declared"
+            fix = "declare pin_radius, offset and pin_diameter, and a wheel on both links; else add them by hand"
             notices.append(Problem(what, why, fix))
             continue
         if coupling.pin_radius is None or coupling.offset is None:
-            what = f"'{coupling.name}' has no drawing of pin and slot"
-            notices.append(Problem(what, "its dimensions are not declared", "give pin_radius and offset"))
+            what = f"pin and slot of '{coupling.name}' are not drawn"
+            notices.append(Problem(what, "its dimensions are not declared", "declare pin_radius and offset"))
             continue
         yield _disc(coupling, coupling.pin, diameters, slotted=False)
         yield _disc(coupling, coupling.slot, diameters, slotted=True)
 
 
 def pin_diameter(radius: float) -> float:
-    """Diameter (mm) of a pin so far from its axis."""
+    """Return the default diameter (mm) of a pin at a distance from its axis (mm)."""
     return min(2.0, _PIN * radius)
 
 
 def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """A bar from its axis at the origin along x, with a slot for a pin that wanders from |r - e| to r + e (mm)."""
+    """Return a bar from its axis at the origin along x, with a slot for a pin from |r - e| to r + e (mm)."""
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 
 
 def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """A bar from its axis at the origin along x, with a round hole for a pin that goes round in it (mm).
+    """Return a bar from its axis at the origin along x, with a round hole in which a pin revolves (mm).
 
-    A pin whose sizes nobody declares moves its slot evenly, by the mean of the law: with the pin's axis where the slot
-    turns as fast as it, without where it does not turn. In the frame of the bar the pin then goes round a circle.
+    A pin without declared sizes moves its slot uniformly, at the mean of the transmission function. If this mean ratio
+    is 1 (r > e), the pin moves relative to the bar on a circle of radius e about (r, 0); if it is 0, on a circle of
+    radius r about (e, 0).
     """
     wide, hole = 1.2 * pin, min(r, e) + 0.55 * pin
     middle, rim = max(r, e), hole + 0.65 * pin
@@ -219,7 +225,7 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
 
 
 def _disc(coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
-    """The disc of a pin, or of its slot: the pin comes as near its axis as |r - e|, and as far as r + e."""
+    """Return the disc of a pin or of its slot, for distances of the pin from the slot's axis of |r - e| to r + e."""
     assert coupling.pin_radius is not None
     assert coupling.offset is not None
     r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000

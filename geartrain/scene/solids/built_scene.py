@@ -1,4 +1,4 @@
-"""The scene of a train as it is built: with its plates, arbors and dials, and with its hands on the ends of arbors."""
+"""Scene of a train as built, with its plates, arbors and dials, and with its hands on the ends of arbors."""
 
 from __future__ import annotations
 
@@ -27,42 +27,42 @@ if TYPE_CHECKING:
     from geartrain.scene.scene_run import TimeRun
     from geartrain.scene.train_scene import DialFace, Pointer, Scene
 
-_FINE = 0.05  # mm that chords of plates may leave their curves
-_FIT = 0.01  # mm that those of holes may, of which a running fit leaves 0.04 mm all round
-_DIGITS = 4  # decimals of a mm
-_HAND = 1.0  # mm of an arbor's end that a hand takes
-_LAID = 0.2  # mm that the face of a dial is above the bracket on which it is laid
+_FINE = 0.05  # mm: tolerance of chords of plates
+_FIT = 0.01  # mm: tolerance of chords of holes, less than the 0.04 mm of a running fit
+_DIGITS = 4  # decimals of lengths in mm
+_HAND = 1.0  # mm of an arbor's end inside a hand
+_LAID = 0.2  # mm from a bracket to the face of a dial on it
 _CLEAR = 1.0  # mm from the edge of such a dial to other arbors
-_EDGE = 1.08  # its edge over all that is engraved
+_EDGE = 1.08  # radius of its edge over that of the engraving
 _SAME = 1e-6
 
 
 def build_scene(
     train: GearTrain, state: str | None = None, run: TimeRun | None = None, formulas: bool = False
 ) -> Scene:
-    """The scene of a train with what holds its wheels: the parts that exports make, in the same places.
+    """Return the scene of a train with its structural parts, at the same places as in exports.
 
     Parameters
     ----------
     train : GearTrain
-        Loaded or declared.
+        Loaded or declared train.
     state : str, optional
-        One of its states; by default the first, or that of the run.
+        State of the train; by default the first, or that of the run.
     run : geartrain.simulation.TimeRun, optional
-        What `train.dynamics(...)` gave in that state: then this is what moves.
+        Result of `train.dynamics(...)` in that state, which is then the motion of the scene.
     formulas : bool
-        As `make_scene` has it.
+        Same as in `make_scene`.
 
     Returns
     -------
     Scene
-        As `make_scene` gives it, wheels moved along their axes so that plates have room, with `parts`. Where nothing
-        can be built, as `make_scene` gives it.
+        Same as from `make_scene`, with `parts`, and with wheels moved along their axes to make space for plates. If
+        nothing can be built, the scene of `make_scene` is returned.
 
     Raises
     ------
     GearTrainError
-        If there is no such state, or the run is of another train or state.
+        If the state does not exist, or the run is of another train or state.
 
     Examples
     --------
@@ -74,47 +74,47 @@ def build_scene(
     state = train.declaration.state_or_first(run.state if state is None and run is not None else state)
     model = SolidModel(train, ManufacturingSizes(), state)
     try:
-        parts = tuple(_told(each, model) for each in model.structure)
+        parts = tuple(_scene_part(each, model) for each in model.structure)
     except GearTrainError:
         return make_scene(train, state, run=run, formulas=formulas)
-    # play that makers add is none of the declaration: the scene moves without it
+    # backlash added for manufacture is not declared, so the scene moves without it
     plain = run is None and not formulas and model.sized is model.train
     scene = model.scene if plain else make_scene(train, state, model.layout, run, formulas)
     scene = scene if model.plan is None else with_pins_apart(scene, model.plan)
-    dials, pointers = _engraved(scene, model), tuple(scene.pointers)
+    dials, pointers = _sized_dials(scene, model), tuple(scene.pointers)
     if model.plan is not None:
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
-        dials = _with_borne(dials, pointers)
+        dials = _with_seated(dials, pointers)
         pointers = tuple(_on_arbor(each, scene, dials, model.plan) for each in pointers)
     for at in range(len(dials)):
         dials, pointers = _on_bracket(at, scene, dials, pointers, parts)
-    wheels = tuple(_opened(each, model) for each in scene.wheels)
+    wheels = tuple(_with_holes(each, model) for each in scene.wheels)
     found = replace(scene, parts=parts, wheels=wheels, dials=with_balls(dials, pointers), pointers=pointers)
     return found if model.hanging is None else replace(found, hangers=tuple(_hanging(model, model.hanging)))
 
 
 def _hanging(model: SolidModel, hanging: HangingParts) -> Iterator[SceneHanger]:
-    """What hangs, with its parts."""
+    """Yield the hanging parts with their solids."""
     for each in hanging.found():
-        yield replace(each, parts=tuple(_told(part, model) for part in hanging_solids(each, hanging.frame)))
+        yield replace(each, parts=tuple(_scene_part(part, model) for part in hanging_solids(each, hanging.frame)))
 
 
-def _opened(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
-    """A wheel with its slots, and with its hole for an eccentric: what turns in other holes fills them."""
+def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
+    """Return a wheel with its slots, and with its hole for an eccentric; other holes are filled by parts."""
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
     if model.plan is not None:
         moved_in |= {name for each in model.plan.stack.eccentrics if each.wave is None for name in each.wheels}
     if blank is None or wheel.id not in moved_in:
         return wheel
-    # the teeth of the model may have play, for which it is turned otherwise
+    # with backlash the wheels of the model have other angles
     turn = next(each.turn for each in model.scene.wheels if each.id == wheel.id) - wheel.turn
     way = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
     return replace(wheel, holes=tuple(tuple(_numbers(each.flattened(_FIT) @ way)) for each in blank.contours[1:]))
 
 
-def _told(part: SolidPart, model: SolidModel) -> ScenePart:
-    """A part without its triangles."""
+def _scene_part(part: SolidPart, model: SolidModel) -> ScenePart:
+    """Return a part without its triangles."""
     kind = part.kind
     if kind == "plate" and model.frame is not None:
         turning = {plate.disc.name for plate in model.frame.plan.turning}
@@ -154,8 +154,8 @@ def _numbers(points: Floats) -> Iterator[float]:
         yield _round(y)
 
 
-def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
-    """Dials as large as they are on their plates, on the face that is read."""
+def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
+    """Return dials in the size of their plates, on the face that is read."""
     faces = list(scene.dials)
     if model.plan is None:
         return tuple(faces)
@@ -176,8 +176,8 @@ def _engraved(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
     return tuple(faces)
 
 
-def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """The dials; those that turn with a hand of the dial below them are where that hand is, under the others."""
+def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
+    """Return the dials, with those that turn with a hand of another dial moved to the place of that hand."""
     found = list(dials)
     for at, face in enumerate(dials):
         for each in pointers:
@@ -194,7 +194,10 @@ def _with_borne(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """A dial across which no plate stands is laid on the bracket of its pointers' arbor, clear of arbors beside it."""
+    """Place a dial that has no plate on the bracket of its pointers' arbor, and return all dials and pointers.
+
+    Its radius is limited by neighbouring arbors.
+    """
     face = dials[at]
     own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]
     along = [part for part in parts if abs(dot(part.direction, face.normal)) > 1 - _SAME]
@@ -203,7 +206,7 @@ def _on_bracket(
     if face.plate or face.look != "scale" or not under:
         return dials, pointers
     high = max(dot(minus(part.place, face.centre), face.normal) + part.height / 2 for part in under)
-    radius = min([face.radius, *_room_beside(face, [part for part in along if part.bands])])
+    radius = min([face.radius, *_radius_limits(face, [part for part in along if part.bands])])
     if radius <= 0:
         return dials, pointers
     laid = replace(face, centre=plus(face.centre, face.normal, high + _LAID), radius=radius)
@@ -211,8 +214,8 @@ def _on_bracket(
     return (*dials[:at], laid, *dials[at + 1 :]), tuple(hands.get(n, each) for n, each in enumerate(pointers))
 
 
-def _room_beside(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
-    """How large a dial can be beside turned parts along its axis, those about the axis itself left out (mm)."""
+def _radius_limits(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
+    """Yield limits of the radius of a dial (mm) from turned parts parallel to its axis, except coaxial ones."""
     for part in parts:
         off = minus(part.place, face.centre)
         apart = float(np.sqrt(max(dot(off, off) - dot(off, face.normal) ** 2, 0.0)))
@@ -221,12 +224,12 @@ def _room_beside(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
 
 
 def _widest(body: int, parts: Sequence[ScenePart]) -> float:
-    """Diameter of a body's widest turned part (mm)."""
+    """Return the diameter of a body's widest turned part (mm)."""
     return 2 * max((band[2] for part in parts if part.body == body for band in part.bands), default=0.0)
 
 
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:
-    """A pointer whose hand sits on the end of its arbor or pipe."""
+    """Return a pointer whose hand is on the end of its arbor or pipe."""
     face = None if pointer.dial is None else dials[pointer.dial]
     if face is None or not (face.plate or face.seated):
         return pointer

@@ -1,11 +1,11 @@
 """Supports of axes that are not parallel to the frame's, and parts that hang on a train.
 
-A bracket is a plate across an arbor, at a right angle to the plates of the frame, which bears its ends.
+A bracket is a plate perpendicular to an arbor and to the plates of the frame, which bears an end of the arbor.
 
-A cage holds axes of a carrier that lie at an angle to its own, as those of the pinions of a differential. An eye bears
-the outer end of the pinion's arbor. A post leads from it along the carrier's axis: to a wheel of the carrier of
-sufficient radius, else to an arm beyond all wheels which reaches in to the carrier's axis; to an arm beside the pinion
-where a plate of the frame stands before the wheel.
+A cage holds axes of a carrier that are inclined to its own, as those of the pinions of a differential. An eye bears
+the outer end of the pinion's arbor. A post extends from it along the carrier's axis, to a wheel of the carrier of
+sufficient radius, else to an arm beyond all wheels that extends inwards to the carrier's axis. If a plate of the frame
+is before the wheel, the arm is beside the pinion.
 
 The pendulum of an escapement and the driving weight hang on a train in true size.
 """
@@ -45,18 +45,18 @@ if TYPE_CHECKING:
 # -------------------------------------------------------------------------------------------------- pendulum and weight
 
 
-_BOB, _THICK = 0.05, 0.25  # a bob's radius over the pendulum's length, and half its thickness over its radius
-_ROD = 0.04  # a pendulum's rod: its radius over the bob's
+_BOB, _THICK = 0.05, 0.25  # radius of a bob over the pendulum's length, and half its thickness over its radius
+_ROD = 0.04  # radius of a pendulum's rod over that of the bob
 _TALL = 4.0  # height of a weight over its radius
-_ANCHOR = sqrt(2)  # of the escape wheel's radius: where an anchor over a quarter of it turns
-_COCK = 2.0  # mm: radius of what bears a pendulum
+_ANCHOR = sqrt(2)  # distance of the anchor's axis over the escape wheel's radius, for pallets a quarter turn apart
+_COCK = 2.0  # mm: radius of the stud of a pendulum
 _AWAY = 2.0  # mm between the frame and a bob
 _LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose
 
 
 @dataclass(frozen=True)
 class HangingParts:
-    """Of a train that declares them, and that has a dial by which one knows the way down."""
+    """Hanging parts of a train that declares them, and that has a dial, which defines the downward direction."""
 
     scene: Scene
     declared: Train
@@ -64,7 +64,7 @@ class HangingParts:
     barrel: Barrel | None
 
     def found(self) -> tuple[SceneHanger, ...]:
-        """The pendulum, then the line and the weight."""
+        """Return the pendulum, then the line and the weight."""
         return () if self.front is None else tuple(each for each in (self.pendulum, *self._weight()) if each)
 
     @property
@@ -74,7 +74,7 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Towards the reader, and down."""
+        """Direction towards the reader, and downward direction."""
         normal = self.plan.stack.normal
         assert normal is not None
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
@@ -83,7 +83,7 @@ class HangingParts:
 
     @cached_property
     def pendulum(self) -> SceneHanger | None:
-        """Behind the frame, above the escape wheel."""
+        """Pendulum behind the frame, above the escape wheel."""
         escapement, normal = self.declared.escapement, self.plan.stack.normal
         assert normal is not None
         if self.front is None or escapement is None or escapement.pendulum is None:
@@ -91,7 +91,7 @@ class HangingParts:
         index = next(at for at, body in enumerate(self.scene.bodies) if body.id == escapement.link)
         body = self.scene.bodies[index]
         if body.parent != self.frame:
-            return None  # pallets ride on a carriage, which takes no pendulum round
+            return None  # a carriage with pallets cannot carry a pendulum
         wheels = (each for each in self.scene.wheels if each.body == index and each.teeth == escapement.teeth)
         wheel = next(wheels, None)
         if wheel is None or abs(dot(body.direction, normal)) < 1 - 1e-6:
@@ -105,20 +105,20 @@ class HangingParts:
 
     @property
     def _side(self) -> float:
-        """1 where the reader looks against the normal, and what is behind the frame is above it; else -1."""
+        """1 if the normal points away from the reader, so that the space behind the frame is above it; else -1."""
         assert self.front is not None
         assert self.plan.stack.normal is not None
         return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
 
     @property
     def _last(self) -> float:
-        """Height of what is behind all else."""
+        """Height of the rearmost face."""
         places, way = self.plan.places, max if self._side > 0 else min
         faces = [face for plate in (places.back, places.front, self.plan.bridge or ()) for face in plate]
         return way([*faces, *(face for disc in self.plan.discs for face in (disc.low, disc.high))])
 
     def cock(self) -> Iterator[TurnedPart]:
-        """The stud in the frame on which a pendulum hangs."""
+        """Yield the stud in the frame on which a pendulum hangs."""
         if self.pendulum is None:
             return
         stack, places, side = self.plan.stack, self.plan.places, self._side
@@ -131,7 +131,7 @@ class HangingParts:
         yield TurnedPart(stack.frame, "pendulum cock", "cock", at, bands if side > 0 else bands[::-1], joint)
 
     def _weight(self) -> Iterator[SceneHanger]:
-        """On a line from the barrel."""
+        """Yield the line from the barrel, and the weight."""
         barrel, drive, crank = self.barrel, self.declared.drive, self.scene.crank
         if barrel is None or drive is None or drive.weight is None or crank is None or self.front is None:
             return
@@ -140,18 +140,19 @@ class HangingParts:
         if not way:
             return
         middle = self.plan.stack.in_space(barrel.at, (barrel.low + barrel.high) / 2)
-        # where the rim of the barrel goes down as it turns forward
+        # the side on which the rim of the barrel moves down as it turns forward
         rate = barrel.radius if way > 0 else -barrel.radius
         side = plus(middle, cross(down, body.direction), rate)
         lead = material_named(self.declared, "lead").density
         assert lead is not None
+        # a lead cylinder of the declared mass: m = rho pi r^2 (4 r)
         radius = 1000 * (drive.weight.si / lead.si / (pi * _TALL)) ** (1 / 3)
         yield SceneHanger("line", crank, side, body.direction, down, _START, rate, _LINE)
         yield SceneHanger("weight", crank, side, body.direction, down, _START, rate, radius)
 
 
 def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
-    """The turned parts of what hangs, which hang still with the frame (its index); a line is bought."""
+    """Yield the turned parts of a hanging part, at rest relative to the frame (its index); a line is not made."""
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
         rod = Band(_COCK, hanger.length - wide, _ROD * wide)
@@ -174,28 +175,28 @@ def _turned(frame: int, name: str, place: tuple[Vector, Vector, Vector], band: B
 
 
 GAP = 0.5
-"""Along an arbor, from its last wheel to what bears it [mm]."""
-_ROOM = 1.5  # mm, the same of a bracket: the wheel's window in the plate and a web of that stand between
+"""Axial clearance between the last wheel of an arbor and its support [mm]."""
+_ROOM = 1.5  # mm, the same for a bracket, including a web beside the wheel's window in the plate
 LAND = 2.0
-"""Metal round a bearing [mm]."""
+"""Width of metal round a bearing [mm]."""
 _FLAT = 1e-6
 
 
 @dataclass(frozen=True)
 class Bracket:
-    """What bears one end of an arbor."""
+    """Support of one end of an arbor."""
 
     body: int
-    """That it bears; `reach`, how far along the arbor's direction its outer face stands (mm)."""
+    """Body of the arbor. `reach` is the position of the bracket's outer face along the arbor's direction (mm)."""
     reach: float
     side: str
-    """Of the frame's plate in which it stands, through the `mortise` there."""
+    """Side of the frame's plate to which it is fixed, through the `mortise` there."""
     mortise: Passage
     part: SolidPart
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Of every arbor that the frame bears across its plates' normal.
+    """Return brackets of every arbor of the frame that is perpendicular to the plates' normal.
 
     bores   diameters (mm) of arbors by axis
     """
@@ -211,7 +212,7 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Along a body's direction, from its point: between which places its wheels stand; None if it has none."""
+    """Return the ends of a body's wheels along its direction, from its point (mm); None if it has none."""
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -231,16 +232,16 @@ def _brackets(
     low, high = ends
     faces = {1: high + _ROOM, -1: low - _ROOM}
     ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
-    if len(ways) == 1:  # on the inner side, unless wheels are in its way there
-        ways = [min(ways[0], -ways[0], key=lambda way: _in_the_way(plan, body, faces[way], way, sides)[0])]
+    if len(ways) == 1:  # on the inner side, unless wheels obstruct it there
+        ways = [min(ways[0], -ways[0], key=lambda way: _best_plate(plan, body, faces[way], way, sides)[0])]
     for way in ways:
         yield _bracket(scene, plan, sides, at, faces[way], way, radius)
 
 
-def _in_the_way(
+def _best_plate(
     plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
 ) -> tuple[int, float, str]:
-    """How many wheels stand before the plate to which a bracket goes best, how far it is (mm), and which it is."""
+    """Return the number of wheels before the best plate for a bracket, its distance (mm), and its side."""
     place, stack = _middle(plan, body, face, way), plan.stack
     height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
 
@@ -253,7 +254,7 @@ def _in_the_way(
 
 
 def _middle(plan: FramePlan, body: SceneBody, face: float, way: int) -> Floats:
-    """Of a bracket, on the axis that it bears."""
+    """Return the centre of a bracket, on the axis that it bears."""
     return np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
 
 
@@ -266,11 +267,11 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """At one end of an arbor, on the plate that is nearest of those with the fewest wheels before them."""
+    """Return the bracket at one end of an arbor, on the plate with the fewest wheels before it, then the nearest."""
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
-    _, _, side = _in_the_way(plan, body, face, way, sides)
+    _, _, side = _best_plate(plan, body, face, way, sides)
     away = max(sides[side], key=lambda each: abs(each - height)) - height
     down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
     hole = Contour.circle(radius + plan.process.running / 2)
@@ -288,7 +289,7 @@ def _frame(scene: Scene, plan: FramePlan) -> int:
 
 
 def on_axis(body: SceneBody, along: float) -> Floats:
-    """The point of a body's axis at a place along it (mm)."""
+    """Return the point of a body's axis at a position along it (mm)."""
     return np.asarray(np.array(body.point) + along * np.array(body.direction))
 
 
@@ -302,7 +303,7 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """What holds the axis of one body: `reach`, places along its direction that its arbor goes on to (mm)."""
+    """Support of the axis of one body. `reach` is the position along its direction to which its arbor extends (mm)."""
 
     body: int
     reach: float
@@ -310,19 +311,22 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Of every axis that is carried round at an angle to that of its carrier; `bores`, as for brackets."""
+    """Return the cage of every axis that is carried at an angle to that of its carrier.
+
+    bores   diameters (mm) of arbors by axis
+    """
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]
         if carrier is None or carrier.parent is None or not bores.get(body.axis) or wheel_ends(scene, at) is None:
             continue
         if abs(float(np.dot(body.direction, carrier.direction))) < 1 - _SAME:
-            found.append(_Holder(scene, plan, at, bores).cage())
+            found.append(_CageBuilder(scene, plan, at, bores).cage())
     return tuple(found)
 
 
 @dataclass(frozen=True)
-class _Holder:
+class _CageBuilder:
     scene: Scene
     plan: FramePlan
     at: int
@@ -347,7 +351,7 @@ class _Holder:
         return np.array(self.carrier.direction)
 
     def height(self, point: object) -> float:
-        """Along the carrier's axis, from its point."""
+        """Return the position of a point along the carrier's axis (mm)."""
         return float((np.asarray(point, dtype=float) - np.array(self.carrier.point)) @ self.along)
 
     def cage(self) -> Cage:
@@ -365,7 +369,7 @@ class _Holder:
             level = self._level(height, away - post) if seat is None else seat
         way = 1 if level > height else -1
         ends = [height + way * (radius + LAND / 2), level]
-        if seat is None:  # through the arm
+        if seat is None:  # the post passes through the arm
             ends[1:] = level - way * _ARM / 2, level + way * _ARM / 2
         parts = [eye, self._post(eye.place - height * self.along, ends, post)]
         if seat is None:
@@ -377,12 +381,12 @@ class _Holder:
         return float(aside @ np.array(right)), float(aside @ np.array(up))
 
     def _outer_end(self) -> tuple[int, float]:
-        """On which side, and where along its arbor, the last wheel ends, away from the carrier's axis."""
+        """Return the outer end of the wheels along their arbor, as the side of the carrier's axis and position (mm)."""
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
         gap = np.array(self.carrier.point) - np.array(self.body.point)
-        near = float(np.cross(gap, self.along) @ normal / (normal @ normal))  # where the axes cross
+        near = float(np.cross(gap, self.along) @ normal / (normal @ normal))  # the point where the axes intersect
         side = 1 if sum(ends) / 2 > near else -1
         return side, max(ends) if side > 0 else min(ends)
 
@@ -394,7 +398,7 @@ class _Holder:
         return self._placed(part, on_axis(self.body, middle), self.body)
 
     def _post(self, foot: Floats, ends: Sequence[float], radius: float) -> SolidPart:
-        """From the eye on; with a tenon from the second to the third height."""
+        """Return the post from the eye, with a tenon from the second to the third height."""
         sizes = zip(pairwise(ends), (radius, TENON * radius), strict=False)
         bands = sorted((Band(min(pair), max(pair), size) for pair, size in sizes), key=lambda band: band.low)
         part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), tuple(bands))
@@ -405,13 +409,13 @@ class _Holder:
         return SolidPart(self.index, part.name, part.kind, turn, place, turned=part)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """The nearest face of the carrier's wheels that reach out to a post, within their teeth."""
+        """Return the nearest face of the carrier's wheels that extend to a post within their teeth, or None."""
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
         return min(faces, key=lambda each: abs(each - height), default=None)
 
     def _is_behind_a_plate(self, height: float, seat: float) -> bool:
-        """True if a plate of the frame stands between two heights."""
+        """Return whether a plate of the frame is between two heights."""
         stack, places = self.plan.stack, self.plan.places
         if stack.normal is None or abs(float(np.dot(self.along, stack.normal))) < 1 - _SAME:
             return False
@@ -420,7 +424,7 @@ class _Holder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """The middle of an arm next to the pinion, where the fewest wheels of the carrier's axis are in its way."""
+        """Return the middle of an arm next to the pinion, on the side with fewest obstructing coaxial wheels."""
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:
@@ -431,7 +435,7 @@ class _Holder:
         return min((height + reach, height - reach), key=hit)
 
     def _coaxial(self) -> Iterator[SceneWheel]:
-        """Wheels about the carrier's axis."""
+        """Yield wheels about the carrier's axis."""
         for wheel in self.scene.wheels:
             aside = np.array(wheel.centre) - on_axis(self.carrier, self.height(wheel.centre))
             upright = abs(float(np.dot(wheel.direction, self.along))) > 1 - _SAME
@@ -439,13 +443,13 @@ class _Holder:
                 yield wheel
 
     def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
-        """Heights of the `ends` of a wheel about the carrier's axis, that count from its centre along its direction."""
+        """Return heights of the `ends` of a wheel about the carrier's axis, which are given relative to its centre."""
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
         low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """The middle of an arm beyond all wheels on the side where the fewest are in the post's way."""
+        """Return the middle of an arm beyond all wheels, on the side with fewest wheels that obstruct the post."""
         wheels = list(self._coaxial())
 
         def cost(side: int) -> tuple[int, float]:
@@ -462,7 +466,7 @@ class _Holder:
         return beyond(side) + side * (_PAST + _ARM / 2)
 
     def _arm(self, aside: Floats, away: float, level: float, post: float) -> SolidPart:
-        """From the axis out to a post; its hub runs on what goes through it."""
+        """Return the arm from the axis to a post; its hub runs on the member that passes through it."""
         hub = self.bores.get(self.carrier.axis, 2.0) / 2 + self.plan.process.running / 2
         across = aside / (away or 1.0)
         wide = max(hub + LAND, post)

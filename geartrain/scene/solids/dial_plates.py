@@ -1,6 +1,6 @@
-"""Plates of dials before and behind a mechanism: how large, how high, with which hole, and the scales on each.
+"""Plates of dials before and behind a mechanism: their sizes, heights, holes and scales.
 
-A dial stands on feet, pins between it and the plate behind it, which pass all that turns.
+A dial is mounted on feet, pins between it and the plate behind it, which are clear of all turning parts.
 """
 
 from __future__ import annotations
@@ -28,40 +28,40 @@ if TYPE_CHECKING:
     from geartrain.scene.train_scene import DialFace, Scene
 
 THICKNESS = 1.5
-"""Of a dial, where nothing else is asked for [mm]."""
-_AWAY = 2.0  # mm from all that turns to a dial
-_ROOM = 0.5  # mm round the arbor of its pointer
+"""Default thickness of a dial [mm]."""
+_AWAY = 2.0  # mm from turning parts to a dial
+_ROOM = 0.5  # mm of clearance round the arbor of its pointer
 _BESIDE = 1.0  # mm from a dial's edge to the arbor of another
-_SCALE, _LETTER = 0.965, 0.055  # of the radius of a dial
-_SMALLEST = 1.2  # mm: letters
-_LAND = 1.0  # mm of plate round the end of a foot
-_SIDES = 48  # points of a circle whose convex hull is an edge
+_SCALE, _LETTER = 0.965, 0.055  # radius of the scale, and height of letters, over the radius of a dial
+_SMALLEST = 1.2  # mm: minimum height of letters
+_LAND = 1.0  # mm: width of plate round the end of a foot
+_SIDES = 48  # points of a circle for a convex hull
 _SAME = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
 class DialCircle:
-    """The scales of all dials about one axis."""
+    """Scales of all dials about one axis."""
 
     at: Point
-    """Its middle, in the coordinates of the stack [mm]."""
+    """Centre, in the coordinates of the stack [mm]."""
     radius: float
-    """Of all that is engraved; diameter of the hole for the arbors of its pointers [mm]."""
+    """Radius of the whole engraving [mm]."""
     hole: float
-    """Of all that is engraved; diameter of the hole for the arbors of its pointers [mm]."""
+    """Diameter of the hole for the arbors of its pointers [mm]."""
     scales: dict[str, DialScale]
-    """By dial."""
+    """Scales by dial."""
     radii: dict[str, float]
-    """By dial, of its scale [mm]."""
+    """Radius of the scale of each dial [mm]."""
 
     def lines(self) -> Iterator[Floats]:
-        """What is engraved, letters too, about its middle."""
+        """Yield the engraved lines, including letters, relative to the centre."""
         for name, scale in self.scales.items():
             for each in engrave(scale):
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """The names of dials, below the hole."""
+        """Yield the names of dials, below the hole."""
         height = max(_LETTER * self.radius, _SMALLEST)
         for depth, name in enumerate(self.scales):
             yield EngravedText(name, (0.0, -(self.hole / 2 + (1.2 + 1.4 * depth) * height)), height)
@@ -72,35 +72,35 @@ class DialPlate:
     """A plate with all dials of one side."""
 
     name: str
-    """"dial", and the names of the dials."""
+    """Name: "dial" and the names of the dials."""
     low: float
-    """Its faces along the plates' normal [mm]."""
+    """Height of its lower face along the plates' normal [mm]."""
     high: float
-    """Its faces along the plates' normal [mm]."""
+    """Height of its upper face along the plates' normal [mm]."""
     circles: tuple[DialCircle, ...]
-    """Its dials, by axis."""
+    """Dials, by axis."""
     feet: tuple[TurnedPart, ...]
-    """Pins on which it stands before a plate of the frame."""
+    """Pins on which it is mounted before a plate of the frame."""
     right: Point
-    """Unit vectors of one who reads it, in the coordinates of the stack."""
+    """Unit vector to the right of its reader, in the coordinates of the stack."""
     up: Point
-    """Unit vectors of one who reads it, in the coordinates of the stack."""
+    """Unit vector upwards for its reader, in the coordinates of the stack."""
 
     @property
     def at(self) -> Point:
-        """What its coordinates are counted from (mm): the middle of its first dial."""
+        """Origin of its coordinates (mm): the centre of its first dial."""
         return self.circles[0].at
 
     @property
     def contours(self) -> tuple[Contour, ...]:
-        """Its edge, and holes for pointers and feet, in the coordinates of the stack, counted from `at`."""
+        """Edge, and holes for pointers and feet, in the coordinates of the stack relative to `at`."""
         return self._contours(self._own)
 
     def _own(self, point: Point) -> Point:
         return point[0] - self.at[0], point[1] - self.at[1]
 
     def _seen(self, point: Point) -> Point:
-        """A point of the stack as its reader has it, right and up."""
+        """Return a point of the stack in the coordinates of its reader, right and up."""
         x, y = self._own(point)
         return x * self.right[0] + y * self.right[1], x * self.up[0] + y * self.up[1]
 
@@ -110,7 +110,7 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """A disc where that holds all, else the convex curve about all dials and feet."""
+        """Return a disc if it contains all, else the convex curve about all dials and feet."""
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if len(self.circles) == 1 and all(dist(each.at, first.at) + wide < first.radius + _SAME for each in self.feet):
             return Contour.circle(first.radius, place(first.at))
@@ -123,8 +123,8 @@ class DialPlate:
         return around([place(point) for point in (*rims, *(foot.at for foot in self.feet))], wide)
 
     def drawing(self) -> FlatDrawing:
-        """As its reader sees it, zero marks above; what is engraved are scales, numbers and names."""
-        title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, as its reader sees it; "
+        """Return the drawing for its reader, zero marks at the top, with scales, numbers and names engraved."""
+        title = f"{self.name}: thickness {self.high - self.low:.4g} mm, scale 1:1, front view; "
         scales = {name: scale for circle in self.circles for name, scale in circle.scales.items()}
         title += ", ".join(f"{name} {scale.divisions} cells" for name, scale in scales.items())
         marks: list[EngravedText] = []
@@ -137,7 +137,7 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Of all dials that stand on the frame, across its normal, and that the arbor of a pointer reaches."""
+    """Return plates of all dials on the frame, perpendicular to its normal, that the arbor of a pointer reaches."""
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     assert stack.normal is not None
     groups: dict[int, dict[str, list[DialFace]]] = {}
@@ -162,7 +162,7 @@ def _plate(
     plan: FramePlan,
     thickness: float,
 ) -> DialPlate | None:
-    """The plate of one side; None where no pointer's arbor reaches it."""
+    """Return the plate of one side; None if no pointer's arbor reaches it."""
     ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
     ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
     near = (max(ends) if side > 0 else min(ends)) + side * _AWAY
@@ -200,21 +200,22 @@ def _circle(
 
 # ----------------------------------------------------------------------------------------------------------------- feet
 
-FOOT_RADIUS = 1.5  # mm: its ends in the plates are thinner
+FOOT_RADIUS = 1.5  # mm; its ends in the plates are thinner
 _TENON = 0.6
-_GAP = 0.5  # mm between a foot and what turns
+_GAP = 0.5  # mm of clearance between a foot and turning parts
 _FEET, _MOST, _WAYS = 3, 4, 48
-_SHARES = (0.92, 0.8, 0.65, 0.5, 0.35)  # of the radius of the dial: where a foot is tried, the outermost first
-_EDGE = 1.0  # mm of dial round the end of a foot
-_STEPS = 32  # from the middle of a dial to a foot, at which the straight edge between them is looked at
+_SHARES = (0.92, 0.8, 0.65, 0.5, 0.35)  # candidate distances of a foot from the centre, over the radius of the dial
+_EDGE = 1.0  # mm: width of dial round the end of a foot
+_STEPS = 32  # samples from the centre of a dial to a foot, at which the edge between them is tested
 
 
 def dial_feet(
     plan: FramePlan, name: str, circles: Sequence[tuple[Point, float]], faces: tuple[float, float]
 ) -> list[TurnedPart]:
-    """Feet of a plate of dials, up to four inside its dials and as far apart as they can be, else round all that turns.
+    """Return feet of a plate of dials: up to four, far apart inside its dials, else outside of all turning parts.
 
-    circles   middles and radii of its dials; `faces`, its heights (mm)
+    circles   centres and radii of its dials (mm)
+    faces     heights of its faces (mm)
     """
     above = faces[0] > plan.places.front[1]
     plate = plan.places.front if above else plan.places.back
@@ -225,7 +226,7 @@ def dial_feet(
     ]
     spots = _apart(free)
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
-        even = len({column.at for column in plan.columns}) == 1  # as its pillars are
+        even = len({column.at for column in plan.columns}) == 1  # same condition as for pillars
         spots = pillar_places(
             [at for at, _ in circles],
             turning,
@@ -238,14 +239,14 @@ def dial_feet(
 
 
 def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, float]]:
-    """What stands or turns between two heights, as circles."""
+    """Yield circles that contain fixed and turning parts between two heights."""
     yield from (swept_circle(disc) for disc in plan.discs if disc.low < high and low < disc.high)
     yield from ((column.at, wide) for column in plan.columns if (wide := column.radius(low, high)))
     yield from plan.across(low, high)
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
-    """How far from some circles (mm) a plate is that goes straight from its dials to the end of a foot."""
+    """Return the clearance (mm) from circles of a plate that extends straight from its dials to a foot."""
     minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):
@@ -262,7 +263,7 @@ def _tried(at: Point, radius: float) -> Iterator[Point]:
 
 
 def _apart(free: Sequence[Point]) -> list[Point]:
-    """The first, then always the one that is farthest from those taken."""
+    """Return the first place, then repeatedly the one farthest from those chosen (greedy dispersion)."""
     taken = list(free[:1])
     while len(taken) < min(_MOST, len(free)):
         spot = max(free, key=lambda each: min(dist(each, other) for other in taken))

@@ -1,4 +1,4 @@
-"""What a maker says beside the declaration, and the train at the sizes asked for."""
+"""Manufacturing sizes of a train, and the train at these sizes."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from geartrain.teeth.standard_teeth import BACKLASH, DEDENDUM
 from geartrain.train import GearPair, Train
 from geartrain.train.wheel_stock import wheel_thickness
 
-_SAME_LEVEL = 1e-3  # mm
+_SAME_LEVEL = 1e-3  # mm: tolerance for equal thicknesses
 _STOCK = (
     *(0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0),
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
-)  # mm: sheets as they are sold
+)  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
-"""Sizes (mm) in which trains are made, least and greatest: curves are drawn to 0.001 mm, arbors and plates to match."""
-_SHEET = (1, 1e5)  # mm: sides of sheets
-_NEAR = 1.3  # how much thicker or thinner than 2.5 modules a sheet may be
+"""Minimum and maximum sizes (mm): curves are drawn to 0.001 mm, and arbors and plates are sized to match."""
+_SHEET = (1, 1e5)  # mm: limits of the sides of sheets
+_NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
 
 
 @dataclass(frozen=True, slots=True)
 class ManufacturingSizes(Shown):
-    """Sizes in which a train is made; None leaves one to the layout.
+    """Sizes in which a train is made; None leaves a size to the layout.
 
     Raises
     ------
@@ -44,32 +44,35 @@ class ManufacturingSizes(Shown):
     Examples
     --------
     >>> ManufacturingSizes(module=2.0, bore=6.0)
-    ManufacturingSizes(module=2.0, thickness=None, bore=6.0, backlash=None, process=None, arms=None, sheet=None)
+    <ManufacturingSizes module=2, bore=6>
     """
 
     module: float | None = None
-    """Pitch diameter over tooth count [mm], above 0; only where the declaration gives no sizes of its own."""
+    """Pitch diameter divided by the tooth count [mm], above 0; only for declarations without sizes."""
     thickness: float | None = None
-    """Of wheels and plates [mm], above 0."""
+    """Thickness of wheels and plates [mm], above 0."""
     bore: float | None = None
-    """Diameter of the arbors [mm]; 0: neither arbors nor plates, and wheels without holes."""
+    """Diameter of the arbors [mm]. 0 omits arbors and plates, and holes of wheels."""
     backlash: float | None = None
-    """Play on the pitch circle of every pair that does not declare its own [mm], 0 or more; by default a twentieth
-    of the module."""
+    """Circumferential backlash at the pitch circle of every pair that does not declare its own [mm], 0 or more.
+
+    The default is 1/20 of the module.
+    """
     process: str | None = None
-    """How it is made: laser, cnc, fdm or hand; sets kerf, fits, and the play where none is given."""
+    """Manufacturing process: laser, cnc, fdm or hand. It sets kerf, fits, and the default backlash."""
     arms: int | None = None
-    """Arms of wheels that have room for windows between them, 3 or more; without it webs are whole."""
+    """Number of spokes of wheels that have space for windows between them, 3 or more; None for solid webs."""
     sheet: tuple[float, float] | None = None
-    """Width and height of the sheets that flat parts are laid out on [mm], above 0; without it they are not."""
+    """Width and height of the sheets on which flat parts are arranged [mm], above 0; None for no sheets."""
 
     def __post_init__(self) -> None:
-        """Raise `QuestionError` for what is no size."""
+        """Raise `QuestionError` for a size out of range."""
         process_named(self.process)
         problems = []
         if self.arms is not None and self.arms < 3:
-            what = f"a wheel of {self.arms} arms is none"
-            problems.append(Problem(what, "", "give 3 or more, or leave --arms out for whole webs", "--arms"))
+            what = f"a wheel cannot have {self.arms} spokes"
+            why, fix = "a web with windows has at least 3 spokes", "pass 3 or more, or omit --arms for solid webs"
+            problems.append(Problem(what, why, fix, "--arms"))
         for name, bounds in _MADE.items():
             value = getattr(self, name)
             if value is not None and not (value == 0 and name in ("bore", "backlash")):
@@ -81,19 +84,22 @@ class ManufacturingSizes(Shown):
 
 
 def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) -> list[Problem]:
-    """A problem for a size (mm) outside what is made."""
+    """Return a problem for a size (mm) out of the range that can be made."""
     low, high = bounds
     if low <= value <= high:
         return []
-    why = "drawings are exact to 0.001 mm, and arbors and plates have a few millimetres"
+    why = "drawings are accurate to 0.001 mm, and arbors and plates are a few millimetres thick"
     return [Problem(f"{noun} of {value:g} mm cannot be made", why, f"give {noun} from {low:g} to {high:g} mm", place)]
 
 
 def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearTrain:
-    """The train with the modules and the play asked for, as if it declared them; itself where none are.
+    """Return the train with the requested modules and backlash, as if it declared them.
 
-    layout   of the train as it is declared
-    Raises `QuestionError` where the declaration gives sizes, which always win, and where teeth cannot have the play.
+    Without requests it is the same train.
+
+    Raise `QuestionError` if the declaration gives sizes, which take precedence, and if teeth cannot have the backlash.
+
+    layout   layout of the train as it is declared
     """
     declared, factor = train.declaration, scale_of(layout, making)
     modules = {name: Fraction(place.module) * Fraction(factor) for name, place in layout.wheels.items()}
@@ -116,9 +122,9 @@ def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout
 
 
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
-    """How many times larger everything is to be for the module asked for.
+    """Return the factor by which the layout is enlarged for the requested module.
 
-    Raises `QuestionError` where the declaration gives sizes, which always win.
+    Raise `QuestionError` if the declaration gives sizes, which take precedence.
     """
     if making.module is None or not layout.wheels:
         return 1.0
@@ -126,9 +132,9 @@ def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
     placed = [label for label, axis in layout.axes.items() if axis.how == "given"]
     if given or placed:
         named = f"the module of '{given[0]}'" if given else f"the position of axis '{placed[0]}'"
-        why = f"it gives {named}, and what is declared wins"
-        fix = "leave --module out, or take the sizes out of the file"
-        raise QuestionError(Problem("the declaration has sizes of its own", why, fix, "--module"))
+        why = f"it gives {named}, and declared sizes take precedence"
+        fix = "omit --module, or remove the sizes from the file"
+        raise QuestionError(Problem("the declaration already has sizes", why, fix, "--module"))
     return making.module / usual_module(layout)
 
 
@@ -148,14 +154,14 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
-    """With the play asked for, in modules, on every pair whose form says nothing of it."""
+    """Return the declaration with the requested backlash, in modules, for every pair whose form declares none."""
     own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
         places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
         raise QuestionError(replace(problem, place=places[name]) for name, problem in own.items())
     gears = tuple(gear if gear.name in own else _thinned(declared, gear, modules, backlash) for gear in declared.gears)
     if all(new is old for new, old in zip(gears, declared.gears, strict=True)):
-        return declared  # no pair declares a form: standard teeth are thinned as they are cut, and nothing moves
+        return declared  # no pair declares a form: standard teeth are thinned when cut
     return declared.changed(gears=gears)
 
 
@@ -169,13 +175,13 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
 
 
 def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
-    """Why the play of a pair is not for a maker to say; None where it is."""
+    """Return the problem if a pair's form fixes its backlash; None if it can be chosen."""
     form = declared.form_of(gear)
     return None if form is None else form.own_backlash(gear.name)
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """The sizes with the play of the process, where one is named and no play is given."""
+    """Return the sizes with the backlash of the process, if one is named and no backlash is given."""
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -185,15 +191,15 @@ def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) 
 
 
 def usual_module(layout: Layout) -> float:
-    """The module (mm) of most wheels."""
-    # rounded: modules that are equal but for rounding count as one
+    """Return the module (mm) of most wheels."""
+    # rounded, so that equal modules count as one
     return Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0][0]
 
 
 def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout:
-    """The layout with wheels of the thickness asked for, else of sheets that are sold.
+    """Return the layout with wheels of the requested thickness, else of standard sheets.
 
-    Levels move apart where wheels become thicker.
+    Levels are moved apart if wheels become thicker.
     """
     wanted = _thicknesses(declared, layout, making)
     if all(wanted[name] == place.thickness for name, place in layout.wheels.items()):
@@ -213,7 +219,10 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Of all wheels (mm): as asked for; those that no one gives a thickness are of one stock."""
+    """Return the thicknesses of all wheels (mm), as requested.
+
+    Otherwise wheels without a declared thickness share one stock size.
+    """
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)
     own = {name: place.thickness for name, place in layout.wheels.items()}
@@ -226,7 +235,7 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """True of a flat wheel whose thickness is that of its module, and not wider for several mates."""
+    """Return whether a flat wheel has the default thickness for its module, and is not broadened for several mates."""
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
@@ -237,7 +246,10 @@ def _is_upright(layout: Layout, place: WheelPlace) -> bool:
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Diameter (mm) of a rod on each axis that no plate bears: as given, or a third of its smallest wheel, to 6."""
+    """Return the diameter (mm) of an arbor on each axis that no plate bears.
+
+    It is as given, or a third of the root diameter of its smallest wheel, at most 6 mm.
+    """
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

@@ -1,4 +1,4 @@
-"""The parts of a train as solids, each on its body, in the pose in which all angles are zero."""
+"""Parts of a train as solids, each on its body, in the pose in which all angles are zero."""
 
 from __future__ import annotations
 
@@ -41,18 +41,18 @@ if TYPE_CHECKING:
     from geartrain.scene.elements import SceneWheel
     from geartrain.scene.layout import Layout
     from geartrain.scene.train_scene import Scene
-_SHEET = 3.0  # mm, the thickness of plates
-_GAP = 1.0  # mm between a plate and what turns before it
+_SHEET = 3.0  # mm: default thickness of plates
+_GAP = 1.0  # mm between a plate and the next turning part
 
 
 @dataclass(frozen=True)
 class SolidModel(Shown):
-    """A train with all that exports ask for, each made once when it is first asked for.
+    """Solid model of a train, from which exports are made; each part is computed at first use.
 
     Raises
     ------
     QuestionError
-        By what is asked for, if the train declares sizes that `making` gives too, or teeth that cannot have the play.
+        At first use, if the train declares sizes that `making` gives too, or teeth that cannot have the backlash.
 
     Examples
     --------
@@ -64,45 +64,47 @@ class SolidModel(Shown):
     """
 
     train: GearTrain
-    """Loaded or declared."""
+    """Loaded or declared train."""
     making: ManufacturingSizes
-    """Sizes it is made in."""
+    """Sizes in which it is made."""
     state: str | None = None
-    """One of its states; by default the first."""
+    """State of the train; by default the first."""
 
     def __post_init__(self) -> None:
-        """Every one of equal planets is made."""
+        """Unfold equal planets, because each is made."""
         object.__setattr__(self, "train", self.train.unfolded)
 
     @cached_property
     def sized(self) -> GearTrain:
-        """The train with the modules and the play asked for."""
+        """Train with the requested modules and backlash."""
         return sized(self.train, self._laid, with_backlash(self.train, self._laid, self.making))
 
     @cached_property
     def layout(self) -> Layout:
-        """Places of axes and wheels, at the sizes asked for, with room for plates."""
+        """Places of axes and wheels, at the requested sizes, with space for plates."""
         return self._spread if self.plan is None else self.plan.layout
 
     @cached_property
     def process(self) -> Process:
-        """How it is made."""
+        """Manufacturing process."""
         return process_named(self.making.process)
 
     @cached_property
     def plan(self) -> FramePlan | None:
-        """Where plates and arbors stand; None where no axis stands on the frame, or arbors are not wanted."""
+        """Places of plates and arbors; None if the frame carries no axis, or arbors are not requested."""
         stack = FrameStack(self.sized, self._spread, self._toothed.wheels, self.making.bore)
+        # a bore of 0 requests wheels without arbors and plates
         if self.making.bore == 0 or stack.normal is None:
             return None
         stack = stack.with_head_room()
         ends = {link: (each.low, each.high) for link, each in read_geometry(self.sized).dial_ends.items()}
+        # declared dials take precedence over the shafts of a reducer
         ends = {**stack.ends, **ends}
         return FramePlan(stack, self.process, self.making.thickness or _SHEET, self.making.bore, ends)
 
     @cached_property
     def frame(self) -> FramePlates | None:
-        """Plates, arbors and pillars, and brackets on the plates; None where there is no plan."""
+        """Plates, arbors and pillars, and brackets on the plates; None without a plan."""
         if self.plan is None:
             return None
         mortises = {side: [each.mortise for each in self.brackets if each.side == side] for side in ("back", "front")}
@@ -112,7 +114,7 @@ class SolidModel(Shown):
 
     @cached_property
     def hanging(self) -> HangingParts | None:
-        """The pendulum and the weight, and what bears them; None where there is no plan."""
+        """Pendulum and weight, and their supports; None without a plan."""
         if self.plan is None:
             return None
         crank = self.scene.crank
@@ -121,26 +123,26 @@ class SolidModel(Shown):
 
     @cached_property
     def brackets(self) -> tuple[Bracket, ...]:
-        """What bears arbors across the plates."""
+        """Brackets of arbors that are parallel to the plates."""
         return () if self.plan is None else find_brackets(self.scene, self.plan, bores(self.layout, self.making))
 
     @cached_property
     def cages(self) -> tuple[Cage, ...]:
-        """What bears axes that carriers carry round at an angle to their own."""
+        """Cages of axes that are carried at an angle to the axis of their carrier."""
         return () if self.plan is None else find_cages(self.scene, self.plan, bores(self.layout, self.making))
 
     @cached_property
     def blanks(self) -> Blanks:
-        """Flat shapes of the wheels, with holes for arbors, and for what else they bear."""
+        """Flat shapes of the wheels, with holes for arbors, and for other parts that they bear."""
         holes = self.bores_of_wheels
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
             others = self._own_holes(name)
-            wheels[name], told = bored(with_seats(blank, self.process.press), holes.get(name, 0.0), others)
-            notices += told
+            wheels[name], problems = bored(with_seats(blank, self.process.press), holes.get(name, 0.0), others)
+            notices += problems
             if self.making.arms is not None:
-                wheels[name], told = crossed_out(wheels[name], self.making.arms)
-                notices += told
+                wheels[name], problems = crossed_out(wheels[name], self.making.arms)
+                notices += problems
         return replace(self._toothed, wheels=wheels, notices=tuple(notices))
 
     @cached_property
@@ -151,7 +153,7 @@ class SolidModel(Shown):
         return found if self.plan is None else found | self.plan.bores
 
     def _own_holes(self, name: str) -> list[Contour]:
-        """Holes in a wheel for studs, posts and pins, and its slots, in its own coordinates."""
+        """Return holes in a wheel for studs, posts and pins, and its slots, in its own coordinates."""
         wheel = next(wheel for wheel in self.scene.wheels if wheel.id == name)
         turn, place = wheel_frame(wheel)
         found = []
@@ -184,13 +186,13 @@ class SolidModel(Shown):
 
     @cached_property
     def dials(self) -> list[DialPlate]:
-        """Plates of dials; none without plates of the frame."""
+        """Plates of dials; empty without plates of the frame."""
         thickness = self.making.thickness or THICKNESS
         return [] if self.plan is None else dial_plates(self.scene, self.plan, thickness)
 
     @cached_property
     def _spread(self) -> Layout:
-        """Places before there are plates."""
+        """Places before plates are inserted."""
         laid = self._laid if self.sized is self.train else lay_out(self.sized)
         return thick(self.sized.declaration, laid, self.making)
 
@@ -200,7 +202,7 @@ class SolidModel(Shown):
 
     @cached_property
     def scene(self) -> Scene:
-        """How it moves."""
+        """Scene with the motion of the train."""
         return make_scene(self.sized, self.state, self.layout)
 
     @cached_property
@@ -210,7 +212,7 @@ class SolidModel(Shown):
 
     @cached_property
     def structure(self) -> tuple[SolidPart, ...]:
-        """What holds the wheels: arbors, pipes, studs, plates, pillars, dials, pins and slots."""
+        """Structural parts: arbors, pipes, studs, plates, pillars, dials, pins and slots."""
         return tuple(_Parts(self).structure())
 
     @cached_property
@@ -244,7 +246,7 @@ class _Parts:
                 yield from hanging_solids(each, hanging.frame)
 
     def wheel(self, wheel: SceneWheel) -> SolidPart:
-        """By its flat shape where it has one."""
+        """Return the solid of a wheel, from its flat shape if it has one."""
         turn, place = wheel_frame(wheel)
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
@@ -256,7 +258,7 @@ class _Parts:
         return replace(flat, drawn=wheel_solid(blank))
 
     def rods(self) -> Iterator[SolidPart]:
-        """An arbor without bearings for every body whose axis no plate bears, from its lowest wheel to the highest."""
+        """Yield an arbor without bearings, as long as its wheels require, for every body whose axis no plate bears."""
         frame, radii = self.work.frame, bores(self.work.layout, self.work.making)
         borne = set[str]()
         if frame is not None:
@@ -281,14 +283,14 @@ class _Parts:
         return wheel.span if blank is None else (-blank.thickness / 2, blank.thickness / 2)
 
     def turned(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Arbors, pipes, studs, collars, pillars and posts."""
+        """Yield arbors, pipes, studs, collars, pillars and posts."""
         for part in frame.turned():
             body = self.bodies[part.link]
             turn, place = frame.plan.stack.turn, np.array(frame.plan.stack.in_space(part.at))
             yield SolidPart(body, part.name, part.kind, turn, place, turned=part)
 
     def plates(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Plates of the frame and those that turn, and eccentrics."""
+        """Yield plates of the frame, turning plates and eccentrics."""
         eccentrics = {each.name for each in frame.plan.stack.eccentrics}
         for plate in frame.plates():
             height = (plate.low + plate.high) / 2
@@ -299,7 +301,7 @@ class _Parts:
             yield SolidPart(body, plate.name, kind, turn, place, "", cut, thickness)
 
     def dials(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Plates of dials, which the frame holds."""
+        """Yield plates of dials, which are fixed to the frame."""
         body, turn = self.bodies[frame.plan.stack.frame], frame.plan.stack.turn
         for dial in self.work.dials:
             thickness, place = dial.high - dial.low, frame.plan.stack.in_space(dial.at, (dial.low + dial.high) / 2)

@@ -1,4 +1,4 @@
-"""One solid part of a train, and where it stands in the zero pose."""
+"""One solid part of a train, and its place in the zero pose."""
 
 from __future__ import annotations
 
@@ -21,50 +21,53 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SolidPart(Shown):
-    """One solid of a body: a point p of it stands at turn p + place.
+    """One solid of a body. Its point p is placed at turn p + place.
 
     See Also
     --------
-    SolidModel : gives it, in `parts`.
+    SolidModel : contains it in `parts`.
     """
 
     body: int
     """Index of its body in the scene."""
     name: str
-    """Of the wheel, or what it belongs to."""
+    """Name of the wheel or part."""
     kind: str
-    """Wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock, pin,
-    rod, bob or weight."""
+    """Kind of part.
+
+    It is one of wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock,
+    pin, rod, bob or weight.
+    """
     turn: Floats
-    """Rotation that puts it into the zero pose."""
+    """Rotation matrix into the zero pose. Shape (3, 3)."""
     place: Floats
-    """Shift that puts it into the zero pose [mm]."""
+    """Translation into the zero pose [mm]."""
     status: str = ""
-    """Of a wheel as declared: surviving, reconstructed, ..."""
+    """Declared status of a wheel: surviving, reconstructed, ..."""
     contours: tuple[Contour, ...] = ()
-    """Its flat shape, from which the solid is made; empty where it has none."""
+    """Flat shape from which the solid is made; empty if it has none."""
     height: float = 0.0
-    """Thickness over the flat shape [mm]."""
+    """Thickness of the flat shape [mm]."""
     turned: TurnedPart | None = None
-    """What it is turned to, about its own z, if it is a body of revolution."""
+    """Turned part about its own z, if it is a body of revolution."""
     drawn: Solid | None = None
-    """Its surface where that follows from neither of these: helical teeth, and likenesses."""
+    """Surface, if it follows from neither of these: helical teeth, and approximate wheels."""
 
     @cached_property
     def solid(self) -> Solid:
-        """A closed surface of triangles about its own origin (mm), made when it is first asked for."""
+        """Closed surface of triangles about its own origin (mm), computed at first use."""
         if self.drawn is not None:
             return self.drawn
         return plate_solid(self.contours, self.height) if self.turned is None else self.turned.solid()
 
     @property
     def placed(self) -> Solid:
-        """The solid where it stands."""
+        """Solid in the zero pose."""
         return self.solid.moved(self.turn, self.place.tolist())
 
 
 def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
-    """Axes of a wheel's own coordinates as columns, x through its first tooth, and its middle (mm)."""
+    """Return the axes of a wheel's own coordinates as columns, x through its first tooth, and its centre (mm)."""
     along, reference = np.array(wheel.direction), np.array(wheel.reference)
     across = np.cross(along, reference)
     x = cos(wheel.turn) * reference + sin(wheel.turn) * across

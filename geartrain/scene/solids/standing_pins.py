@@ -1,8 +1,8 @@
-"""Pins, slots and bars: cut into wheels, standing in plates, or parts of their own.
+"""Pins, slots and bars, cut into wheels, fixed in plates, or as separate parts.
 
 A wheel whose root circle extends beyond the pin bears the pin; one that covers the whole path of the pin has the slot.
-Otherwise the slot is in a bar of its own. Plates bear the pins of rings of pins, and those that work in holes of a
-disc. A bar beside an axis joins an arm to its link; it stands on the widest of its wheels.
+Otherwise the slot is in a separate bar. Plates bear the pins of rings of pins, and those that work in holes of a disc.
+An eccentric bar connects an arm to its link; it is fixed in the widest of its wheels.
 """
 
 from __future__ import annotations
@@ -38,13 +38,16 @@ if TYPE_CHECKING:
 
 
 WIDE = 0.55
-"""Half the width of a slot over the diameter of its pin."""
-_WEB = 0.6  # mm of a wheel that stay round a pin and round a slot, at least
+"""Half the width of a slot relative to the diameter of its pin."""
+_WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """A pin in one wheel, and its slot in another; None where no wheel bears the pins of round holes."""
+    """A pin in one wheel, and its slot in another.
+
+    The pin's wheel is None if no wheel carries the pins of round holes.
+    """
 
     coupling: SceneCoupling
     pin: SceneWheel | None
@@ -52,13 +55,13 @@ class CutCoupling:
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Couplings that find their place in two flat wheels, by name; `bores` are diameters of holes for arbors (mm)."""
+    """Return couplings that fit into two flat wheels, by name; `bores` are diameters of holes for arbors (mm)."""
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
         far = coupling.hole / 2 if coupling.hole else e + half
-        pins = _roomy(scene, coupling.pin, blanks, bores, (r - half, r + half))
-        slots = _roomy(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
+        pins = _wide_wheels(scene, coupling.pin, blanks, bores, (r - half, r + half))
+        slots = _wide_wheels(scene, coupling.slot, blanks, bores, (abs(r - far), r + far))
         if coupling.drawn and slots and not pins and coupling.hole:
             found[coupling.id] = CutCoupling(coupling, None, slots[0])
         elif coupling.drawn and pins and slots:
@@ -71,14 +74,14 @@ def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str,
 
 
 def pin_width(coupling: SceneCoupling) -> float:
-    """Diameter of its pins (mm)."""
+    """Return the diameter of the pins of a coupling (mm)."""
     return coupling.pin_diameter or pin_diameter(coupling.pin_radius)
 
 
-def _roomy(
+def _wide_wheels(
     scene: Scene, body: int, blanks: Mapping[str, Blank], bores: Mapping[str, float], reach: tuple[float, float]
 ) -> list[SceneWheel]:
-    """Flat wheels of a body with material from the one radius to the other (mm)."""
+    """Return flat wheels of a body with material from one radius to another (mm)."""
     low, high = reach
     return [
         wheel
@@ -96,18 +99,18 @@ def _apart(one: SceneWheel, other: SceneWheel, along: Floats) -> float:
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """The bar that has the slot: where nobody declares the sizes, a hole in which the pin goes round evenly."""
+    """Return the bar with the slot; without declared sizes, with a round hole in which the pin moves uniformly."""
     shape = slotted_bar if coupling.drawn else holed_bar
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
 
 def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
-    """In a bar of its own: from the slot's axis to the middle of its outer end, and half the bar's width (mm)."""
+    """Return the distance from the slot's axis to the centre of the bar's outer end, and half the bar's width (mm)."""
     return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
 
 
 def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
-    """Along the slot from its axis outwards, across it, and along the axis: columns, in the zero pose."""
+    """Return unit vectors along the slot outwards, across it, and along the axis, as columns in the zero pose."""
     along = np.array(scene.bodies[coupling.slot].direction)
     out = np.subtract(coupling.pin_at, coupling.slot_at)
     x = out / np.linalg.norm(out)
@@ -116,14 +119,14 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def pin_axis(scene: Scene, coupling: SceneCoupling) -> tuple[Floats, Floats]:
-    """Across and along a pin as columns, and its axis at height 0."""
+    """Return unit vectors across and along a pin as columns, and the point of its axis at height 0."""
     direction = scene.bodies[coupling.slot].direction
     along, at = np.array(direction), np.array(coupling.pin_at)
     return np.column_stack([*basis(direction), along]), at - along * (at @ along)
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """What a wheel, whose own axes are `turn` at `place`, has cut out for a pin and for a slot."""
+    """Return the holes of a wheel for a pin and for a slot, in its own axes `turn` at `place`."""
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if cut.pin is not None and wheel == cut.pin.id:
@@ -150,27 +153,27 @@ def _flat(point: object, turn: Floats, place: Floats) -> tuple[float, float]:
 
 # --------------------------------------------------------------------------------------------------------------- solids
 
-_GAP = 1.0  # mm between a plate and what turns before it
+_GAP = 1.0  # mm between a plate and the next turning part
 
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """All of a scene that no plate bears; pins that stand in plates are parts of these."""
+    """Parts of all couplings of a scene; pins fixed in plates are parts of these."""
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
     """Couplings that are cut into wheels."""
     wheels: Mapping[str, Blank]
-    """Flat shapes by name."""
+    """Flat shapes of wheels by name."""
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
+        """Yield pins, from their wheel to the slot's, and bars for slots that are in no wheel."""
         for coupling in self.scene.couplings:
             turn, axis = pin_axis(self.scene, coupling)
             along, cut = turn[:, 2], self.cut.get(coupling.id)
             if coupling.hole and (cut is None or cut.pin is None):
-                continue  # no wheel bears such pins
+                continue  # no wheel carries such pins
             if cut is None or cut.pin is None:
                 height = float(coupling.pin_at @ along)
                 levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
@@ -189,14 +192,14 @@ class CouplingParts:
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """From the far face of the pin's wheel to that of the slot's."""
+        """Return the interval from the far face of the pin's wheel to that of the slot's."""
         ends = [
             float(wheel.centre @ along) + side * self._thick(wheel) / 2 for wheel in (pin, slot) for side in (-1, 1)
         ]
         return min(ends), max(ends)
 
     def _pin_arm(self, coupling: SceneCoupling, turn: Floats, level: float) -> SolidPart:
-        """From the axis of the pin's link out to the pin."""
+        """Return an arm from the axis of the pin's link to the pin."""
         body = self.scene.bodies[coupling.pin]
         along, pin = turn[:, 2], np.array(coupling.pin_at)
         hub = np.array(body.point) + along * (level - float(np.array(body.point) @ along))
@@ -214,7 +217,7 @@ class CouplingParts:
         return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", slot_bar(coupling), _GAP)
 
     def _level(self, body: int, height: float, along: Floats) -> float:
-        """The face, nearest to a height, of the wheels of a body."""
+        """Return the face of the wheels of a body that is nearest to a height."""
         own = [wheel for wheel in self.scene.wheels if wheel.body == body]
         faces = [
             float(np.array(wheel.centre) @ along) + side * (self._thick(wheel) + _GAP) / 2
@@ -231,11 +234,11 @@ class CouplingParts:
 # ------------------------------------------------------------------------------------------------------- pins in plates
 
 
-_CHORDS = 13  # of half a seat
+_CHORDS = 13  # points of half a seat
 
 
 def standing_pins(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
-    """All of a train, in the coordinates of its stack."""
+    """Yield all pins in plates of a train, in the coordinates of its stack."""
     wheels = {wheel.id: wheel for wheel in scene.wheels}
     for name, blank in plan.stack.blanks.items():
         if blank.kind == "ring" and blank.pins is not None and any(disc.name == name for disc in plan.discs):
@@ -246,7 +249,7 @@ def standing_pins(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
         link = scene.bodies[coupling.pin].id
         if coupling.id not in seats or link in done:
             continue
-        done.add(link)  # pins of one link go through all discs that it has pins for
+        done.add(link)  # pins of one link pass through all its discs
         bodies = {each.slot for each in scene.couplings if each.id in seats and each.pin == coupling.pin}
         slots = [wheel for wheel in scene.wheels if wheel.body in bodies]
         if slots:
@@ -271,13 +274,13 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """The scene with rings as they are without their pins, which are parts: teeth stand between two seats."""
+    """Return the scene with rings without their pins, which are separate parts: a tooth is between two seats."""
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)
         if blank is not None and blank.pins is not None:
             form = profiles[wheel.profile].form
-            points = _land(blank)
+            points = _tooth_between_seats(blank)
             radii = [blank.pitch_radius * radius for radius, _ in points]
             wheels[at] = replace(
                 wheel,
@@ -290,10 +293,10 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
     return replace(scene, wheels=tuple(wheels), profiles=tuple(profiles))
 
 
-def _land(blank: Blank) -> tuple[tuple[float, float], ...]:
-    """What a ring has between the middles of two seats, radius over its pitch radius and angle."""
+def _tooth_between_seats(blank: Blank) -> tuple[tuple[float, float], ...]:
+    """Return the profile of a ring between the middles of two seats, as relative radius and angle."""
     assert blank.pins is not None
-    x, y = (float(part) for part in blank.contours[1].points[0])  # on the circle inside, where the first seat begins
+    x, y = (float(part) for part in blank.contours[1].points[0])  # on the inner circle, at the start of the first seat
     R, half, pitch = blank.pins.circle * blank.module, pi / blank.teeth, blank.pitch_radius
     inside = float(np.hypot(x, y)) / pitch
     if blank.contours[1].is_circle:
@@ -306,15 +309,15 @@ def _land(blank: Blank) -> tuple[tuple[float, float], ...]:
 
 # ----------------------------------------------------------------------------------------------------------------- bars
 
-_RADIUS = 1.5  # mm: of a bar
-_EDGE = 1.0  # mm of the wheel round its end
-_WAYS, _STEP = 120, 1.0  # directions in which a bar is tried, and by how much farther in each time (mm)
-_ENOUGH = 1.0  # mm: more room than that is not looked for
-_PARTS = 8  # of a swing, at which a bar with a slot is looked at
+_RADIUS = 1.5  # mm: radius of a bar
+_EDGE = 1.0  # mm: width of the wheel round its end
+_WAYS, _STEP = 120, 1.0  # directions of candidate places of a bar, and radial step (mm)
+_ENOUGH = 1.0  # mm: sufficient clearance, at which the search ends
+_PARTS = 8  # samples of half a swing of a bar with a slot
 
 
 def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
-    """All of a plan, in the coordinates of its stack."""
+    """Yield all eccentric bars of a plan, in the coordinates of its stack."""
     discs = {disc.name: disc for disc in plan.discs}
     for plate in plan.turning:
         if plate.disc.apart:
@@ -325,42 +328,42 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """The farthest out with enough room, as one sees it who turns with wheel and arm; else that with the most."""
+    """Return the outermost place with sufficient clearance relative to wheel and arm, else the clearest place."""
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]
     slots = [circle for each in scene.couplings for circle in _swept(scene, plan, each, wheel)]
 
-    def room(at: Point) -> float:
-        near = min((disc.room_for(at, _RADIUS) for disc in seen), default=_ENOUGH)
+    def clearance(at: Point) -> float:
+        near = min((disc.clearance_to(at, _RADIUS) for disc in seen), default=_ENOUGH)
         return min(near, clear_of(at, [*rods, *slots]) - _RADIUS, _ENOUGH)
 
     best, minimum = wheel.at, -wheel.root
     away = wheel.root - _RADIUS - _EDGE
     while away > 0 and minimum < _ENOUGH - APART:
-        at = max(_round(wheel.at, away), key=room)
-        if room(at) > minimum:
-            best, minimum = at, room(at)
+        at = max(_round(wheel.at, away), key=clearance)
+        if clearance(at) > minimum:
+            best, minimum = at, clearance(at)
         away -= _STEP
     return best
 
 
 def _round(centre: Point, radius: float) -> Iterator[Point]:
-    """Points on a circle."""
+    """Yield equally spaced points on a circle."""
     for way in range(_WAYS):
         turn = 2 * pi * way / _WAYS
         yield centre[0] + radius * cos(turn), centre[1] + radius * sin(turn)
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Circles that hold the bar with a slot wherever its pin takes it, as the carrier of both sees it."""
+    """Yield circles that contain the bar with a slot at all positions of its pin, relative to the carrier of both."""
     if scene.bodies[coupling.carrier].id != wheel.link:
         return
     stack = plan.stack
     (x, y), pin = stack.flat(coupling.slot_at), stack.flat(scene.bodies[coupling.pin].point)
     far, wide = slot_reach(coupling)
     r, e = coupling.pin_radius, hypot(pin[0] - x, pin[1] - y)
-    if r >= e:  # it goes round with the pin
+    if r >= e:  # the bar turns with the pin
         yield (x, y), far + wide
         return
     middle, swing = atan2(pin[1] - y, pin[0] - x), asin(r / e)

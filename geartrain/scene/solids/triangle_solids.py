@@ -1,10 +1,10 @@
-"""Closed surfaces of triangles: flat shapes raised along an axis, arbors, wheels.
+"""Closed surfaces of triangles: extruded flat shapes, arbors, wheels.
 
-A polygon with holes is filled by ear clipping, its holes first joined to the outside by bridges (Eberly, "Triangulation
-by ear clipping"). A corner is an ear if it is convex and no other point lies in its triangle; every polygon has one
-(Meisters 1975). The fattest ear is cut off first, to avoid slivers.
+A polygon with holes is triangulated by ear clipping, its holes first joined to the outside by bridges (Eberly,
+"Triangulation by ear clipping"). A corner is an ear if it is convex and no other point lies in its triangle; every
+polygon has one (Meisters 1975). The ear with the best aspect ratio is cut off first, to avoid slivers.
 
-Wheels whose teeth lie in no plane (bevel wheels, crown wheels, worms) are approximate.
+Wheels without planar teeth (bevel wheels, crown wheels, worms) are approximate.
 """
 
 from __future__ import annotations
@@ -32,34 +32,37 @@ if TYPE_CHECKING:
     Integers = NDArray[np.int64]
     from geartrain.scene.solids.wheel_blanks import Blank
 
-_FLAT = 1e-12  # twice the area (mm2) of a triangle that is none
+_FLAT = 1e-12  # mm2: twice the area below which a triangle is degenerate
 _NEXT = [1, 2, 0]
 
 
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
-    """Points (n, 2), those given in their order, and triangles (m, 3) of them, counter-clockwise.
+    """Return points (n, 2), the given ones in their order, and triangles (m, 3) of their indices, counter-clockwise.
 
-    Polygons (k, 2) do not cross themselves or each other, whichever way they go round.
+    Polygons (k, 2) may have either orientation. They must not intersect themselves or each other.
     """
     parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
     points = np.concatenate(parts)
     starts = np.cumsum([0, *map(len, parts)])
     rings = [list(range(start, end)) for start, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
     loop = rings[0]
-    # from the right, and of equal ones from above, so that a bridge meets no hole that is not joined yet
+    # from the right, ties from the top, so that a bridge does not cross a hole that is not joined yet
     for ring in sorted(rings[1:], key=lambda ring: max(map(tuple, points[ring].tolist())), reverse=True):
         loop = _bridged(points, loop, ring)
     return points, np.array(_ears(points, loop), dtype=np.int64).reshape(-1, 3)
 
 
 def area(polygon: Floats) -> float:
-    """Signed area, positive counter-clockwise."""
+    """Return the signed area, positive for a counter-clockwise polygon."""
     x, y = polygon.T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """The loop with a hole joined to it: from the hole's rightmost point to the nearest one it sees on its right."""
+    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible one.
+
+    Only points to the right of the hole are considered.
+    """
     at = int(np.lexsort(points[hole].T[::-1])[-1])
     hole = hole[at:] + hole[:at]
     start = points[hole[0]]
@@ -72,24 +75,24 @@ def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
         cross = (_turn(start, end, a) * _turn(start, end, b) <= 0) & (_turn(a, b, start) * _turn(a, b, end) <= 0)
         if not (cross & away).any():
             return [*loop[: k + 1], *hole, hole[0], *loop[k:]]
-    raise ValueError("a hole does not lie inside its polygon")
+    raise ValueError("a hole is not inside its polygon")
 
 
 def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:
-    """True if the way from vertex k of the loop to a point begins inside."""
+    """Return whether the segment from vertex k of the loop to a point starts inside."""
     before, here, after = points[loop[k - 1]], points[loop[k]], points[loop[(k + 1) % len(loop)]]
     left, right = _turn(here, after, to) > 0, _turn(before, here, to) > 0
     return bool(left and right if _turn(before, here, after) > 0 else left or right)
 
 
 def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Twice the signed area of the triangle a b c; of any shapes that go together."""
+    """Return twice the signed area of the triangle a b c; arguments are broadcast."""
     turn: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
     return turn
 
 
 def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
-    """Ear clipping: the fattest ear is cut off first."""
+    """Return triangles by ear clipping, the ear with the best aspect ratio first."""
     corners = _Corners(points[loop])
     found: list[tuple[int, int, int]] = []
     while len(corners.left) > 3:
@@ -102,7 +105,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """The corners that are left of a polygon. A cut changes two of them, and all others keep their place in a heap."""
+    """Remaining corners of a polygon. A cut changes two of them; all others keep their place in a heap."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -110,18 +113,18 @@ class _Corners:
         self.points = [(x, y) for x, y in corners.tolist()]
         self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
         self.turn, self.fatness = [0.0] * count, [0.0] * count
-        self.blocker = [-1] * count  # a corner that was found in the triangle of each; -1: none yet
+        self.blocker = [-1] * count  # a corner known to be in the triangle of each; -1 if unknown
         for at in range(count):
             self._measure(at)
         self.heap = [(-fat, at) for at, fat in enumerate(self.fatness)]
         heapify(self.heap)
 
     def find_ear(self) -> int:
-        """A corner that can be cut off: convex, no other point in it; the fattest first."""
+        """Return the ear with the best aspect ratio, else the flattest corner."""
         passed, ear = [], -1
         while self.heap:
             fat, at = heappop(self.heap)
-            if -fat != self.fatness[at]:  # it was cut off, or its shape has changed since
+            if -fat != self.fatness[at]:  # an outdated entry: cut off, or with changed neighbours
                 continue
             if self.turn[at] > _FLAT and self._empty(at):
                 ear = at
@@ -131,17 +134,17 @@ class _Corners:
                 break
         for each in passed:
             heappush(self.heap, each)
-        # without an ear nothing but flat corners is left
+        # without an ear only flat corners are left
         return ear if ear >= 0 else min(self.left.tolist(), key=lambda at: abs(self.turn[at]))
 
     def _empty(self, at: int) -> bool:
-        """True if no point but its own lies in the triangle of a convex corner."""
+        """Return whether no other point lies in the triangle of a convex corner."""
         blocker = self.blocker[at]
-        if blocker >= 0 and not isnan(self.fatness[blocker]):  # it is left
+        if blocker >= 0 and not isnan(self.fatness[blocker]):  # not cut off yet
             return False
         here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
         (ax, ay), (x, y) = own.T[..., None], here.T
-        side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # of each edge, (3, n)
+        side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)
         within = np.flatnonzero(side.min(axis=0) >= 0)
         if len(within) == 3:
             return True
@@ -151,7 +154,7 @@ class _Corners:
         return not len(others)
 
     def cut(self, at: int) -> None:
-        """Cut a corner off."""
+        """Cut off a corner and update its neighbours."""
         a, c = self.before[at], self.after[at]
         self.left = np.delete(self.left, np.searchsorted(self.left, at))
         self.after[a], self.before[c], self.fatness[at] = c, a, nan
@@ -160,7 +163,7 @@ class _Corners:
             heappush(self.heap, (-self.fatness[k], k))
 
     def _measure(self, at: int) -> None:
-        """Twice the signed area of the triangle of a corner, and that over the square of its greatest length."""
+        """Update twice the signed area of the triangle of a corner, and its ratio to the square of the longest side."""
         (ax, ay), (bx, by), (cx, cy) = (self.points[k] for k in (self.before[at], at, self.after[at]))
         turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         first, second = (bx - ax) * (bx - ax) + (by - ay) * (by - ay), (cx - bx) * (cx - bx) + (cy - by) * (cy - by)
@@ -171,11 +174,11 @@ class _Corners:
 # --------------------------------------------------------------------------------------------- raised and turned shapes
 
 
-FINE = 0.02  # mm, how far the chords of a solid may leave a curve
-_SAME = 7  # decimals of a mm to which points are one
+FINE = 0.02  # mm: tolerance of chords of a solid
+_SAME = 7  # decimals (mm) to which points are merged
 SIDES = 96
-"""Of what is turned, and of round holes: chords leave a radius of 4 mm by 2 um."""
-_SLICE = 0.1  # rad: by how much helical teeth turn from one layer to the next
+"""Number of sides of turned parts and round holes: at a radius of 4 mm chords deviate by 2 um."""
+_SLICE = 0.1  # rad: maximum rotation of helical teeth between layers
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,12 +189,12 @@ class Solid:
     faces: Integers
 
     def moved(self, turn: Floats, by: Sequence[float]) -> Solid:
-        """Turned by a matrix (3, 3), then moved."""
+        """Return the solid rotated by a matrix (3, 3), then translated."""
         return Solid(self.vertices @ turn.T + np.asarray(by), self.faces)
 
 
 def joined(solids: Iterable[Solid]) -> Solid:
-    """Several surfaces as one list of triangles."""
+    """Return several surfaces as one list of triangles."""
     parts = list(solids)
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     return Solid(
@@ -201,14 +204,14 @@ def joined(solids: Iterable[Solid]) -> Solid:
 
 
 def welded(solid: Solid) -> Solid:
-    """With points that coincide as one, and without the triangles that have no area then."""
+    """Return the solid with coincident points merged, and without the triangles that become degenerate."""
     _, first, index = np.unique(solid.vertices.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = np.asarray(index).reshape(-1)[solid.faces]
     return Solid(solid.vertices[first], faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
 
 
 def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
-    """A wheel from its flat shape, its middle at the origin. One pitch is filled and repeated where teeth allow."""
+    """Return a wheel from its flat shape, centred at the origin. One pitch is triangulated and repeated if possible."""
     contours = blank.contours
     ring = blank.kind == "ring"
     teeth = contours[1 if ring else 0]
@@ -224,20 +227,20 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
 
 
 def _open(contour: Contour, count: int, tolerance: float) -> Floats:
-    """The first vertices of a contour, its arcs between them as chords."""
+    """Return the first `count` vertices of a contour as a polyline, with chords for its arcs."""
     bulges = np.append(contour.bulges[: count - 1], 0.0)
     return Contour(contour.points[:count], bulges).flattened(tolerance)
 
 
 def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
-    """A flat part with holes, its middle plane at z = 0."""
+    """Return a flat part with holes, its middle plane at z = 0."""
     outer, *others = contours
     holes = [round_about(each) if each.is_circle else each.flattened(tolerance) for each in others]
     return raised(*fill(outer.flattened(tolerance), holes), thickness)
 
 
 def round_about(circle: Contour) -> Floats:
-    """A polygon round a circle, so that what has the size of the hole still stands in it."""
+    """Return a polygon circumscribed about a circle, so that a part with the size of the hole fits into it."""
     centre = circle.points.mean(axis=0)
     radius = float(abs(circle.points[0] - centre).max()) / np.cos(pi / SIDES)
     turn = 2 * pi * np.arange(SIDES) / SIDES
@@ -245,14 +248,14 @@ def round_about(circle: Contour) -> Floats:
 
 
 def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
-    """A flat shape (n, 2) raised half the thickness to either side; walls stand on edges that have one triangle."""
+    """Return a flat shape (n, 2) extruded by half the thickness to either side, with walls on its boundary edges."""
     return piled(
         [np.column_stack([points, np.full(len(points), z)]) for z in (-thickness / 2, thickness / 2)], triangles
     )
 
 
 def twisted(points: Floats, triangles: Integers, thickness: float, twist: float) -> Solid:
-    """A flat shape (n, 2) raised half the thickness to either side, its upper face turned by `twist` (rad)."""
+    """Return a flat shape (n, 2) extruded by half the thickness to either side, with a `twist` of the top (rad)."""
     x, y = points.T
     layers = []
     for height in np.linspace(-0.5, 0.5, 1 + max(1, ceil(abs(twist) / _SLICE))).tolist():
@@ -262,7 +265,7 @@ def twisted(points: Floats, triangles: Integers, thickness: float, twist: float)
 
 
 def piled(layers: Sequence[Floats], triangles: Integers) -> Solid:
-    """The solid through several copies (n, 3) of one flat shape, from the lowest to the highest."""
+    """Return the solid through several copies (n, 3) of one flat shape, from the lowest to the highest."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     known = {(a, b) for a, b in edges.tolist()}
     rim = np.array([(a, b) for a, b in edges.tolist() if (b, a) not in known], dtype=np.int64)
@@ -273,26 +276,26 @@ def piled(layers: Sequence[Floats], triangles: Integers) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """One tooth with its part of the web, from the first point's radius to the last one's."""
+    """Return the polygon of one tooth with its sector of the web, closed along the bore or at the centre."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
     sweep = 2 * pi / teeth
-    # -1: a tolerance beyond the diameter asks for no more than one chord
+    # -1: a tolerance larger than the diameter requires only one chord
     steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))), ceil(SIDES / teeth))
-    radius = radius / float(np.cos(sweep / steps / 2))  # round the bore, as in `round_about`
+    radius = radius / float(np.cos(sweep / steps / 2))  # circumscribed about the bore, as in `round_about`
     turn = last - sweep * np.arange(steps + 1) / steps
     assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6
     return np.concatenate([tooth, radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)])
 
 
 def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, Integers]:
-    """The same triangles in every pitch, points that meet made one."""
+    """Return the triangles repeated in every pitch, with coincident points merged."""
     turn = 2 * pi * np.arange(times)[:, None] / times
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T
     every = np.stack([c * x - s * y, s * x + c * y], axis=-1).reshape(-1, 2)
-    # rounded only to be compared: last digits of a point seen from two pitches differ; + 0.0 makes -0.0 the same as 0.0
+    # rounded only for the comparison, because pitches differ in the last digits; + 0.0 turns -0.0 into 0.0
     _, first, index = np.unique(every.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = (triangles + len(points) * np.arange(times)[:, None, None]).reshape(-1, 3)
     return every[first], np.asarray(index).reshape(-1)[faces]
@@ -301,15 +304,15 @@ def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, 
 # ------------------------------------------------------------------------------------------------ bevels, crowns, worms
 
 
-_SLICES = 48  # of a worm
-_RIDGE = 0.01  # of a pitch: half of what is left of a crown's tooth that runs out, or its flanks would be one line
-_SIDES = 720  # of a wheel without teeth
+_SLICES = 48  # sections of a worm
+_RIDGE = 0.01  # minimum half width of a crown's tooth in pitches, or its flanks would coincide
+_SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """A wheel of the scene, its pitch circle's middle at the origin, its first tooth towards x, its axis z.
+    """Return an approximate wheel of the scene, centred at the origin, its first tooth along x, its axis along z.
 
-    bore   diameter of the hole in it, unless it is a ring (mm)
+    bore   diameter of its hole, unless it is a ring (mm)
     """
     if wheel.kind == "worm":
         return _worm(wheel, profile, bore)
@@ -320,9 +323,9 @@ def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Radius (mm) and angle of the whole outline; a point where two teeth meet stands once.
+    """Return radius (mm) and angle of the whole outline, without duplicate points between teeth.
 
-    Of a wheel of more teeth than are cut it is the pitch circle.
+    Above the maximum tooth count that is drawn it is the pitch circle.
     """
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
@@ -341,7 +344,7 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
         return fill(rim, [outline])
     if bore:
         return fill(outline, [round_about(Contour.circle(bore / 2))])
-    # every tooth is seen from the middle: a fan
+    # the outline is star-shaped about the centre, so that a fan of triangles fills it
     count = len(outline)
     spokes = np.arange(count)
     fan = np.stack([spokes, (spokes + 1) % count, np.full(count, count)], axis=1)
@@ -349,9 +352,9 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """A bevel or crown wheel: its back, teeth from the wide end to the narrow one, and what is within them.
+    """Return a bevel or crown wheel: its back, its teeth from the wide end to the narrow one, and the disc within them.
 
-    Rows of points, from the bore at the back round the outside to the bore before it.
+    The surface has rows of points, from the bore at the back round the outside to the bore at the front.
     """
     radius, cone, thickness = wheel.radius, wheel.cone, wheel.thickness
     r, turn = _polar(wheel, profile)
@@ -366,23 +369,23 @@ def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
     back[:, 2] = behind
     rows = [_at_bore(back, bore), back, *rows, _at_bore(rows[-1], bore)]
     toothed = _revolved(rows, closed=bore > 0)
-    if wheel.facing < 0:  # the apex lies up its axis
+    if wheel.facing < 0:  # the apex is on the positive side of its axis
         return toothed
     return Solid(toothed.vertices * (1.0, 1.0, -1.0), toothed.faces[:, ::-1])
 
 
 def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
-    """Points (n, 3) of its outline on its back cone, or as much nearer the apex as `scale` says, the apex upwards."""
+    """Return points (n, 3) of its outline on its back cone, scaled towards the apex, with the apex upwards."""
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
     if wheel.cone > CROWN:
-        turn = _aslant(wheel, turn, scale)
+        turn = _flank_angles(wheel, turn, scale)
     z = height_on_cone(wheel.cone, wheel.radius, 0.0, scale) + depth * np.sin(wheel.cone) * scale
     return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
 
 
-def _aslant(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Angles at which a crown's flanks stand: what runs in its spaces is as wide further in, and comes aslant."""
+def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
+    """Return the angles of a crown's flanks at a radius, for mates of uniform tooth width that pass obliquely."""
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
     angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
@@ -391,16 +394,19 @@ def _aslant(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
 
 
 def _at_bore(row: Floats, bore: float) -> Floats:
-    """A row drawn in to the bore, or to one point where there is none."""
+    """Return a row contracted to the bore, or to one point if there is none."""
     angle = np.arctan2(row[:, 1], row[:, 0])
     if not bore:
         return np.array([[0.0, 0.0, row[:, 2].mean()]])
-    r = bore / 2 / np.cos(pi / len(row))  # round it, as other holes
+    r = bore / 2 / np.cos(pi / len(row))  # circumscribed, as for other holes
     return np.column_stack([r * np.cos(angle), r * np.sin(angle), row[:, 2]])
 
 
 def _revolved(rows: list[Floats], *, closed: bool) -> Solid:
-    """The surface through rows of points, each counter-clockwise; through the bore too, or with a point at each end."""
+    """Return the surface through rows of points, each counter-clockwise.
+
+    It is closed through the bore, or by a point at each end.
+    """
     count, starts = len(rows[1]), np.cumsum([0, *map(len, rows)])
     here, after = np.arange(count), (np.arange(count) + 1) % count
     faces = []
@@ -416,7 +422,7 @@ def _revolved(rows: list[Floats], *, closed: bool) -> Solid:
 
 
 def _worm(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """A section with as many lobes as starts, turned on along the axis as its thread winds."""
+    """Return a worm: a section with as many lobes as starts, rotated along the axis by its lead."""
     points, triangles = _section(wheel, profile, bore)
     heights = np.linspace(-0.5, 0.5, _SLICES + 1) * wheel.thickness
     slices = []

@@ -1,6 +1,6 @@
-"""The flat shape of every wheel: its teeth as cut for all its mates, the hole for its arbor, and its crossings-out.
+"""Flat shape of every wheel: its teeth as cut for all its mates, the hole for its arbor, and its crossings.
 
-Crossings-out are windows that leave a wheel a rim, arms and a hub, with all inner corners rounded.
+Crossings are windows that leave a rim, spokes and a hub, with all inner corners rounded.
 """
 
 from __future__ import annotations
@@ -28,52 +28,56 @@ if TYPE_CHECKING:
     from geartrain.train import Wheel
 
 RIM, HUB = 2.25, 1.125
-"""Depth of the rim under the roots in modules, and radius of the hub in diameters of the bore, as clockmakers have
-them (rims of 2 to 2.5 modules, hubs of 2 to 2.5 arbors)."""
-_ARM = 1.0  # of the rim: width of an arm
-_WINDOW = 1.0  # of the rim: the least that a window must reach from hub to rim
-_CORNER = 0.5  # of a module: radius of corners, or as a tool needs it
+"""Depth of the rim under the roots in modules, and radius of the hub in diameters of the bore.
+
+Clockmakers use rims of 2 to 2.5 modules, and hubs of 2 to 2.5 diameters of the arbor.
+"""
+_SPOKE = 1.0  # width of a spoke over the depth of the rim
+_WINDOW = 1.0  # minimum radial size of a window over the depth of the rim
+_CORNER = 0.5  # default radius of corners in modules
 
 Point = tuple[float, float]
 
 
-def arm_windows(root: float, module: float, bore: float, arms: int, corner: float | None = None) -> tuple[Contour, ...]:
-    """The windows between the arms of a wheel, one hole each; none where there is no room.
+def spoke_windows(
+    root: float, module: float, bore: float, spokes: int, corner: float | None = None
+) -> tuple[Contour, ...]:
+    """Return the windows between the spokes of a wheel, one hole each; empty if there is not enough space.
 
-    An arm is as wide all along as the rim is deep. A window is bounded by two arms, the rim and the hub.
+    A spoke has a uniform width equal to the depth of the rim. A window is bounded by two spokes, the rim and the hub.
 
     Parameters
     ----------
     root : float
-        Radius of the root circle (mm).
+        Root radius [mm].
     module : float
-        Of the wheel (mm).
+        Module of the wheel [mm].
     bore : float
-        Diameter of the hole for its arbor (mm).
-    arms : int
-        How many, 3 or more; fewer leave the wheel whole.
+        Diameter of the hole for its arbor [mm].
+    spokes : int
+        Number of spokes, 3 or more; fewer give no windows.
     corner : float, optional
-        Radius of inner corners (mm): that of the tool, or more.
+        Radius of inner corners [mm], at least that of the tool.
     """
-    if arms < 3:
+    if spokes < 3:
         return ()
     depth = RIM * module
     corner = _CORNER * module if corner is None else corner
-    # many arms meet in a greater hub
-    meet = (_ARM * depth / 2 + corner) / sin(pi / arms) - corner
+    # many spokes require a larger hub
+    meet = (_SPOKE * depth / 2 + corner) / sin(pi / spokes) - corner
     outer, inner = root - depth, max(HUB * bore, depth, meet)
     if outer - inner < max(_WINDOW * depth, 2 * corner):
         return ()
-    window = _window(outer, inner, _ARM * depth / 2, 2 * pi / arms, corner)
+    window = _window(outer, inner, _SPOKE * depth / 2, 2 * pi / spokes, corner)
     if window is None:
         return ()
-    return tuple(_turned(window, 2 * pi * (at + 0.5) / arms) for at in range(arms))
+    return tuple(_turned(window, 2 * pi * (at + 0.5) / spokes) for at in range(spokes))
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
-    """The window about the x axis, its arms half as wide as `half` says on either side of +-pitch/2; None if too small.
+    """Return the window about the x axis between spokes at +-pitch/2 of half width `half`; None if it is too small.
 
-    Corners are arcs about centres that are `corner` from an arm, and from the rim or the hub.
+    Corners are arcs about centres at the distance `corner` from a spoke, and from the rim or the hub.
     """
     ends = []
     for circle, centre in ((outer, outer - corner), (inner, inner + corner)):
@@ -86,14 +90,14 @@ def _window(outer: float, inner: float, half: float, pitch: float, corner: float
     if min(rim_turn, hub_turn) < -1e-9 or far <= near:
         return None
     upper = [
-        (_at(rim, rim_turn), _at(rim_centre, rim_turn), _beside(far, half, pitch)),
-        (_beside(near, half, pitch), _at(hub_centre, hub_turn), _at(hub, hub_turn)),
+        (_at(rim, rim_turn), _at(rim_centre, rim_turn), _spoke_edge(far, half, pitch)),
+        (_spoke_edge(near, half, pitch), _at(hub_centre, hub_turn), _at(hub, hub_turn)),
     ]
     corners = [*upper, *((_mirrored(c), _mirrored(b), _mirrored(a)) for a, b, c in reversed(upper))]
     vertices = []
     for at, (start, about, end) in enumerate(corners):
         following = corners[(at + 1) % 4][0]
-        round_ = at in (1, 3)  # along the hub, and along the rim; between them straight along an arm
+        round_ = at in (1, 3)  # arcs along the hub and the rim; the other two sides are straight edges of spokes
         bulge = bulge_about(end, following, (0.0, 0.0)) if round_ else 0.0
         vertices += [(*start, bulge_about(start, end, about)), (*end, bulge)]
     return Contour.of(vertices)
@@ -103,8 +107,8 @@ def _at(radius: float, angle: float) -> Point:
     return radius * cos(angle), radius * sin(angle)
 
 
-def _beside(along: float, half: float, pitch: float) -> Point:
-    """A point on the edge of the arm at +pitch/2 that looks at the window."""
+def _spoke_edge(along: float, half: float, pitch: float) -> Point:
+    """Return a point on the edge of the spoke at +pitch/2 that faces the window."""
     c, s = cos(pitch / 2), sin(pitch / 2)
     return along * c + half * s, along * s - half * c
 
@@ -114,7 +118,7 @@ def _mirrored(point: Point) -> Point:
 
 
 def _turned(contour: Contour, angle: float) -> Contour:
-    """The same, turned about the origin; holes turn left as outlines do."""
+    """Return the contour rotated about the origin; holes are counter-clockwise, as outlines are."""
     c, s = cos(angle), sin(angle)
     x, y = contour.points.T
     points = contour.points.copy()
@@ -125,23 +129,23 @@ def _turned(contour: Contour, angle: float) -> Contour:
 # --------------------------------------------------------------------------------------------------------------- blanks
 
 
-_LAND = 0.8  # of the root circle: the widest bore
-_THIN = 0.4  # mm that a wheel has beside its bore at least, if it is more than that
+_LAND = 0.8  # maximum bore over the root diameter
+_THIN = 0.4  # mm: wall between bore and roots that allows a larger bore
 
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """A wheel to cut: its axle at the origin, its first tooth on the x axis; lengths in mm."""
+    """A wheel to cut, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
 
     wheel: str
     link: str
     teeth: int
     kind: str
-    """External, ring or pins."""
+    """Kind of wheel: external, ring or pins."""
     form: str
-    """Of its teeth, in words."""
+    """Description of its tooth form."""
     contours: tuple[Contour, ...]
-    """The outer one first, then holes."""
+    """Contours, the outer one first, then holes."""
     module: float
     pitch_radius: float
     tip_radius: float
@@ -149,32 +153,33 @@ class Blank:
     thickness: float
     bore: float
     helix: float = 0.0
-    """Angle of its teeth from the axis (rad), of a right hand above 0."""
+    """Helix angle of its teeth (rad), positive for a right hand."""
     arms: int = 0
-    """That windows leave; 0 where its web is whole."""
+    """Number of spokes; 0 for a solid web."""
     pins: LanternPins | None = None
-    """Of a ring whose teeth are pins, parts of their own: they lie in its inside (modules)."""
+    """Pins of a ring, which are separate parts in seats on its inside (modules); None for other wheels."""
 
     @property
     def twist(self) -> float:
-        """By how much its upper face is turned against the lower one (rad)."""
+        """Angle of its upper face relative to the lower one (rad)."""
         return self.thickness * tan(self.helix) / self.pitch_radius
 
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Every wheel that can be cut flat, by id, why the others cannot, and the play of every pair that is cut."""
+    """Wheels that can be cut flat, by name, notices on the others, and the backlash of every pair that is cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
-    """Why by wheel; `flat`, the wheels whose teeth stand straight in a plane, cut or not."""
+    """Reasons by wheel why it cannot be cut. `flat` are the wheels with planar teeth parallel to the axis, cut or not.
+    """
     flat: frozenset[str]
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
-    """The flat shapes of all wheels of a train without holes, at the sizes of a layout."""
+    """Return the flat shapes of all wheels of a train without holes, at the sizes of a layout."""
     toothed = find_train_teeth(train.mechanics, layout.wheels, making.backlash, layout.apart)
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
@@ -183,10 +188,10 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
     for name, toothing in toothed.wheels.items():
         wheel, blank = train.declaration.wheels[name][1], _blank(toothing, layout.wheels[name])
         if name not in mated and blank.kind == "external":
-            blank, told = _unmated(toothing, blank)
-            notices.append(told)
+            blank, notice = _without_mates(toothing, blank)
+            notices.append(notice)
         wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
-        notices += _leaning(name, wheel)
+        notices += _helix_notice(name, wheel)
     return Blanks(wheels, tuple(notices), toothed.backlashes, toothed.problems, toothed.flat)
 
 
@@ -209,52 +214,56 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
     )
 
 
-def _unmated(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """A wheel that meshes nothing: an escape wheel as it is, any other as a disc of its pitch circle."""
+def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
+    """Return a wheel without mates, with a notice.
+
+    An escape wheel has its teeth, and any other wheel is a disc of its pitch circle.
+    """
     if toothing.form == ESCAPEMENT:
         what = f"wheel '{blank.wheel}' has the teeth of a dead-beat escapement"
-        fix = "make the anchor to it, and recut its teeth for another escapement"
+        fix = "make an anchor to match it, or recut its teeth for another escapement"
         return blank, Problem(what, "no anchor is declared", fix)
     r = blank.pitch_radius
-    form = "a disc of its pitch circle, its teeth are not known"
+    form = "a disc of its pitch circle, because its teeth are not known"
     what = f"wheel '{blank.wheel}' is a disc of its pitch circle"
-    told = Problem(what, "it meshes nothing, so no form of its teeth is known", "cut its teeth for what it works with")
-    return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), told
+    why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part it works with"
+    notice = Problem(what, why, fix)
+    return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), notice
 
 
-def _leaning(name: str, wheel: Wheel) -> Iterator[Problem]:
-    """A flat file cannot show that teeth lean."""
+def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
+    """Yield a notice on helical teeth, which a flat file cannot show."""
     if wheel.is_helical:
-        what = f"wheel '{name}' is drawn flat: its teeth lean by {abs(degrees(wheel.helix)):.6g} deg"
+        what = f"wheel '{name}' is drawn flat: it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
         fix = "print it from the .stl, or have it hobbed"
-        why = "a flat drawing is their section across the axis, and the .step has it raised straight"
+        why = "a flat drawing shows the transverse section, and the .step file extrudes it without twist"
         yield Problem(what, why, fix)
 
 
 def with_seats(blank: Blank, wider: float) -> Blank:
-    """A ring whose seats for pins are so much wider (mm) than these; any other wheel as it is."""
+    """Return a ring with seats for pins widened by `wider` (mm); any other wheel unchanged."""
     if blank.pins is None or not wider:
         return blank
-    root = blank.contours[1].points  # corners of the seats stand on the circle inside
+    root = blank.contours[1].points  # corners of the seats are on the inner circle
     inside = float(np.hypot(*root[0])) / blank.module
     seats = pin_seats(blank.pins, blank.teeth, inside, blank.module, wider)
     return replace(blank, contours=(blank.contours[0], seats, *blank.contours[2:]))
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """With windows between its arms, if it has the room; a wheel that bears studs keeps its web."""
+    """Return the blank with windows between its spokes, if there is space; a wheel that bears studs keeps its web."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
-    windows = arm_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
+    windows = spoke_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
     if windows and len(blank.contours) > own:
         what = f"wheel '{blank.wheel}' keeps its web"
-        return blank, [Problem(what, "it has holes for what it bears", "file its windows by hand", "--arms")]
+        return blank, [Problem(what, "it has holes for other parts", "cut its windows by hand", "--arms")]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """With the hole for its arbor, if it has the room, and holes for what else it bears."""
+    """Return the blank with the hole for its arbor, if there is space, and holes for other parts that it bears."""
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":
@@ -262,5 +271,5 @@ def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Bla
     if bore / 2 >= _LAND * inner and bore / 2 >= inner - _THIN:
         what = f"wheel '{blank.wheel}': a bore of {bore:g} mm does not fit"
         why = f"its root circle has a diameter of {2 * inner:.4g} mm, so it is cut without a hole"
-        return blank, [Problem(what, why, f"give less than {2 * _LAND * inner:.4g} mm", "--bore")]
+        return blank, [Problem(what, why, f"pass less than {2 * _LAND * inner:.4g} mm", "--bore")]
     return replace(blank, contours=(*blank.contours, Contour.circle(bore / 2)), bore=bore), []

@@ -192,7 +192,7 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
         where = _WHERE[weakest.what]
         yield f"Weakest: '{weakest.part}' {where}, safety {figure(weakest.safety, 3)}."
     for each in found.left_out:
-        swings = "swing within a turn of " if each.what == "swing within a turn" else ""
+        swings = "variation within a turn of " if each.what == "variation within a turn" else ""
         yield f"Left out: {swings}{', '.join(each.where)}: {each.why}."
     if found.verdict and not found.pairs and not found.points and not found.pins and not found.left_out:
         yield "There is no gear pair."

@@ -213,7 +213,7 @@ class StrengthQuestion:
 
     def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
         """Pairs in the order of the declaration, then arbors, then what swings."""
-        swinging = [each for each in self.torques.left_out if each.what == "swing within a turn"]
+        swinging = [each for each in self.torques.left_out if each.what == "variation within a turn"]
         if self.over is None:
             why = "stresses are those of mean torques; `--over` takes the greatest of some turns"
             for each in swinging:

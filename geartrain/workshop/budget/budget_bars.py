@@ -1,4 +1,6 @@
-"""The budget of each pointer as a bar: its causes side by side, the greatest first; of one pointer a bar a cause."""
+"""Bar charts of error budgets: for each pointer a bar of its causes, the largest first; for one pointer a bar per
+cause.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +27,8 @@ if TYPE_CHECKING:
 
 COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory", "teeth", "lost motion", "cutting"))}
 MOST = 8
-"""Pointers in a picture: the worst, by the sum of their causes."""
-_HIGH, _LOW = 0.7, 0.42  # of the step from bar to bar: what is declared whole, and what is in part
+"""Maximum number of pointers in a figure: those with the largest sum of causes."""
+_HIGH, _LOW = 0.7, 0.42  # heights of bars relative to their distance: fully declared, and declared in part
 _ON_A_BAR: dict[str, Any] = {
     "ha": "center",
     "va": "center",
@@ -35,26 +37,26 @@ _ON_A_BAR: dict[str, Any] = {
     "zorder": 8,
     "bbox": {"boxstyle": "round,pad=0.15", "facecolor": WHITE, "linewidth": 0},
 }
-_ROOM, _NAMED = 0.055, 0.2  # shares of a bar from which on its size, and its cause too, are written in it
+_SIZED, _NAMED = 0.055, 0.2  # minimum shares of a bar for the size, and for size and name, to fit in it
 
 
 def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
-    """A bar for each pointer, the worst on top: shares of its causes in their sum, the greatest first.
+    """Draw a bar for each pointer, the worst at the top, with the shares of its causes, the largest first.
 
-    Of a single pointer there is a bar for each cause, the greatest on top, in degrees.
+    For a single pointer there is a bar for each cause, the largest at the top, in degrees.
 
     Parameters
     ----------
     found : TrainBudget
-        From `find_budget`.
+        Result of `find_budget`.
     most : int
-        Pointers drawn; a line says how many are left out.
+        Maximum number of pointers drawn; the axis label gives the number of the others.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Shares of the sum; sizes [deg] in the bars, sum [deg] and what is not declared beside them. Of one pointer sizes
-        [deg] with their intervals of 95 %.
+        Figure with shares of the sum, sizes [deg] in the bars, and the sum [deg] and missing causes next to them. For
+        one pointer, sizes [deg] with their 95 % intervals.
 
     Raises
     ------
@@ -72,7 +74,8 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     ranked = sorted((each for each in found.pointers if each.total > 0), key=lambda each: -each.total)
     if not ranked:
         why = "no cause of any pointer's error is declared, or all are 0"
-        raise QuestionError(Problem(f"no budget of '{found.name}' to draw", why, "declare targets or teeth"))
+        what = f"the budget of '{found.name}' has nothing to draw"
+        raise QuestionError(Problem(what, why, "declare targets of outputs, or `tooth_form` of pairs"))
     if len(found.pointers) == 1:
         return _causes(found, ranked[0])
     shown = ranked[:most]
@@ -80,19 +83,19 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     for at, pointer in enumerate(shown):
         _bar(axes, at, pointer)
     axes.set_xlim(0.0, 1.0)
-    axes.set_xlabel(_below(len(found.pointers), len(shown), len(ranked)), fontsize=SMALL, loc="left")
-    name_axes(axes, title=f"{_of(found)}: what each pointer's error comes from")
+    axes.set_xlabel(_axis_note(len(found.pointers), len(shown), len(ranked)), fontsize=SMALL, loc="left")
+    name_axes(axes, title=f"{_train_name(found)}: causes of each pointer's error")
     handles = [Patch(color=colour, label=_legend(cause, found)) for cause, colour in COLOURS.items()]
     legend_below(figure, 5, handles, columnspacing=1.2)
     return figure
 
 
-def _of(found: TrainBudget) -> str:
+def _train_name(found: TrainBudget) -> str:
     return found.name if found.state is None else f"{found.name}, {found.state}"
 
 
 def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
-    """The causes of one pointer's error below each other, the greatest on top, and those that are not declared."""
+    """Draw the causes of one pointer's error, the largest at the top, and those that are not declared."""
     ranked = [*pointer.ranked, *pointer.undeclared]
     figure, axes = bar_panel([cause.name for cause in ranked], 3.6)
     for at, cause in enumerate(ranked):
@@ -106,7 +109,7 @@ def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
         axes.annotate(words, (max(size, most), at), xytext=(6, 0), textcoords="offset points", va="center",
                       fontsize=SMALL, color=BLACK, annotation_clip=False, gid="size")  # fmt: skip
     axes.set_xlim(left=0.0)
-    title = f"{_of(found)}: what the error of {short(pointer.name, 24)} comes from, {_size(pointer.total, 3)}° in sum"
+    title = f"{_train_name(found)}: causes of the error of {short(pointer.name, 24)}, sum {_size(pointer.total, 3)}°"
     name_axes(axes, "size (deg)", title=title, parse_math=False)
     return figure
 
@@ -116,16 +119,16 @@ def _legend(cause: str, found: TrainBudget) -> str:
     return cause if not missing else f"{cause} (unknown for {missing})"
 
 
-def _below(pointers: int, shown: int, erring: int) -> str:
-    words = "share of the sum of what is declared; low bars: declared in part"
+def _axis_note(pointers: int, shown: int, erring: int) -> str:
+    words = "share of the sum of all declared causes; thin bars: declared in part"
     still = pointers - erring
-    left = [f"pointers that err less, not drawn: {erring - shown}"] if erring > shown else []
-    left += [f"pointers of which no error is known: {still} of {pointers}"] if still else []
+    left = [f"pointers with smaller errors, not drawn: {erring - shown}"] if erring > shown else []
+    left += [f"pointers without a known error: {still} of {pointers}"] if still else []
     return words + ("\n" + "; ".join(left) if left else "")
 
 
 def _size(value: float, digits: int) -> str:
-    """With so many digits; great ones whole, without a power of ten."""
+    """Format a value with a number of significant digits; large values as integers, without a power of ten."""
     return f"{value:.{digits}g}" if value < 10**digits else f"{value:.0f}"
 
 
@@ -139,7 +142,7 @@ def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
         axes.barh(
             at, share, left=left, height=high, color=COLOURS[cause.name], edgecolor=WHITE, gid=cause.name, clip_on=False
         )
-        if share > _ROOM:
+        if share > _SIZED:
             name = f"{cause.name} " if share > _NAMED else ""
             axes.text(left + share / 2, at, f"{name}{_size(cause.degrees or 0.0, 2)}°", **_ON_A_BAR)
         left += share

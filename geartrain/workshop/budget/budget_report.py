@@ -1,4 +1,4 @@
-"""The budgets of a train's pointers as a page: which cause weighs most, in degrees and in days."""
+"""Report on the error budgets of a train's pointers: ranked causes, in degrees and in days."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ if TYPE_CHECKING:
     from geartrain.workshop.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
 
 NOT_DECLARED = "not declared"
-_PAIRS = 5  # of each pointer
+_PAIRS = 5  # maximum number of pairs listed for each pointer
 
 
 def describe_budget(found: TrainBudget) -> Document:
-    """What the error of each pointer comes from, the greatest cause first, and what the train does not declare.
+    """Build the report on the causes of each pointer's error, the largest first, and on missing data.
 
     Parameters
     ----------
     found : TrainBudget
-        From `find_budget`.
+        Result of `find_budget`.
 
     Returns
     -------
     Document
-        Sizes in degrees at the pointer, and in days of its mean motion.
+        Report with sizes in degrees at the pointer, and in days of its mean motion.
 
     Examples
     --------
@@ -35,21 +35,20 @@ def describe_budget(found: TrainBudget) -> Document:
     >>> from geartrain.workshop import (BudgetQuestion, find_budget)
     >>> page = describe_budget(find_budget(geartrain.load("freeth-2008"), BudgetQuestion(outputs=("moon",))))
     >>> page.title, [section.title for section in page.sections][:2]
-    ('The budget of each pointer: freeth-2008', ['Causes in degrees', 'Causes in days'])
+    ('Error budget of each pointer: freeth-2008', ['Causes in degrees', 'Causes in days'])
     """
     name = found.name if found.state is None else f"{found.name}, state {found.state}"
     summary = [
-        "Each cause by itself, at the pointer. Ratio: what the mean speed is off, as a drift over "
-        f"{found.span_days:.8g} days. Theory: what the pins' anomaly is off from the true motion (Kepler), peak to "
-        f"peak. Teeth: ripple through the train, peak to peak, over {found.turns:g} turns of "
-        f"'{found.driving_link}'. Lost "
-        "motion: the greatest way a pointer stays behind when the crank turns back. Cutting: the range that holds 95 % "
-        "of trains cut by hand, the ripple of even teeth taken off.",
-        "Days are the time in which the pointer, at its mean speed against what it is read from, turns so far: by so "
-        "much an eclipse, a conjunction or a station that is read from it is missed.",
+        "Each cause is given separately, at the pointer. Ratio: error of the mean speed, as a drift over "
+        f"{found.span_days:.8g} days. Theory: deviation of the anomaly of the pins from the true motion (Kepler), peak "
+        f"to peak. Teeth: ripple through the train, peak to peak, over {found.turns:g} turns of "
+        f"'{found.driving_link}'. Lost motion: maximum lag of the pointer when the crank turns back. Cutting: central "
+        "95 % range over Monte Carlo trials of cutting errors, without the ripple of perfect teeth.",
+        "Days are the time in which the pointer turns through this angle at its mean speed. This is the error of the "
+        "date of an eclipse, a conjunction or a station that is read from it.",
         _missing(found),
     ]
-    return Document(f"The budget of each pointer: {name}", summary, list(_sections(found)))
+    return Document(f"Error budget of each pointer: {name}", summary, list(_sections(found)))
 
 
 def _missing(found: TrainBudget) -> str:
@@ -57,19 +56,19 @@ def _missing(found: TrainBudget) -> str:
     words = [f"{cause} of {of}" for cause, of in found.not_declared.items() if of]
     if not words:
         return f"Everything is declared for all {count} pointers."
-    return f"Not declared, so not counted (and not 0), of {count} pointers: {', '.join(words)}."
+    return f"Not declared, and therefore not included (not counted as 0), of {count} pointers: {', '.join(words)}."
 
 
 def _sections(found: TrainBudget) -> Iterator[Section]:
     causes = [cause.name for cause in found.pointers[0].causes]
-    sized = [(each.name, *(_degrees(cause) for cause in each.causes), f"{each.total:.3g}", _first(each))
+    sized = [(each.name, *(_degrees(cause) for cause in each.causes), f"{each.total:.3g}", _largest_cause(each))
              for each in found.pointers]  # fmt: skip
     yield Section("Causes in degrees", (), (Table(("pointer", *causes, "sum", "maximum"), cut(sized)),))
     timed = [
         (each.name, _figure(each.degrees_per_day), *(_figure(cause.days) for cause in each.causes))
         for each in found.pointers
     ]
-    yield Section("Causes in days", (), (Table(("pointer", "deg a day", *causes), cut(timed)),))
+    yield Section("Causes in days", (), (Table(("pointer", "deg per day", *causes), cut(timed)),))
     yield _drifts(found)
     for pointer in found.pointers:
         yield _pointer(pointer)
@@ -77,9 +76,8 @@ def _sections(found: TrainBudget) -> Iterator[Section]:
     yield _jams(found)
     if found.reversing_drivers:
         names = ", ".join(found.reversing_drivers)
-        yield Section(
-            "Pairs that turn back", (f"Driven against their mean at times, where play is not followed: {names}.",)
-        )
+        text = f"These drivers reverse at times, and backlash is not followed there: {names}."
+        yield Section("Pairs with reversing drivers", (text,))
 
 
 def _degrees(cause: BudgetCause) -> str:
@@ -92,8 +90,8 @@ def _figure(value: float | None) -> str:
     return "-" if value is None else f"{value:.3g}"
 
 
-def _first(pointer: PointerBudget) -> str:
-    """The greatest cause, if there is any error at all."""
+def _largest_cause(pointer: PointerBudget) -> str:
+    """Return the largest cause, or "-" if all are 0 or unknown."""
     return pointer.ranking[0] if pointer.ranked and pointer.ranked[0].degrees else "-"
 
 
@@ -105,14 +103,15 @@ def _drifts(found: TrainBudget) -> Section:
             each = (drift.degrees_per_turn, drift.degrees_per_year, drift.degrees_per_century, drift.degrees_over_span)
             after = _figure(pointer.overtaken_after_years) if first else ""
             rows.append((pointer.name, drift.target, ppm(drift.ppm), *map(_signed, each), after))
-    header = ("pointer", "target", "ppm", "deg a turn", "deg a year", "deg a century", "deg over the span",
-              "years to the greatest other")  # fmt: skip
+    header = ("pointer", "target", "ppm", "deg per turn", "deg per year", "deg per century", "deg over the span",
+              "years to largest other")  # fmt: skip
     texts = (
-        "Positive is fast. The first target of each pointer counts: a period seen in the sky before what its makers "
-        "meant. The last column: Julian years after which the drift is as great as the greatest other cause.",
+        "Positive values are fast. The first target of each pointer is used for the budget; observed periods come "
+        "before targets intended by the makers. The last column gives the Julian years after which the drift equals "
+        "the largest other cause.",
     )
     return Section(
-        "Ratios against the sky",
+        "Ratios and targets",
         texts if rows else ("No target is declared.",),
         (Table(header, cut(rows)),) if rows else (),
     )
@@ -124,18 +123,26 @@ def _signed(value: float | None) -> str:
 
 def _pointer(pointer: PointerBudget) -> Section:
     rows = [
-        (str(at), cause.name, _degrees(cause), _figure(cause.rms), _within(cause), _figure(cause.days), cause.note)
+        (
+            str(at),
+            cause.name,
+            _degrees(cause),
+            _figure(cause.rms),
+            _interval_text(cause),
+            _figure(cause.days),
+            cause.note,
+        )
         for at, cause in enumerate(pointer.ranked, 1)
     ]
     rows += [("-", cause.name, NOT_DECLARED, "-", "", "-", cause.note) for cause in pointer.undeclared]
-    tables = [Table(("rank", "cause", "deg", "rms", "95 % interval", "days", "of"), rows)]
+    tables = [Table(("rank", "cause", "deg", "rms", "95 % interval", "days", "note"), rows)]
     if pointer.pairs:
         sizes = [(name, f"{size:.3g}") for name, size in pointer.pairs.items()]
-        tables.append(Table(("pair alone", "deg peak to peak"), cut(sizes, most=_PAIRS)))
+        tables.append(Table(("single pair", "deg peak to peak"), cut(sizes, most=_PAIRS)))
     return Section(f"Ranked: {pointer.name}", (), tables)
 
 
-def _within(cause: BudgetCause) -> str:
+def _interval_text(cause: BudgetCause) -> str:
     return "" if cause.interval is None else f"{cause.interval[0]:.3g}..{cause.interval[1]:.3g}"
 
 
@@ -144,15 +151,15 @@ def _crank(found: TrainBudget) -> Section:
     tables = []
     if crank.torque is not None or crank.over_turn is not None or crank.weight is None:
         rows = [(crank.link, _or_undeclared(crank.torque), _efficiency(crank.efficiency), crank.note)]
-        tables = [Table(("link", f"torque{_unit(crank)}", "efficiency", "how"), rows), *_over_turn(crank)]
+        tables = [Table(("link", f"torque{_unit(crank)}", "efficiency", "basis"), rows), *_over_turn(crank)]
     alone = [(name, f"{each:.4g}") for name, each in crank.pointers.items()]
     if alone:
-        tables.append(Table(("pointer driven alone", "efficiency"), cut(alone)))
+        tables.append(Table(("only this pointer driven", "efficiency"), cut(alone)))
     return Section("Crank", tuple(_weight(crank)), tables)
 
 
 def _over_turn(crank: CrankLoad) -> Iterator[Table]:
-    """The torque position by position, where loads are declared."""
+    """Yield the table of the torque over a run, if loads are declared."""
     found = crank.over_turn
     if found is None:
         return
@@ -161,32 +168,32 @@ def _over_turn(crank: CrankLoad) -> Iterator[Table]:
         return
     torques = (found.mean, found.maximum_torque, found.minimum_torque, found.starting_torque)
     header = ("turns of the input", f"mean{_unit(crank)}", "maximum", "minimum", "starting", "efficiency")
-    whole = ", then all repeats" if found.span == found.period else ""
+    whole = " (one period)" if found.span == found.period else ""
     row = (f"{found.span:.6g}{whole}", *map(_or_undeclared, torques), _efficiency(found.efficiency))
     yield Table(header, [row])
 
 
 def _unit(crank: CrankLoad) -> str:
-    """The unit of its torques, which is known where they were worked out over a turn."""
+    """Return the unit of the torques, which is known if they were computed over a run."""
     return f" ({crank.over_turn.unit})" if crank.over_turn is not None and crank.over_turn.unit else ""
 
 
 def _efficiency(value: float | None) -> str:
-    return "nothing is taken out" if value == 0 else _or_undeclared(value)
+    return "0 (no output power)" if value == 0 else _or_undeclared(value)
 
 
 def _weight(crank: CrankLoad) -> Iterator[str]:
-    """What drives a train that has a weight."""
+    """Yield a sentence on the weight that drives the train, if it has one."""
     weight = crank.weight
     if weight is None:
         return
     text = f"The weight gives {weight.torque:.4g} N m at '{weight.link}'."
     if weight.needed is not None:
-        word = "and starts it everywhere" if weight.suffices else "which is too little"
-        text += f" The train needs up to {weight.needed:.4g} N m, {word}."
+        word = "the weight suffices" if weight.suffices else "the weight does not suffice"
+        text += f" The train needs up to {weight.needed:.4g} N m to start; {word}."
     if weight.mean is not None and weight.minimum is not None:
-        text += f" Of it {weight.mean:.4g} N m arrives at '{weight.wheel}' on the mean, {weight.minimum:.4g} at least"
-        text += "" if weight.efficiency is None else f", {100 * weight.efficiency:.4g} % of its energy"
+        text += f" The torque at '{weight.wheel}' is {weight.mean:.4g} N m on average and at least {weight.minimum:.4g}"
+        text += "" if weight.efficiency is None else f"; {100 * weight.efficiency:.4g} % of the energy arrives there"
         text += "."
     yield text
 
@@ -200,7 +207,7 @@ def _jams(found: TrainBudget) -> Section:
         return Section("Jams over clearance", (f"Not known: {found.jams_note}.",))
     trials = found.jams[0].events["jam"].of
     text = (
-        f"How often any pair of the train does so, in {trials} trials each, with 95 % intervals; clearances below 1 "
-        "are shares of each pair's window."
+        f"Probability of each event in any pair, from {trials} trials each, with 95 % intervals. Clearances below 1 "
+        "are fractions of the clearance window of each pair."
     )
     return Section("Jams over clearance", (text,), (clearance_table(found.jams, ("jam", "clash", "dwell")),))

@@ -1,7 +1,7 @@
 """Torque and efficiency of the link that drives a train, at mean speeds and over a run.
 
-The run is a year, or a period after which everything repeats if that is shorter. A weight on its drum gives a torque,
-and a part of it arrives at the escape wheel.
+The run is a year, or a shorter period after which everything repeats. A weight on its drum gives a torque, part of
+which reaches the escape wheel.
 """
 
 from __future__ import annotations
@@ -28,27 +28,30 @@ if TYPE_CHECKING:
 
 YEAR = period_table()["year_tropical_J2000"].value  # d
 MOST_PASSAGES = 600_000
-"""Teeth that pass, times the pairs that are asked at each: longer runs are cut off, at about two minutes without
-compiled kernels."""
+"""Maximum number of tooth passages times pairs evaluated at each. Longer runs are cut off; this takes about two minutes
+without compiled kernels.
+"""
 SAMPLES = 2_000
 
 
 def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> TorqueCycle:
-    """The torque over the natural run of a train.
+    """Compute the torque over the natural run of a train.
 
-    lead   the input; `of`, the link whose torque is asked for, by default the crank
+    driving_link   the input
+    of             link whose torque is computed, by default the crank
     """
     turns = natural_turns(train, state, driving_link, of)
     return train.torques(state, turns=turns, samples=SAMPLES, of=of)
 
 
 def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> float:
-    """Turns of the input in a year; where speeds are by no time, while what they are by passes once.
+    """Return the turns of the input in the natural run of a train.
 
-    Or in a period after which all repeats, if that is shorter. Where nothing is uneven any run is as good: then it is
-    what speeds are by, an hour or a day. Fewer turns where more teeth pass than can be followed.
+    The run is a year, or a period after which everything repeats if that is shorter. If the unit of speeds is not a
+    time, one unit replaces the year. For a train of constant ratio any run gives the same result, so the run is one
+    unit of time. The run is shorter if more teeth would pass than can be followed.
     """
-    once = abs(train.declaration.case(state).inputs[driving_link]) or 1
+    once = abs(train.declaration.case(state).inputs[driving_link]) or 1  # an input of speed 0 has no period
     period, unit = find_torque_period(train.mechanics, state, of), train.declaration.unit_days
     if period is None:
         return float(once)
@@ -63,44 +66,45 @@ def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: st
 
 @dataclass(frozen=True, slots=True)
 class WeightDrive(Result):
-    """What a weight gives at its drum, and what the train makes of it over a run.
+    """Torque of a weight at its drum, and the part of it that reaches the escape wheel over a run.
 
     See Also
     --------
-    CrankLoad : holds it
+    CrankLoad : Load of the crank, with the weight.
     """
 
     KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "minimum", "efficiency")
 
     link: str
-    """The link of the drum."""
+    """Link of the drum."""
     torque: float
     """Mass times gravity times the radius at which the line pulls [N m]."""
     needed: float | None = None
-    """What starts the train at its worst position under its declared loads [N m]; None without loads, or where it
-    locks."""
+    """Torque that starts the train at its worst position under its declared loads [N m]; None without loads, or if it
+    locks.
+    """
     wheel: str | None = None
-    """The link of the escape wheel; None where none is declared, or loads are."""
+    """Link of the escape wheel; None without an escapement, or if loads are declared."""
     mean: float | None = None
-    """Mean torque over the run at the escape wheel while the weight alone drives [N m]."""
+    """Mean torque over the run at the escape wheel while only the weight drives [N m]."""
     minimum: float | None = None
-    """Least torque over the run at the escape wheel while the weight alone drives [N m]."""
+    """Minimum torque over the run at the escape wheel while only the weight drives [N m]."""
     efficiency: float | None = None
-    """Energy that arrives there over that of the weight."""
+    """Energy at the escape wheel divided by the energy of the weight."""
 
     @property
     def suffices(self) -> bool | None:
-        """True if the weight starts the train at its worst position; None where that is not known."""
+        """True if the weight starts the train at its worst position; None if that is unknown."""
         return None if self.needed is None else self.torque >= self.needed
 
 
 def find_weight_drive(
     train: GearTrain, state: str | None, link: str, driving_link: str, under_load: TorqueCycle | None
 ) -> WeightDrive | None:
-    """The weight that drives a train in one state; None where another thing drives it.
+    """Return the weight that drives a train in one state; None if it is not driven by a weight.
 
-    link         the drum's; `lead`, the input
-    under_load   torque over the run under the declared loads; None where none are declared
+    link           link of the drum; `driving_link`, the input
+    under_load     torque over the run under the declared loads; None if there are none
     """
     drive = train.declaration.case(state).drive
     if drive is None or drive.pull is None:
@@ -111,13 +115,14 @@ def find_weight_drive(
     if escapement is None:
         return WeightDrive(link, drive.pull)
     found = find_natural_run(_driven_by(train, state, link, drive.pull), state, driving_link, escapement.link)
+    # the escape wheel resists, so its torque is the negative of the load
     mean = None if found.mean is None else -found.mean
     minimum = None if found.maximum is None else -found.maximum.torque
     return WeightDrive(link, drive.pull, None, escapement.link, mean, minimum, found.efficiency)
 
 
 def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
-    """The same train with this torque at the drum, the way it turns."""
+    """Return the same train with a torque at the drum, in its direction of rotation."""
     from geartrain.analysis.gear_train import GearTrain
 
     speed = train.solve(state)[link]
@@ -135,30 +140,36 @@ class CrankLoad(Result):
 
     See Also
     --------
-    TrainBudget : holds it
+    TrainBudget : Budget with the load of the crank.
     """
 
     link: str
-    """The one that is turned."""
+    """Driven link: the crank or the input."""
     torque: float | None
-    """Under the declared loads, in the link's own sense of turning: positive puts power in, as in `over_turn` [N m,
-    or their plain unit]; None without loads."""
+    """Torque under the declared loads, in the link's own sense of rotation, positive if it puts power in, as in
+    `over_turn` [N m, or the unit of the loads]; None without loads.
+    """
     efficiency: float | None
-    """Power out over power in; None where neither friction nor an efficiency is declared, or nothing follows."""
+    """Output power divided by input power; None if neither friction nor an efficiency is declared, or if it is
+    undetermined.
+    """
     note: str
-    """Under which loads, or what is not declared."""
+    """Loads that apply, or the missing data."""
     pointers: Mapping[str, float] = field(default_factory=dict)
-    """By pointer, the efficiency of a train that drives it alone; empty without friction, and without what cannot be
-    driven."""
+    """Efficiency of a train that drives only this pointer, by pointer; without pointers that cannot be driven, and
+    empty without friction.
+    """
     over_turn: TorqueCycle | None = None
-    """The torque position by position over a year, or over a period after which everything repeats if that is
-    shorter; None without loads."""
+    """Torque at each position over a year, or over a shorter period after which everything repeats; None without loads.
+    """
     weight: WeightDrive | None = None
-    """The weight that drives it; None where another thing does."""
+    """Weight that drives the train; None if it is driven otherwise."""
 
 
 def find_crank_load(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:
-    """Under the declared loads; where there are none, the efficiency from the input to the output. Then over a run.
+    """Compute the load of the crank at mean speeds and over a run.
+
+    Without declared loads, only the efficiency from the input to the output is computed.
 
     links   by pointer, the link that turns
     """
@@ -170,22 +181,22 @@ def find_crank_load(train: GearTrain, state: str | None, driving_link: str, link
     try:
         over_turn = find_natural_run(train, state, driving_link) if loaded else None
         weight = find_weight_drive(train, state, found.link, driving_link, over_turn)
-    except GearTrainError as error:  # teeth in a loop, or that cannot turn
+    except GearTrainError as error:  # pairs with tooth forms in a loop, or teeth that cannot turn
         return replace(found, note=f"{found.note}; not followed over a run: {error.problems[0].what}")
     return replace(found, over_turn=over_turn, weight=weight)
 
 
 def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:
-    link, loses = train.declaration.crank or driving_link, _loses(train.declaration)
+    link, has_losses = train.declaration.crank or driving_link, _has_losses(train.declaration)
     found = train.torques(state)
-    pointers = dict(_efficiencies(train, state, link, links)) if loses else {}
+    pointers = dict(_efficiencies(train, state, link, links)) if has_losses else {}
     if found.verdict.kind != "unloaded":
         sense = -1 if train.solve(state).speeds[link] < 0 else 1
         torque = found.external.get(link)
         note = f"under the declared loads: {found.verdict.text}"
-        efficiency = _efficiency(found) if loses else None
+        efficiency = _efficiency(found) if has_losses else None
         return CrankLoad(link, None if torque is None else sense * float(torque), efficiency, note, pointers)
-    if not loses:
+    if not has_losses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
     ways = drive_both_ways(train.mechanics, state)
     if not ways or not ways[0].torques.verdict:
@@ -198,7 +209,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, link
 def _efficiencies(
     train: GearTrain, state: str | None, crank: str, links: Mapping[str, str]
 ) -> Iterator[tuple[str, float]]:
-    """The efficiency from the crank to each pointer that can be driven from it."""
+    """Yield the efficiency from the crank to each pointer that can be driven from it."""
     known: dict[str, float | None] = {}
     for name, link in links.items():
         if link != crank and link not in known:
@@ -212,7 +223,7 @@ def _efficiency(found: Torques) -> float | None:
     return None if found.efficiency is None else float(found.efficiency)
 
 
-def _loses(declared: Train) -> bool:
-    """True if any friction or efficiency is declared."""
+def _has_losses(declared: Train) -> bool:
+    """Return whether any friction or efficiency is declared."""
     pairs = any(gear.friction is not None or gear.efficiency is not None for gear in declared.gears)
     return declared.friction is not None or pairs or any(link.bearing for link in declared.links.values())

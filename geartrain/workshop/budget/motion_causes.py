@@ -1,14 +1,14 @@
-"""Three causes of the error of a pointer: theory of its pins, ripple of teeth, play when the crank turns back.
+"""Three causes of the error of a pointer: theory of its pins, ripple of teeth, and backlash when the crank turns back.
 
-The ripple is the motion with real teeth less the motion of the same pins with ideal ones, at the same positions
-(docs/motion.md, 3): the anomaly that pins are meant to give is no error of teeth. Lost motion is how far a pointer
-stays behind when the crank turns back: the same composition on the coast flanks, less that on the drive flanks.
+The ripple is the motion with real teeth minus the motion of the same pins with ideal teeth, at the same positions
+(docs/motion.md, 3), because the anomaly that pins are meant to give is not an error of teeth. Lost motion is the lag of
+a pointer when the crank turns back: the same composition on the coast flanks minus that on the drive flanks.
 
-The pins, all teeth ideal, give an error d(phi) over one cycle of the pin. The true motion has the equation of centre
-C(M) over one anomalistic revolution. How the pin stands at first is the maker's choice: the phase of M is the one that
-leaves least, sum (d(phi) - C(phi + phase) - mean)^2, and the mean is where the pointer is set. The true motion of Moon
-and Sun is Kepler's: M = E - e sin E, tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2). The Sun's pull on the Moon (evection,
-variation, annual equation: 1.3, 0.7 and 0.2 degrees) and the planets' on both are left out.
+With ideal teeth, the pins give an error d(phi) over one cycle of the pin. The true motion has the equation of centre
+C(M) over one anomalistic revolution. The initial phase of the pin is chosen by the maker, so the phase of M is the one
+that minimises sum (d(phi) - C(phi + phase) - mean)^2. The mean is removed because the pointer is set. The true motion
+of Moon and Sun is Kepler's: M = E - e sin E, tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2). Perturbations of the Moon by
+the Sun (evection, variation, annual equation: 1.3, 0.7 and 0.2 degrees) and of both by the planets are neglected.
 """
 
 from __future__ import annotations
@@ -37,35 +37,37 @@ if TYPE_CHECKING:
 
 
 Body = Literal["moon", "sun"]
-_FEW = 1e-12  # a smaller sensitivity is rounding
-_STEPS = 40  # far more than Newton's method takes for any ellipse
-_POSITIONS = 4096  # over one cycle of the pin
-_NEAR = 0.02  # of the period: how far a target may be from the body's own
+_ROUNDING = 1e-12  # smaller sensitivities are rounding errors
+_STEPS = 40  # maximum iterations, far more than Newton's method needs for these orbits
+_POSITIONS = 4096  # positions over one cycle of the pin, a power of 2 for the FFT
+_NEAR = 0.02  # maximum relative difference of a target from the period of the body
 
 
-# ------------------------------------------------------------------------------------------------------- teeth and play
+# --------------------------------------------------------------------------------------------------- teeth and backlash
 
 
 @dataclass(frozen=True)
 class ErrorDifference:
-    """Errors of one composition less those of another, of the same outputs at the same positions."""
+    """Difference of the errors of two compositions, for the same outputs at the same positions."""
 
     one: ErrorComposition
     other: ErrorComposition
 
     @property
     def chunk(self) -> int:
-        """Positions worked on at once."""
+        """Number of positions processed at once."""
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """The differences where the input has made some turns, at most a chunk of them."""
+        """Return the differences at given turns of the input, at most one chunk of them."""
         one, other = self.one.at(turns), self.other.at(turns)
         return error_difference(one, other)
 
 
 class DeclaredPairs(NamedTuple):
-    """What moves an output: gear pairs with real teeth, of how many; couplings, and those without dimensions."""
+    """Pairs that move an output: number of gear pairs with teeth and in total; couplings, and those without
+    dimensions.
+    """
 
     real: int
     gears: int
@@ -75,21 +77,21 @@ class DeclaredPairs(NamedTuple):
 
 @dataclass(frozen=True)
 class ToothMotion:
-    """What the teeth of a train do to its outputs over a run."""
+    """Effect of the teeth of a train on its outputs over a run."""
 
     ripple: Mapping[str, RunningStatistics]
-    """Tallies by output, of what the teeth alone add."""
+    """Statistics of the error due to the teeth, by output."""
     lost: Mapping[str, tuple[float, float]]
-    """By output, greatest and rms of what is lost when the crank turns back (rad)."""
+    """Maximum and rms of the motion lost when the crank turns back, by output [rad]."""
     pairs: Mapping[str, Mapping[str, float]]
-    """By output, what each pair alone would give, peak to peak (deg)."""
+    """Peak-to-peak error due to each pair by itself, by output [deg]."""
     declared: Mapping[str, DeclaredPairs]
-    """By output, what moves it and is declared."""
+    """Pairs that move each output, and their declared data."""
     reversing_drivers: tuple[str, ...]
 
 
 def without_teeth(motion: Motion) -> Motion:
-    """The same train with the same pins, and teeth that keep their ratio without play."""
+    """Return the same train with the same pins, and with teeth of constant ratio without backlash."""
     from geartrain.dynamics import Motion
 
     return Motion(replace(motion._problem, meshes={}), motion.outputs)
@@ -98,9 +100,9 @@ def without_teeth(motion: Motion) -> Motion:
 def find_tooth_motion(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> ToothMotion:
-    """Ripple and lost motion of every output at `samples` positions of `turns` of the input.
+    """Compute ripple and lost motion of every output at `samples` positions of `turns` of the input.
 
-    on_done   called with the number of positions of each stretch that is done
+    on_done   callback with the number of positions of each chunk that is done
     """
     ripple = ErrorDifference(motion._forward, without_teeth(motion)._forward)
     lost = ErrorDifference(motion._backward, motion._forward)
@@ -135,28 +137,31 @@ def find_tooth_motion(
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """By output, the range of each pair's error times its sensitivity (deg), the greatest first; pins left out."""
+    """Return by output the range of each pair's error times its sensitivity [deg], in descending order;
+    without pins.
+    """
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.pins}
     tables = {}
     for name, row in zip(motion.outputs, np.abs(found.response) * found.ranges, strict=True):
         sizes = {source.id: degrees(size) for source, size in zip(found.sources, row.tolist(), strict=True)}
         ranked = sorted(sizes.items(), key=lambda item: -item[1])
-        tables[name] = {pair: size for pair, size in ranked if size > _FEW and pair not in pins}
+        tables[name] = {pair: size for pair, size in ranked if size > _ROUNDING and pair not in pins}
     return tables
 
 
 def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
-    """The pairs and couplings whose error reaches an output, be it through the angle at which a pin stands."""
+    """Return the pairs and couplings whose error reaches an output, directly or through the angle of a pin."""
     spread, signs = motion._propagation, motion._problem.signs
     couplings = {circuit.id for circuit in motion._problem.circuits if circuit.swings}
+    # depth-first search: the error of a pin depends on the angle of its driver, which other pairs move
     waiting, found = [motion.outputs[output]], dict.fromkeys(spread.pairs, False)
     index = {link: at for at, link in enumerate(spread.links)}
     while waiting:
         of, base = waiting.pop()
         row = spread.sensitivity(index[of], index[base], axis_sense(of, base, signs))
         for name, size in zip(spread.pairs, row.tolist(), strict=True):
-            if abs(size) > _FEW and not found[name]:
+            if abs(size) > _ROUNDING and not found[name]:
                 found[name] = True
                 if name in couplings:
                     joint = spread.joints[spread.pairs.index(name)]
@@ -165,7 +170,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 
 
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
-    """What moves an output, and how much of it is declared."""
+    """Return the pairs that move an output, and how many of them have declared teeth and dimensions."""
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     real = set(motion._problem.meshes)
     sized = {joint.coupling.name for joint in motion._problem.pins}
@@ -181,25 +186,25 @@ def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
 
 
 def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCause]:
-    """Ripple and lost motion of one output."""
+    """Return the causes ripple and lost motion of one output."""
     known = found.declared[name]
     if known.gears and not known.real:
         return _undeclared(f"none of the {known.gears} pairs that move it has a tooth form")
     tally, (most, rms) = found.ripple[name], found.lost[name]
-    bare = f"no dimensions are declared of {', '.join(known.bare)}"
+    bare = f"no dimensions are declared for {', '.join(known.bare)}"
     if known.bare and not tally.peak_to_peak:
         return _undeclared(bare)
     if not known.gears and not known.pins:
-        of = "no gear pair lies between it and the input"
+        of = "no gear pair is between it and the input"
     else:
         of = f"{known.real} of {known.gears} pairs" if known.real < known.gears else f"all {known.gears} pairs"
     first = next(iter(found.pairs[name].items()), None)
-    worst = f", most by {first[0]} ({first[1]:.3g} deg alone)" if first else ""
-    more = f"; {bare}, which pass on no ripple here" if known.bare else ""
-    backlash = f"; play of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
+    worst = f", largest by {first[0]} ({first[1]:.3g} deg by itself)" if first else ""
+    more = f"; {bare}, so they add no ripple here" if known.bare else ""
+    backlash = f"; backlash of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
     lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + backlash)
-    if known.real and most < _FEW:
+    if known.real and most < _ROUNDING:  # teeth without backlash lose no motion, which is rarely meant
         lost = BudgetCause.unknown("lost motion", "its pairs have teeth, but no backlash is declared")
     return _cause("teeth", declared, tally.peak_to_peak, tally.rms, of + worst + more), lost
 
@@ -217,16 +222,16 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """What is shipped of a body's orbit."""
+    """Data of a body's orbit."""
 
     eccentricity: float
-    """Of its ellipse, today."""
+    """Present eccentricity of its ellipse."""
     period: float
-    """From a star or the equinox back to it, to a hundredth (d): a pointer's target must be near it."""
+    """Sidereal or tropical period, to 0.01 d. The target of a pointer must be near it [d]."""
     words: frozenset[str]
-    """By which an output or link of it is known."""
+    """Words by which a name of an output or link indicates the body."""
     source: str
-    """Of the eccentricity."""
+    """Source of the eccentricity."""
 
 
 TRUE_MOTIONS: dict[Body, TrueMotion] = {
@@ -236,9 +241,10 @@ TRUE_MOTIONS: dict[Body, TrueMotion] = {
 
 
 def equation_of_centre(M: Floats, e: float) -> Floats:
-    """True less mean anomaly (rad) at mean anomalies M (rad), eccentricity 0 <= e < 1: Kepler's equation by Newton.
+    """Return true minus mean anomaly [rad] at mean anomalies M [rad], for eccentricity 0 <= e < 1.
 
-    Right to rounding; E starts at M + e sin M, from where the method converges for the small e of these orbits.
+    Kepler's equation is solved by Newton's method to rounding accuracy. It starts at E = M + e sin M, from which it
+    converges for the small e of these orbits.
     """
     E = M + e * np.sin(M)
     for _ in range(_STEPS):
@@ -246,7 +252,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
         E = E - step
         if np.max(np.abs(step), initial=0.0) < 1e-15:
             break
-    # nu - E as one atan2: no half angles, no jumps between turns
+    # nu - E by one atan2, without half angles, is continuous over many turns
     beta = e / (1 + np.sqrt(1 - e * e))
     found: Floats = 2 * np.arctan2(beta * np.sin(E), 1 - beta * np.cos(E)) + (E - M)
     return found
@@ -257,10 +263,10 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """What one link's anomaly is off (rad), or why that is not known."""
+    """Error of the anomaly of one link [rad], or the reason why it is unknown."""
 
     known: bool
-    """False where a pin that moves the link has no dimensions, or several do."""
+    """False if a pin that moves the link has no dimensions, or if several pins move it."""
     peak_to_peak: float
     rms: float
     words: str
@@ -269,9 +275,9 @@ class TheoryError:
 def find_bodies(
     outputs: Iterable[OutputResult], frame: str, unit_days: float | None, named: Mapping[str, Body | None]
 ) -> dict[str, Body]:
-    """The links that stand for a body: by the name of an output or link and a target near the body's period.
+    """Return the links that represent a body, by the name of an output or link and a target near the body's period.
 
-    named   by output, what it stands for whatever it is called; None: for nothing
+    named   by output, the body that it represents whatever its name; None for no body
     """
     found: dict[str, Body] = {}
     for output in outputs:
@@ -280,13 +286,13 @@ def find_bodies(
         if output.name in named:
             body = named[output.name]
         else:
-            body = next((each for each in TRUE_MOTIONS if _stands_for(output, each, unit_days)), None)
+            body = next((each for each in TRUE_MOTIONS if _represents(output, each, unit_days)), None)
         if body is not None:
             found.setdefault(output.of, body)
     return found
 
 
-def _stands_for(output: OutputResult, body: Body, unit_days: float | None) -> bool:
+def _represents(output: OutputResult, body: Body, unit_days: float | None) -> bool:
     motion = TRUE_MOTIONS[body]
     words = set(re.split(r"[\W_]+", f"{output.name} {output.of}".lower()))
     if not words & motion.words or not unit_days:
@@ -296,12 +302,12 @@ def _stands_for(output: OutputResult, body: Body, unit_days: float | None) -> bo
 
 
 def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
-    """The anomaly of one link, all teeth ideal, against the true motion of a body."""
+    """Compare the anomaly of one link, with ideal teeth, with the true motion of a body."""
     from geartrain.dynamics import Motion
 
     motion = Motion(replace(problem, meshes={}), {link: (link, problem.frame)})
     if bare := declared_pairs(motion, link).bare:
-        return TheoryError(False, 0.0, 0.0, f"no dimensions are declared of {', '.join(bare)}")
+        return TheoryError(False, 0.0, 0.0, f"no dimensions are declared for {', '.join(bare)}")
     used = [source for source in motion._forward.used if source.cycles]
     if len(used) > 1:
         return TheoryError(False, 0.0, 0.0, f"{len(used)} pins move '{link}' together")
@@ -309,17 +315,18 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     error = np.zeros(_POSITIONS)
     if used:
         error = motion.at(phase / (2 * pi * float(used[0].cycles))).error[0]
+    # a link that turns backwards shows the anomaly with the opposite sign
     sense = -1.0 if problem.ratio(link) < 0 else 1.0
     rest = minimum_difference(sense * error, TRUE_MOTIONS[body].eccentricity)
-    how = f"pin of {used[0].id}" if used else "no pin, a uniform motion,"
+    how = f"pin of {used[0].id}" if used else "uniform motion without a pin"
     words = f"{how} against the {body.capitalize()}, eccentricity {TRUE_MOTIONS[body].eccentricity}"
     return TheoryError(True, float(np.ptp(rest)), float(np.std(rest)), words)
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """What is left of an error over one cycle less the equation of centre, at the phase that leaves least.
+    """Return an error over one cycle minus the equation of centre, at the phase of minimum squares.
 
-    error   (n,) at phases 2 pi k/n (rad); the mean of what is left is 0
+    error   (n,) at phases 2 pi k/n [rad]; the mean of the result is 0
     """
     from scipy.optimize import minimize_scalar
 
@@ -332,7 +339,7 @@ def minimum_difference(error: Floats, e: float) -> Floats:
         found: Floats = left - left.mean()
         return found
 
-    # correlation with all shifts at once finds the best of n phases; then between its neighbours
+    # correlation by FFT finds the best of n phases; it is then refined between its neighbours
     product = np.fft.irfft(np.conj(np.fft.rfft(error)) * np.fft.rfft(centre), n)
     best, step = float(phase[int(np.argmax(product))]), 2 * pi / n
     found = minimize_scalar(
@@ -342,9 +349,12 @@ def minimum_difference(error: Floats, e: float) -> Floats:
 
 
 def theory_cause(parts: list[TheoryError]) -> BudgetCause:
-    """Parts of a pointer and of what it is read against: their cycles differ, so that peaks add, squares of rms too."""
+    """Combine the theory errors of a pointer and of its reference link into one cause.
+
+    Their cycles differ, so peak-to-peak values add, and rms values add as squares.
+    """
     if not parts:
-        return BudgetCause.unknown("theory", "no true motion is shipped for what it shows")
+        return BudgetCause.unknown("theory", "the true motion it shows is not known to geartrain")
     if unknown := [part.words for part in parts if not part.known]:
         return BudgetCause.unknown("theory", "; ".join(unknown))
     size = float(np.degrees(sum(part.peak_to_peak for part in parts)))

@@ -1,4 +1,6 @@
-"""The causes of a pointer's error as a result: each in degrees and in days, ranked, or named as not declared."""
+"""Results of an error budget: each cause of a pointer's error in degrees and in days, ranked, or marked as not
+declared.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +23,9 @@ MEASURES: Mapping[CauseName, str] = {
     "theory": "peak to peak",
     "teeth": "peak to peak",
     "lost motion": "maximum",
-    "cutting": "range that holds 95 %",
+    "cutting": "central 95 % range",
 }
-"""What the degrees of each cause are."""
+"""Meaning of the degrees of each cause."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,46 +34,48 @@ class BudgetCause(Result):
 
     See Also
     --------
-    PointerBudget : holds them
+    PointerBudget : All causes of a pointer.
     """
 
     KEYS = ("name", "measure", "declared", "degrees", "rms", "days", "interval", "note")
 
     name: CauseName
-    """What it comes from."""
+    """Name of the cause."""
     declared: Declared
-    """Whether the train says all that must be known for it."""
+    """Completeness of the data that the train declares for the cause."""
     degrees: float | None = None
-    """Its size as `measure` says [deg]; None where it is not declared."""
+    """Size as defined by `measure` [deg]; None if the data are not declared."""
     rms: float | None = None
     """Root mean square [deg]: of a drift and of cutting about the mean, of lost motion itself."""
     days: float | None = None
-    """The time in which the pointer, at its mean speed, turns so far; None where it stands or no time is declared."""
+    """Time in which the pointer turns through `degrees` at its mean speed [d]; None if it does not turn or no time is
+    declared.
+    """
     interval: tuple[float, float] | None = None
-    """Of `degrees`, with 95 % confidence [deg]; None for what is no estimate."""
+    """95 % confidence interval of `degrees` [deg]; None if it is not an estimate."""
     note: str = ""
-    """What it is made of, or what is not declared."""
+    """Origin of the cause, or the missing data."""
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """A cause of which nothing is declared.
+        """Return a cause for which no data are declared.
 
         Parameters
         ----------
         name : str
-            What it comes from.
+            Name of the cause.
         note : str
-            What is not declared.
+            Description of the missing data.
         """
         return cls(name, "not declared", note=note)
 
     def in_days(self, degrees_per_day: float | None) -> BudgetCause:
-        """The cause with its size as a time.
+        """Return the cause with its size also as a time.
 
         Parameters
         ----------
         degrees_per_day : float or None
-            How fast the pointer turns; None where it stands or no time is declared.
+            Mean speed of the pointer; None if it does not turn or no time is declared.
         """
         if self.degrees is None or not degrees_per_day:
             return self
@@ -79,36 +83,36 @@ class BudgetCause(Result):
 
     @property
     def measure(self) -> str:
-        """What `degrees` is: a drift over the span, peak to peak, the greatest, or the range that holds 95 %."""
+        """Meaning of `degrees`: a drift over the span, a peak-to-peak value, a maximum, or a central 95 % range."""
         return MEASURES[self.name]
 
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """What the mean speed of a pointer is off, against one of its targets; positive is fast.
+    """Error of the mean speed of a pointer against one of its targets; positive if the pointer is fast.
 
     See Also
     --------
-    PointerBudget : holds them
+    PointerBudget : All drifts of a pointer.
     """
 
     target: str
-    """In words."""
+    """Description of the target."""
     ppm: float | None
-    """Parts per million of the target's speed; None where 0 is wanted."""
+    """Relative error of the speed [parts per million]; None if the target is 0."""
     degrees_per_turn: float | None
-    """Gained in a turn of the pointer [deg]."""
+    """Angle gained in a turn of the pointer [deg]."""
     degrees_per_year: float | None
-    """Angle gained in 365.25 days [deg]; None where the train's unit is not a time."""
+    """Angle gained in 365.25 days [deg]; None if the train's unit is not a time."""
     degrees_per_century: float | None
-    """Angle gained in 36525 days [deg]; None where the train's unit is not a time."""
+    """Angle gained in 36525 days [deg]; None if the train's unit is not a time."""
     degrees_over_span: float | None
-    """Gained over the span of the budget [deg]."""
+    """Angle gained over the span of the budget [deg]; None if the train's unit is not a time."""
 
 
 @dataclass(frozen=True, slots=True)
 class PointerBudget(Result):
-    """The causes of one pointer's error.
+    """Causes of one pointer's error.
 
     Examples
     --------
@@ -127,61 +131,62 @@ class PointerBudget(Result):
     )
 
     name: str
-    """Of the output."""
+    """Name of the output."""
     of: str
-    """The link that turns."""
+    """Link that turns."""
     relative_to: str
-    """The link against which it is read."""
+    """Reference link against which it is read."""
     speed: SpeedValue | None
-    """Mean speed of the one seen from the other [the train's unit]."""
+    """Mean speed relative to the reference link [the train's unit]."""
     degrees_per_day: float | None
-    """The same without sign; None where the train's unit is no time."""
+    """Absolute mean speed [deg/d]; None if the train's unit is not a time."""
     causes: tuple[BudgetCause, ...]
-    """All five, in the order of `CAUSES`."""
+    """All five causes, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Against every target; the first is the one that counts."""
+    """Drift against every target. The first one is used for the ratio."""
     pairs: Mapping[str, float] | None = None
-    """What the ripple of each pair's teeth alone gives at the pointer, peak to peak [deg], the greatest first."""
+    """Peak-to-peak error [deg] due to the ripple of each pair's teeth by itself, in descending order."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
 
     @property
     def ranked(self) -> tuple[BudgetCause, ...]:
-        """The causes whose size is known, the greatest first."""
+        """Causes of known size, in descending order."""
         known = [cause for cause in self.causes if cause.degrees is not None]
         return tuple(sorted(known, key=lambda cause: -(cause.degrees or 0.0)))
 
     @property
     def ranking(self) -> tuple[str, ...]:
-        """Names of the causes whose size is known, the greatest first."""
+        """Names of the causes of known size, in descending order."""
         return tuple(cause.name for cause in self.ranked)
 
     @property
     def undeclared(self) -> tuple[BudgetCause, ...]:
-        """The causes of which nothing is known."""
+        """Causes of unknown size."""
         return tuple(cause for cause in self.causes if cause.degrees is None)
 
     @property
     def total(self) -> float:
-        """Sum of all sizes that are known, the worst that can come together [deg]."""
+        """Sum of all known sizes, the worst case [deg]."""
         return sum(cause.degrees or 0.0 for cause in self.ranked)
 
     @property
     def overtaken_after_years(self) -> float | None:
-        """Julian years after which the ratio's drift is as great as the greatest other cause; None where it is not."""
+        """Julian years after which the drift of the ratio equals the largest other cause; None if it never does."""
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
+        # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
         return max(others) / abs(yearly) if others and yearly else None
 
 
 @dataclass(frozen=True, slots=True)
 class TrainBudget(Tabular, Pictured, Result):
-    """The budgets of a train's pointers in one state, with the crank and the jams of its wheels.
+    """Error budgets of a train's pointers in one state, with the crank torque and the jams of its wheels.
 
     See Also
     --------
-    find_budget : gives it
+    find_budget : Compute the budget.
 
     Examples
     --------
@@ -211,27 +216,27 @@ class TrainBudget(Tabular, Pictured, Result):
     )
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     state: str | None
-    """As it was named."""
+    """Name of the state."""
     span_days: float
-    """Over which ratios drift [d]."""
+    """Time over which ratios drift [d]."""
     turns: float
     """Turns of the input over which teeth and lost motion are followed."""
     samples: int
     """Number of positions of the input."""
     driving_link: str
-    """The link whose turns these are."""
+    """Name of the driving link."""
     pointers: tuple[PointerBudget, ...]
-    """One for each output that was asked for."""
+    """Budget of each requested output."""
     crank: CrankLoad
-    """Torque and efficiency."""
+    """Torque and efficiency at the crank."""
     jams: tuple[ClearanceCase, ...] = ()
-    """How often wheels cut by hand jam, over clearance; empty where no cutting is declared."""
+    """Probability that wheels with cutting errors jam, over clearance; empty if no cutting errors are declared."""
     jams_note: str = ""
-    """How, or why not."""
+    """Reason why `jams` is empty."""
     reversing_drivers: tuple[str, ...] = ()
-    """Pairs whose driver turns against its mean at times; the play is not followed there."""
+    """Pairs whose driver turns against its mean direction at times. Their backlash is not followed there."""
 
     def _summary(self) -> str:
         totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)
@@ -241,7 +246,7 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each cause of each pointer: greatest and rms error [deg], and in days; None where not known."""
+        """Table with a row for each cause of each pointer: size and rms [deg], and size in days; None if unknown."""
         rows = [(pointer.name, cause) for pointer in self.pointers for cause in pointer.causes]
         return {
             "pointer": [name for name, _ in rows],
@@ -256,5 +261,5 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def not_declared(self) -> Mapping[str, int]:
-        """By cause, of how many pointers it is not declared."""
+        """Number of pointers for which each cause is not declared."""
         return {cause: sum(each[cause].degrees is None for each in self.pointers) for cause in CAUSES}

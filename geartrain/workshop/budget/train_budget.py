@@ -1,10 +1,11 @@
-"""The budget of a train in one state: what is requested, how the causes are gathered, and two of the causes.
+"""Budget of a train in one state: its options, the collection of all causes, and two of the causes.
 
-First cause, the ratio: a pointer of speed w (turns a unit) that should turn at t gains 360 (|w| - |t|) degrees a unit,
-and 360 (|w|/|t| - 1) in a turn; w and t are exact.
+First cause, the ratio: a pointer of speed w (turns per unit) that should turn at t gains 360 (|w| - |t|) degrees per
+unit, and 360 (|w|/|t| - 1) per turn. Both w and t are exact.
 
-Fifth cause, wheels cut by hand: trials of the whole train. The error of a trial includes the ripple of even teeth,
-which is a cause of its own: the same positions with even teeth are composed again and subtracted (docs/cut-by-hand.md).
+Fifth cause, cutting errors: Monte Carlo trials of the whole train. The error of a trial includes the ripple of perfect
+teeth, which is a separate cause. The motion with perfect teeth is therefore composed at the same positions and
+subtracted (docs/cut-by-hand.md).
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 
 @dataclass(frozen=True)
 class BudgetQuestion:
-    """What a budget is made of.
+    """Options of a budget.
 
     Examples
     --------
@@ -69,43 +70,42 @@ class BudgetQuestion:
     """
 
     outputs: tuple[str, ...] = ()
-    """Names of outputs; by default all that have a target or a dial, or all where none has."""
+    """Names of outputs; by default all that have a target or a dial, or all outputs if none has."""
     without: tuple[str, ...] = ()
-    """Pairs left out, so that real teeth do not contradict each other around a loop."""
+    """Names of pairs to leave out, so that teeth do not overconstrain a loop."""
     span_days: float = SAROS
-    """Over which ratios drift [d]; by default one Saros."""
+    """Time over which ratios drift [d]; by default one Saros."""
     turns: float = 20.0
-    """Of the input, over which teeth are followed."""
+    """Turns of the input over which teeth are followed."""
     samples: int = 20_000
-    """Positions of these turns, 2 or more."""
+    """Number of positions of these turns, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Cutting errors that replace the declared ones, such as "pitch_deviation=1 %"."""
+    """Cutting errors that replace the declared ones, such as "pitch_deviation=1 %"; by default the declared ones."""
     trials: int = 256
-    """How many times the wheels are cut."""
+    """Number of trials with cutting errors."""
     seed: int = 1
-    """Of the random numbers."""
+    """Seed of the random numbers."""
     jam_trials: int = 64
-    """How many times they are cut at each clearance."""
+    """Number of trials at each clearance."""
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
-    """Shares of each pair's window, or factors of the centre distance, at which jams are counted."""
+    """Fractions of each pair's clearance window, or factors of the centre distance, at which jams are counted."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """By output, whose true motion it should show, where its name does not tell; None for nobody's."""
+    """Body whose true motion an output shows, by output, where its name does not indicate it; None for no body."""
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:
-            what = f"a span of {self.span_days:g} days"
+            what = f"the span is {self.span_days:g} days"
             raise QuestionError(
-                Problem(what, "ratios drift in time that passes", "give a span above 0 and below 1e9 days")
+                Problem(what, "it must be above 0 and below 1e9 days", "give for example --span '6940 d'")
             )
         if self.samples < 2 or not 0 < self.turns <= 1e6:
-            what = f"{self.samples} positions of {self.turns:g} turns"
-            raise QuestionError(
-                Problem(what, "teeth are followed while the input turns", "give 2 or more, and turns above 0")
-            )
+            what = f"{self.samples} positions of {self.turns:g} turns are requested"
+            why = "teeth are followed at 2 or more positions, over more than 0 and up to 1e6 turns"
+            raise QuestionError(Problem(what, why, "give for example --turns 20 --samples 20000"))
 
 
 STAGES = 5
-"""Of a budget, told one by one: speeds and pins, teeth and play, cutting, jams, crank."""
+"""Number of stages of a budget: speeds and pins, teeth and backlash, cutting, jams, crank."""
 
 
 def find_budget(
@@ -115,32 +115,32 @@ def find_budget(
     means: Execution | None = None,
     on_stage: Callable[[], None] = lambda: None,
 ) -> TrainBudget:
-    """The budget of each pointer of a train: what its error comes from, in degrees and in days.
+    """Compute the error budget of each pointer of a train: its causes in degrees and in days.
 
     Parameters
     ----------
     train : GearTrain
-        Whatever it does not declare is named, and never counted as 0.
+        The train. Causes for which it declares no data are reported as such, and never counted as 0.
     requested : BudgetQuestion, optional
-        Pointers, span, positions, errors of cutting.
+        Pointers, span, positions, cutting errors.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state. Required if the train declares states.
     means : Execution, optional
-        Who does the trials of cut wheels; by default this process.
+        Executor of the trials with cutting errors; by default this process.
     on_stage : callable
-        Called after each of `STAGES` stages.
+        Callback after each of `STAGES` stages.
 
     Returns
     -------
     TrainBudget
-        By pointer the causes, ranked; torque of the crank; jams over clearance.
+        Ranked causes of each pointer, torque of the crank, and probability of jams over clearance.
 
     Raises
     ------
     QuestionError
         If the train does not move, or an output is not declared.
     GearTrainError
-        If cutting is asked for, and the train's teeth cannot be cut.
+        If cutting errors are requested and the train's teeth cannot be cut.
 
     Examples
     --------
@@ -189,7 +189,7 @@ def find_budget(
 
 @dataclass(frozen=True)
 class _TrainCauses:
-    """What was found of the whole train, from which the budget of each pointer is taken."""
+    """Causes found for the whole train, from which the budget of each pointer is compiled."""
 
     requested: BudgetQuestion
     unit_days: float | None
@@ -199,9 +199,9 @@ class _TrainCauses:
     uncut: str
 
     def pointer(self, output: OutputResult) -> PointerBudget:
-        """The budget of one output."""
+        """Return the budget of one output."""
         name, speed = output.name, output.speed
-        # mean speed without sign; none where the pointer stands or the unit is no time
+        # absolute mean speed; None if the pointer does not turn or the unit is not a time
         rate = 360 * abs(float(speed)) / self.unit_days if speed and self.unit_days else None
         drifts = find_drifts(output, self.unit_days, self.requested.span_days)
         ratio, theory = ratio_cause(drifts), theory_cause(self.theories[name])
@@ -212,14 +212,14 @@ class _TrainCauses:
     def _cutting(self, name: str) -> BudgetCause:
         known = self.teeth.declared[name]
         if not known.gears and not known.pins:
-            return BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair lies between it and the input")
+            return BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair is between it and the input")
         if self.cut is None:
             return BudgetCause.unknown("cutting", self.uncut)
         return self.cut.cause(name, known)
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
-    """The outputs asked for, else those that somebody reads: with a target or a dial, or all where none has either."""
+    """Return the requested outputs, by default those with a target or a dial, or all outputs if none has either."""
     for name in (*requested.outputs, *requested.bodies):
         check_choice("output", name, tuple(answer.outputs))
     if requested.outputs:
@@ -227,8 +227,8 @@ def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
     read = tuple(name for name, each in answer.outputs.items() if each.targets or each.output.dial)
     names = read or tuple(answer.outputs)
     if not names:
-        why = "a budget is that of a pointer"
-        raise QuestionError(Problem(f"'{answer.train}' declares no output", why, "declare `outputs`"))
+        why = "an error budget is computed for the outputs of a train"
+        raise QuestionError(Problem(f"'{answer.train}' declares no output", why, "declare `outputs: {LINK: {}}`"))
     return names
 
 
@@ -239,7 +239,7 @@ def _float(value: Fraction | None) -> float | None:
 def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
-    """By pointer the anomalies of its link and of the link it is read against, each against its body."""
+    """Return by pointer the theory errors of its link and of its reference link, each compared with its body."""
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
@@ -247,7 +247,7 @@ def _theories(
     for name in motion.outputs:
         output = answer.outputs[name]
         ends = [link for link in (output.of, output.relative_to) if link in links]
-        # what stands for nothing and is read against the Moon is no pointer of the Moon
+        # an output that does not represent a body but is read against the Moon is not a pointer of the Moon
         found[name] = [links[link] for link in ends] if output.of in links else []
     return found
 
@@ -255,7 +255,7 @@ def _theories(
 def _jams(
     plan: TrialPlan | None, uncut: str, requested: BudgetQuestion, means: Execution
 ) -> tuple[tuple[ClearanceCase, ...], str]:
-    """How often wheels jam over clearance, or why that is not known."""
+    """Return the probability of jams over clearance, or the reason why it is unknown."""
     if plan is None:
         return (), uncut
     return jams_over_clearance(plan, requested.clearances, requested.jam_trials, requested.seed, means)
@@ -268,17 +268,19 @@ YEAR, CENTURY = 365.25, 36525.0  # Julian, in days
 
 
 def find_drifts(output: OutputResult, unit_days: float | None, span_days: float) -> tuple[RatioDrift, ...]:
-    """What an output gains against each of its targets; what the sky was seen to do comes first.
+    """Return the drift of an output against each of its targets; observed periods come first.
 
-    unit_days   the train's unit of time (d), None where it is none
+    unit_days   the train's unit of time [d], None if its unit is not a time
     """
     judged = list(zip(output.output.targets, output.targets, strict=False))
-    judged.sort(key=lambda both: not _is_seen(both[0]))  # stable: else as declared
+    judged.sort(key=lambda both: not _is_observed(both[0]))  # stable, so that otherwise the declared order is kept
     return tuple(_drift(result, unit_days, span_days) for _, result in judged)
 
 
-def _is_seen(target: Target) -> bool:
-    """A period of the shipped table is a time in the sky; speeds and relations are what makers meant."""
+def _is_observed(target: Target) -> bool:
+    """Return whether a target is an observed period of the shipped table; speeds and relations are intentions of
+    makers.
+    """
     return target.name is not None and period_table()[target.name].kind == "period"
 
 
@@ -294,15 +296,15 @@ def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> R
 
 
 def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
-    """The drift over the span, against the first target."""
+    """Return the drift over the span against the first target as a cause."""
     if not drifts:
         return BudgetCause.unknown("ratio", "no target is declared for this pointer")
     first = drifts[0]
     if first.degrees_over_span is None:
-        note = f"against {first.target}: the train's unit is no time, so that there is no span to drift over"
+        note = f"against {first.target}: the train's unit is not a time, so the drift over the span is undefined"
         return BudgetCause.unknown("ratio", note)
     size = abs(first.degrees_over_span)
-    # a line from 0 to its end: rms about its mean
+    # rms about the mean of a line from 0 to `size`
     return BudgetCause("ratio", "whole", size, size / sqrt(12), note=f"against {first.target}")
 
 
@@ -311,15 +313,15 @@ def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
 
 @dataclass(frozen=True)
 class CuttingTrials:
-    """Trials of a train, with what even teeth do at the same positions (rad), (outputs, trials)."""
+    """Trials of a train, with the errors of perfect teeth at the same positions [rad], (outputs, trials)."""
 
     trials: TrialResults
     even: Floats
 
     def cause(self, name: str, known: DeclaredPairs) -> BudgetCause:
-        """The range that holds 95 % of the errors of one output, and its interval: ends of both percentiles'.
+        """Return the central 95 % range of the errors of one output as a cause, with an interval from both percentiles.
 
-        known   what moves the output
+        known   pairs and couplings that move the output
         """
         at = self.trials.plan.outputs.index(name)
         errors = self.trials.errors[:, at]
@@ -328,15 +330,17 @@ class CuttingTrials:
         if known.gears and not reach:
             return BudgetCause.unknown("cutting", "none of the pairs that move it can be cut")
         if known.bare and not np.ptp(errors[whole]):
-            return BudgetCause.unknown("cutting", f"no dimensions are declared of {', '.join(known.bare)}")
+            return BudgetCause.unknown("cutting", f"no dimensions are declared for {', '.join(known.bare)}")
         runs = whole & turning_trials(self.trials.marks, self.trials.plan.reach[at])
+        # too few turning trials give no useful percentiles, so all trials are used
         kept = runs if np.count_nonzero(runs) >= FEWEST else whole
         note = f"{int(np.count_nonzero(runs))} of {self.trials.done} trials turn"
         note += f", {reach} of {known.gears} pairs cut" if reach < known.gears else ""
-        note += "" if kept is runs else "; taken from all, as the pushing flanks alone would have them"
+        note += "" if kept is runs else "; errors of all trials, given by the pushing flanks"
         values = np.sort((errors - self.even[at])[kept])
         low, high = percentile_of(values, 2.5), percentile_of(values, 97.5)
         size = degrees(high.value - low.value)
+        # smallest and largest range that the intervals of both percentiles allow
         within = degrees(max(high.low - low.high, 0.0)), degrees(high.high - low.low)
         interval = within if np.isfinite(within).all() else None
         if interval is None:
@@ -347,9 +351,9 @@ class CuttingTrials:
 
 
 def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution) -> CuttingTrials:
-    """Cut the wheels so many times; the motion is that with even teeth."""
+    """Run the trials with cutting errors; `motion` is the motion with perfect teeth."""
     found = run_trials(plan, count, seed, means)
-    if not found.complete:  # interrupted: a budget of half the trials would not say so
+    if not found.complete:  # interrupted: a budget does not state that it uses only some of the trials
         raise KeyboardInterrupt
     teeth = ErrorDifference(plan.composition, without_teeth(motion)._forward)
     parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
@@ -359,12 +363,14 @@ def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, 
 def cutting_plan(
     train: GearTrain, cutting: Sequence[str], outputs: Sequence[str], state: str | None, without: Sequence[str]
 ) -> tuple[TrialPlan | None, str]:
-    """What trials need, or why there are none. Raises `GearTrainError` where `cutting` cannot be tried."""
+    """Return the plan of the trials, or the reason why there is none; `GearTrainError` if `cutting` cannot
+    be applied.
+    """
     settings = read_error_overrides(cutting)
     try:
         return find_trial_plan(train, settings, outputs, state, without), ""
     except GearTrainError as error:
-        if cutting:
+        if cutting:  # errors given explicitly must be applied; otherwise the cause is only marked as unknown
             raise
         return None, error.problems[0].what
 
@@ -372,9 +378,9 @@ def cutting_plan(
 def jams_over_clearance(
     plan: TrialPlan, clearances: Sequence[float], count: int, seed: int, means: Execution
 ) -> tuple[tuple[ClearanceCase, ...], str]:
-    """How often some pair jams at each clearance; none, and why, where a pair has no window."""
+    """Return the probability of jams at each clearance; empty with the reason if a pair has no clearance window."""
     if not clearances:
-        return (), "no clearance was asked for"
+        return (), "no clearance was requested"
     try:
         return tuple(run_clearances(plan, clearances, count, seed, means)), ""
     except GearTrainError as error:

@@ -1,4 +1,4 @@
-"""`geartrain budget`: what each pointer's error comes from: ratio, theory, teeth, lost motion, cutting."""
+"""Command `geartrain budget`: causes of each pointer's error, in degrees and in days."""
 
 from __future__ import annotations
 
@@ -33,32 +33,40 @@ if TYPE_CHECKING:
 
 def run(
     file: File,
-    output: Annotated[Names, typer.Option("--output", help="Output; may be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--output", help="Output to report; can be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
     span: Annotated[
-        str, typer.Option("--span", help="Time over which ratios drift: '6940 d', or a name that `periods` lists.")
+        str, typer.Option("--span", help="Time over which ratios drift: '6940 d', or a name from `geartrain periods`.")
     ] = "saros_223_synodic_modern",
-    turns: Annotated[str, typer.Option("--turns", help="Turns of the input over which teeth are followed.")] = "20",
-    samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 20_000,
+    turns: Annotated[
+        str, typer.Option("--turns", help="Revolutions of the input over which teeth are followed.")
+    ] = "20",
+    samples: Annotated[
+        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of positions of the input.")
+    ] = 20_000,
     cutting: Annotated[
-        Names, typer.Option("--cutting", help="KIND=SIZE or NAME.KIND=SIZE in place of what is declared: 'tip=3 %'.")
+        Names,
+        typer.Option("--cutting", help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'."),
     ] = None,
     trials: Annotated[
-        int, typer.Option("--trials", min=1, max=MOST_COUNT, help="How many times the train is cut.")
+        int, typer.Option("--trials", min=1, max=MOST_COUNT, help="Number of Monte Carlo trials of cutting errors.")
     ] = 256,
     seed: Seed = 1,
     workers: Workers = None,
     body: Annotated[
-        Names, typer.Option("--body", help="OUTPUT=moon, sun or none: whose true motion it shows, if no name tells.")
+        Names,
+        typer.Option(
+            "--body", help="Body whose true motion an output shows, if its name does not indicate it: OUTPUT=moon."
+        ),
     ] = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the ranked causes to this file.")] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Write a plot of the ranked causes to this file.")] = None,
     json: Json = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """What each pointer's error comes from, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
+    """List the causes of each pointer's error, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
     from geartrain.analysis.gear_train import load
     from geartrain.numerics.work import Execution
     from geartrain.workshop.budget.budget_report import describe_budget
@@ -90,7 +98,7 @@ def run(
 
 
 def _days(text: str) -> float:
-    """A time, or a period of the shipped table, in days."""
+    """Convert a time, or the name of a period of the shipped table, to days."""
     from geartrain.train.periods import period_table
 
     row = period_table().get(text.strip())
@@ -100,12 +108,13 @@ def _days(text: str) -> float:
 
 
 def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:
-    """`moon=moon`, `b=sun`, `date=none`."""
+    """Parse assignments of bodies to outputs: `moon=moon`, `b=sun`, `date=none`."""
     known: dict[str, Body | None] = {"moon": "moon", "sun": "sun", "none": None}
     found: dict[str, Body | None] = {}
     for text in texts:
         name, equals, body = text.rpartition("=")
         if not equals or body not in known:
-            raise typer.BadParameter(f"'{text}' is not of the form OUTPUT=moon, sun or none", param_hint="--body")
+            what = f"'{text}' is not OUTPUT=moon, OUTPUT=sun or OUTPUT=none"
+            raise typer.BadParameter(what, param_hint="--body")
         found[name] = known[body]
     return found

@@ -1,13 +1,14 @@
-"""Wheels with triangular teeth cut by hand, and two of them on their axles: CutWheel, CutToothPairs, CutGearPair.
+"""Triangular wheels with cutting errors, and a pair of two of them: CutWheel, CutToothPairs, CutGearPair.
 
 Teeth are numbered in the order in which they pass the line of centres as the wheel turns forward. The tip of tooth i
-stands at the angle i p + place[i] behind that of an even wheel's tooth 0 (p the pitch), at radius R + tip[i]; its
-flanks make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip. The leading flank looks
-forward: it pushes where the wheel drives, and the trailing flank is pushed where it is driven. The radius of a ring is
-negative, as in the equations of its pair: a tip that is higher lies farther inwards.
+is at the angle i p + place[i] behind tooth 0 of a perfect wheel (p is the pitch), at the radius R + tip[i]. Its flanks
+make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip. The leading flank faces
+forward. It pushes if the wheel drives; the trailing flank is pushed if the wheel is driven. The radius of an internal
+wheel is negative, as in the equations of its pair, so a higher tip is nearer the centre.
 
-Couple k joins tooth k of the driver to tooth k of the driven wheel, both counted on through all turns; after
-lcm(z1, z2) couples the same teeth meet again. Its driver's leading flank pushes the driven trailing flank.
+Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. After
+lcm(z1, z2) tooth pairs the same teeth meet again. The leading flank of the driver pushes the trailing flank of the
+driven tooth.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 
-ROUNDING = 1e-11  # of a pitch: what is less is none
+ROUNDING = 1e-11  # pitches: smaller differences are rounding errors
 _CONSTANTS = ("R1", "R2", "D", "delta", "sin1", "cos1", "sin2", "cos2", "entry", "reach", "exit_angle")
 
 
@@ -39,34 +40,35 @@ _CONSTANTS = ("R1", "R2", "D", "delta", "sin1", "cos1", "sin2", "cos2", "entry",
 
 @dataclass(frozen=True, slots=True)
 class CutWheel:
-    """A wheel cut by hand: each tooth with its own place, height and flanks, relative to an even wheel.
+    """Triangular wheel with cutting errors: each tooth has its own pitch deviation, height and flank angles.
 
-    All arrays are (..., z) for z teeth, numbered as they pass while the wheel turns forward; leading axes are trials.
+    All arrays have shape (..., z) for z teeth, numbered as they pass while the wheel turns forward. Leading axes are
+    trials.
     """
 
     radius: float
-    """Tip radius R of the even wheel [any one unit], negative for a ring."""
+    """Tip radius R of the perfect wheel [any unit of length]; negative for an internal wheel."""
     half_angle: float
-    """Half aperture of its teeth [rad]."""
+    """Half angle of its teeth [rad]."""
     place: Floats
-    """How far behind its even place a tip is [rad]."""
+    """Angle of each tip behind its nominal position [rad]."""
     tip: Floats
-    """How far a tip extends beyond R [as R]."""
+    """Height of each tip above R [unit of R]."""
     leading: Floats
-    """By how much the flanks are flatter than the half angle, about the axle [rad]."""
+    """Angle by which each leading flank is flatter than the half angle, turned about the tip [rad]."""
     trailing: Floats
-    """By how much the flanks are flatter than the half angle, about the axle [rad]."""
+    """Angle by which each trailing flank is flatter than the half angle, turned about the tip [rad]."""
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
-        """A wheel of z teeth without errors."""
+        """Return a wheel of z teeth without errors."""
         return cls(radius, half_angle, *(np.zeros(z) for _ in range(4)))
 
-    # ---------------------------------------------------------------------------------------------------------- as is
+    # ------------------------------------------------------------------------------------------------------ properties
 
     @property
     def z(self) -> int:
-        """Tooth number."""
+        """Number of teeth."""
         return int(self.place.shape[-1])
 
     @property
@@ -76,64 +78,65 @@ class CutWheel:
 
     @property
     def sign(self) -> int:
-        """-1 for a ring, else 1."""
+        """Sign of the radius: -1 for an internal wheel, else 1."""
         return -1 if self.radius < 0 else 1
 
     @property
     def pitch(self) -> float:
-        """Even pitch (rad)."""
+        """Nominal angular pitch [rad]."""
         return 2 * pi / self.z
 
     @property
     def theta(self) -> Floats:
-        """Polar angle of every tip (rad)."""
+        """Polar angle of every tip [rad]."""
         return np.arange(self.z) * self.pitch + self.place
 
     @property
     def r(self) -> Floats:
-        """Radius of every tip, negative in a ring."""
+        """Radius of every tip, negative for an internal wheel."""
         return self.radius + self.tip
 
     @property
-    def only_placed(self) -> bool:
-        """True if teeth differ in nothing but their places."""
+    def only_pitch_deviations(self) -> bool:
+        """True if the teeth have only pitch deviations."""
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def trial(self, at: int) -> CutWheel:
-        """One wheel out of many; an array that all share stays."""
+        """Return the wheel of one trial; arrays shared by all trials are kept."""
         one = (each[at] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *one)
 
     def taken(self, part: slice | NDArray[np.int64]) -> CutWheel:
-        """Some wheels out of many."""
+        """Return the wheels of some trials; arrays shared by all trials are kept."""
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
     # ------------------------------------------------------------------------------------------------------ with errors
 
     def placed(self, place: ArrayLike) -> CutWheel:
-        """Teeth moved along the rim, late where positive [rad]: flanks turn with them."""
+        """Return the wheel with its teeth moved along the rim [rad], backwards if positive; flanks turn with them."""
         return replace(self, place=self.place + np.asarray(place)).checked()
 
     def grown(self, tip: ArrayLike) -> CutWheel:
-        """Teeth cut to other heights [as R]: only tips move, radially."""
+        """Return the wheel with higher teeth [unit of R]; tips move radially, flank angles are kept."""
         return replace(self, tip=self.tip + np.asarray(tip)).checked()
 
     def widened(self, leading: ArrayLike, trailing: ArrayLike | None = None) -> CutWheel:
-        """Teeth with other half angles, flatter where positive [rad]; the first alone gives both flanks."""
+        """Return the wheel with other flank angles, flatter if positive [rad]; one argument applies to both flanks."""
         trailing = leading if trailing is None else trailing
         return replace(
             self, leading=self.leading + np.asarray(leading), trailing=self.trailing + np.asarray(trailing)
         ).checked()
 
     def eccentric(self, e: ArrayLike, towards: ArrayLike = 0.0) -> CutWheel:
-        """The same teeth cut about a centre at a distance e from the axle [as R], in a direction [rad]."""
+        """Return the same teeth cut about a centre at a distance e from the axis [unit of R] in a direction [rad]."""
         return self.moved(e, towards).checked()
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """The wheel of `eccentric`, whether its teeth can be cut or not."""
+        """Return the wheel of `eccentric` without checking that it can be cut."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
+        # the flanks keep their directions, but the radius through the tip turns
         lean = self.sign * turned
         return replace(
             self,
@@ -144,12 +147,12 @@ class CutWheel:
         )
 
     def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
-        """The same teeth with flanks lowered along their normals: each tip moves down the other flank.
+        """Return the same teeth with flanks lowered along their normals; each tip moves down the other flank.
 
-        leading, trailing   by how much, 0 or more, (..., z) [as R]
+        leading, trailing   depths of filing, 0 or more, (..., z) [unit of R]
         """
         ahead, behind = self.half_angle + self.leading, self.half_angle + self.trailing
-        # the other flank meets the lowered one this much farther down
+        # length along the other flank down to its intersection with the lowered flank
         down, across = 1 / np.sin(ahead + behind), trailing * np.sin(ahead) - leading * np.sin(behind)
         radial = self.r - down * (leading * np.cos(behind) + trailing * np.cos(ahead))
         late = -np.arctan2(down * across, np.abs(radial))
@@ -160,7 +163,8 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """The wheel seen from behind, turning the other way; tooth i is tooth `first` - i as it was."""
+        """Return the mirrored wheel, turning the other way; its tooth i is tooth `first` - i of this one."""
+        # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
             self.radius,
@@ -171,29 +175,29 @@ class CutWheel:
             self.leading[..., order],
         )
 
-    # -------------------------------------------------------------------------------------------------------- refusals
+    # ---------------------------------------------------------------------------------------------------------- checks
 
     def checked(self) -> CutWheel:
-        """The wheel itself. Raises `RangeError` where its teeth cannot be cut: no tooth, or no space, is left."""
+        """Return the wheel itself; raise `RangeError` if teeth cannot be cut because no tooth or no space is left."""
         if not self.cuttable.all():
             bad = int(np.size(self.cuttable) - np.count_nonzero(self.cuttable))
             where = np.unravel_index(int(np.argmin(self.cuttable)), np.shape(self.cuttable))
             raise RangeError(
                 Problem(
                     f"{bad} of {np.size(self.cuttable)} teeth cannot be cut, the first of them tooth {where[-1]}",
-                    "with such errors a flank and the next tooth's flank leave no tip standing, or meet in no valley",
-                    "give errors smaller than the tooth: places within the pitch, half angles above 0 and below those "
-                    "at which teeth lose their tips",
+                    "facing flanks of two teeth must form a space, and both flanks of a tooth must meet at its tip",
+                    "give smaller errors: pitch deviations within a pitch, and half angles above 0 at which teeth keep "
+                    "their tips",
                 )
             )
         return self
 
     @property
     def cuttable(self) -> NDArray[np.bool_]:
-        """For each tooth, whether it and the next have tips, flanks, and a valley between them (..., z)."""
+        """Mask (..., z): True if a tooth and the next one have tips, flanks, and a space between them."""
         gap = self.pitch + np.roll(self.place, -1, -1) - self.place
         near, far = np.broadcast_arrays(self.r, np.roll(self.r, -1, -1))
-        # the angle at each tip between its radius and the line to the other tip; the flanks must lie inside both
+        # angle at each tip between its radius and the line to the other tip; the flanks must be inside both
         at_near = np.arctan2(np.abs(far) * np.sin(gap), near - far * np.cos(gap))
         at_far = np.arctan2(np.abs(near) * np.sin(gap), far - near * np.cos(gap))
         trailing, leading = self.half_angle + self.trailing, self.half_angle + np.roll(self.leading, -1, -1)
@@ -203,16 +207,16 @@ class CutWheel:
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """The value of one tooth of each trial; a plain 0 where all are, which costs no array."""
+    """Return the value of one tooth in each trial; a scalar 0, which saves an array, if all values are 0."""
     if each.ndim == 1:
         return each[teeth] if each.any() else 0.0
     return each[rows, teeth]
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """How far a shift moves points outwards and turns them, seen from a fixed centre; exact at any size.
+    """Return the radial displacement and the rotation of points due to a shift, seen from a fixed centre; exact.
 
-    radius, angle   of the points, polar (rad)
+    radius, angle   polar coordinates of the points (angle in rad)
     e, towards      length and direction (rad) of the shift
     """
     along = e * np.cos(towards - angle)
@@ -228,12 +232,12 @@ def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tupl
 
 
 class CutToothPairs(ToothPair):
-    """Couples of a driver's and a driven tooth; all arrays broadcast against each other and the angles asked for.
+    """Contact of pairs of a driving and a driven tooth; all arrays broadcast with each other and with the angles.
 
-    R1, R2         radii of the tips, that of a ring negative
-    beta1, beta2   half angles of the two flanks that meet (rad)
-    D, delta       centre distance, negative in an internal pair, and R1 + R2 - D given apart: it must not suffer from
-                   cancellation
+    R1, R2         radii of the tips, negative for an internal wheel
+    beta1, beta2   half angles of the two flanks in contact (rad)
+    D              centre distance, negative for an internal pair
+    delta          R1 + R2 - D, given separately to avoid cancellation
     """
 
     __slots__ = ("exit_angle", "reach")
@@ -245,13 +249,15 @@ class CutToothPairs(ToothPair):
         self.sin2, self.cos2 = self.mirror * np.sin(beta2), np.cos(beta2)
         self.leans = False
         self.entry = _half_sine(R1, R2, D, delta)
-        # tips that pass clear of each other touch nowhere
+        # tips that do not reach each other never touch
         self.reach: Floats = np.where(np.asarray(delta) > 0, 2 * np.arcsin(self.entry), -np.inf)
         self.exit_angle: Floats = -2 * np.arcsin(_half_sine(R2, R1, D, delta))
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Couples of the teeth of a pair: tips higher and half angles wider by so much, axles so much farther apart."""
+        """Return the tooth pairs of a gear pair with tip heights, flank angles and centre distance
+        increased by errors.
+        """
         R1, R2 = sizes.signed_radii
         return cls(
             R1 + tips[0],
@@ -263,19 +269,24 @@ class CutToothPairs(ToothPair):
         )
 
     def contact(self, x: Any) -> Any:
-        """f(x) = min(approach, recess): alpha_2 at first contact, where |x| is within the reach."""
-        return np.fmin(self.approach_angle(x, np), self.recess_angle(x, np))  # far out of reach one is no number
+        """Return f(x) = min(approach, recess): the angle alpha_2 of the driven tooth at contact, for |x| within the
+        reach.
+        """
+        return np.fmin(self.approach_angle(x, np), self.recess_angle(x, np))  # far out of reach one of them is NaN
 
     def approaches(self, x: Any) -> Any:
-        """True where the contact at x is in approach."""
+        """Return whether the contact at x is in the approach phase."""
         return self.approach_angle(x, np) < self.recess_angle(x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Speed ratio at x in the phase given; infinite where teeth that jam overlap down past the driven flank."""
+        """Return the speed ratio at x in the given phase; infinite if jamming teeth overlap below the end of the driven
+        flank.
+        """
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
-        """Some of the couples, or all in another order: `pick` of every constant."""
+        """Return some of the tooth pairs, or all in another order: `pick` is applied to every constant."""
+        # without __init__, which would recompute every constant
         found = CutToothPairs.__new__(CutToothPairs)
         found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
         for name in _CONSTANTS:
@@ -283,12 +294,13 @@ class CutToothPairs(ToothPair):
         return found
 
     def rolled(self, n: int) -> CutToothPairs:
-        """In the place of each couple the one n before it, round the cycle."""
+        """Return the tooth pairs rotated by n: each is replaced by the one n before it in the cycle."""
         return self if n == 0 else self.picked(lambda each: np.roll(each, n, -1) if np.ndim(each) else each)
 
     @property
     def leaning(self) -> NDArray[np.bool_]:
-        """True where a flank leans beyond the perpendicular where the tips meet."""
+        """True if a flank is inclined beyond the perpendicular when the tips meet."""
+        # rounding errors may exceed 1
         flank = np.arcsin(np.clip(np.maximum(abs(self.sin1), abs(self.sin2)), -1.0, 1.0))
         turned = np.maximum(self.reach, 0.0) - self.side * self.exit_angle
         found: NDArray[np.bool_] = np.asarray(flank + turned >= np.pi / 2)
@@ -296,23 +308,23 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Sine of half the reach of wheel 1, Eq. (4)."""
+    """Return the sine of half the reach of wheel 1, equation (4)."""
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
 
 @dataclass(frozen=True)
 class CutGearPair:
-    """Two cut wheels, the first driving, and their centre distance; `sizes` are those without errors."""
+    """Pair of cut wheels, the first driving, with a centre distance; `sizes` are the sizes without errors."""
 
     sizes: TriangularSizes
     first: CutWheel
     second: CutWheel
     shift: Any = 0.0
-    """By how much the centre distance is greater (as the radii): one, or one for each trial."""
+    """Increase of the centre distance [unit of the radii], one value or one for each trial."""
 
     @cached_property
     def count(self) -> int:
-        """Couples in a full cycle of teeth."""
+        """Number of tooth pairs in a full meshing cycle."""
         return self.sizes.z1 * self.sizes.z2 // gcd(self.sizes.z1, self.sizes.z2)
 
     @cached_property
@@ -321,7 +333,7 @@ class CutGearPair:
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def tooth_pairs(self, k: Any) -> CutToothPairs:
-        """Couples k, counted on through all turns."""
+        """Return the tooth pairs with the numbers k, counted through all turns."""
         i = k % self.sizes.z1
         j = k % self.sizes.z2
         one, two, sizes = self.first, self.second, self.sizes
@@ -330,30 +342,31 @@ class CutGearPair:
         return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """How late the two teeth of couples k are (rad, each of its own wheel)."""
+        """Return the angles by which both teeth of the tooth pairs k are late [rad, each of its own wheel]."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
     def mirrored(self) -> CutGearPair:
-        """The pair that turns the other way: its couple -k is the driver's tooth k ahead of the driven tooth k + 1.
+        """Pair turning the other way. Its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
 
-        Where its first contact is U', the back flanks here are met at L(t) = -U'(-t) - p2.
+        If U' is the lag of the mirrored pair at first contact, the back flanks here meet at L(t) = -U'(-t) - p2.
         """
         return CutGearPair(self.sizes, self.first.mirrored(), self.second.mirrored(1), self.shift)
 
     @cached_property
     def widest(self) -> float:
-        """No couple reaches farther (rad of the driver); -inf where none touches."""
+        """Maximum reach of any tooth pair [rad of the driver]; -inf if no teeth can touch."""
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
         R1, R2 = sizes.signed_radii
+        # extreme tips of either wheel, even if they never meet: an upper bound
         low, high = R1 + float(one.tip.min()), R2 + float(two.tip.max())
         delta = sizes.delta + float(one.tip.max()) + float(two.tip.max()) - sizes.side * shift
         return float(CutToothPairs(low, high, sizes.beta1, sizes.beta2, sizes.side * (sizes.D + shift), delta).reach)
 
     @cached_property
     def leans(self) -> Bools:
-        """For each trial, whether a flank leans beyond the perpendicular where the tips of its couple meet."""
+        """Mask of the trials in which a flank is inclined beyond the perpendicular when the tips of its pair meet."""
         k = np.arange(self.count)
         both = [np.atleast_2d(each.leaning).any(axis=1) for each in (self.tooth_pairs(k), self.mirrored.tooth_pairs(k))]
         found: Bools = np.broadcast_to(both[0] | both[1], self.trials or (1,)).copy()

@@ -1,4 +1,4 @@
-"""Which errors a train declares, as plain fractions of pitch, depth and half angle; and errors set in their place."""
+"""Errors that a train declares, as fractions of pitch, depth and half angle, and overrides of these errors."""
 
 from __future__ import annotations
 
@@ -29,24 +29,24 @@ MOST = {
     "centre": 2.0,
     "bearing": 2.0,
 }
-"""Sizes beyond which there is no tooth left, as fractions of pitch, half angle and depth."""
+"""Maximum sizes, as fractions of pitch, half angle and depth. A larger error leaves no tooth."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorSpecification:
-    """One error: fixed at `size`, or drawn with the standard deviation or the greatest size `size` (a fraction)."""
+    """Error of fixed value `size`, or random with the standard deviation or half width `size`, as a fraction."""
 
     size: float = 0.0
     way: ErrorDistributionKind = "value"
 
     def times(self, factor: float) -> ErrorSpecification:
-        """The same error, greater or smaller."""
+        """Return the error multiplied by a factor."""
         return replace(self, size=self.size * factor)
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """An error set by hand in place of what is declared: `text` of one kind, of one wheel or pair or of all."""
+    """Error that replaces the declared one: kind, distribution and amount, for one wheel or pair (`of`) or for all."""
 
     kind: str
     way: ErrorDistributionKind
@@ -56,13 +56,13 @@ class ErrorOverride:
 
 @dataclass(frozen=True, slots=True)
 class WheelErrors:
-    """How one wheel is cut.
+    """Errors of one wheel.
 
-    pitch, half_angle  of the even wheel (rad); `depth` of its teeth over the radius of its tips
-    ring               its teeth are inside
-    errors             by kind: pitch_deviation in pitches, aperture in half angles, the others in depths
-    towards            where its middle lies from the axle, from the first tooth (rad); None for anywhere
-    tables             measured tooth by tooth, by kind, in the same fractions
+    pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth divided by its tip radius
+    ring               True for an internal wheel
+    errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, the others in depths
+    towards            direction of the eccentricity from the first tooth (rad); None for a random direction
+    tables             values measured tooth by tooth, by kind, in the same fractions
     displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth
     """
 
@@ -77,39 +77,39 @@ class WheelErrors:
 
     @property
     def pitch(self) -> float:
-        """Even pitch (rad)."""
+        """Nominal angular pitch [rad]."""
         return 2 * pi / self.z
 
     @property
     def depth(self) -> float:
-        """Depth of a tooth over the radius of the tips; of displaced flanks in modules, or rad on cones."""
+        """Depth of a tooth divided by the tip radius; for displaced flanks in modules, for bevel gears in rad."""
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property
     def true(self) -> bool:
-        """True if nothing of it is off."""
+        """True if the wheel has no errors."""
         return not self.tables and not any(each.size for each in self.errors.values())
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
-    """Errors of cutting and fitting set by hand, in place of those that a train declares.
+    """Parse errors of cutting and fitting that replace the declared errors of a train.
 
     Parameters
     ----------
     texts : iterable of str
-        `KIND=SIZE` or `NAME.KIND=SIZE`, of all or of one wheel or pair: `pitch_deviation=4.13 %`,
-        `m2.eccentricity=value 0.2 mm`. The error is normally distributed and SIZE is its standard deviation,
-        unless `value` or `uniform` precedes it.
+        Texts `KIND=SIZE` for all or `NAME.KIND=SIZE` for one wheel or pair: `pitch_deviation=4.13 %`,
+        `m2.eccentricity=value 0.2 mm`. SIZE is the standard deviation of a normal distribution, unless it is preceded
+        by `value` or `uniform`.
 
     Returns
     -------
     tuple of ErrorOverride
-        For `find_trial_plan`.
+        Overrides for `find_trial_plan`.
 
     Raises
     ------
     QuestionError
-        For a text that names no kind of error, or no size.
+        If a text does not give a kind of error and its size.
 
     Examples
     --------
@@ -126,8 +126,10 @@ def _setting(text: str) -> ErrorOverride:
     key, sign, said = text.partition("=")
     of, _, kind = key.strip().rpartition(".")
     if not sign or kind not in ERROR_KINDS:
-        fix = f"write KIND=SIZE or NAME.KIND=SIZE, with one of {', '.join(ERROR_KINDS)}"
-        raise QuestionError(Problem(f"'{text}' sets no error", "it names no kind of error and its size", fix))
+        fix = f"write KIND=SIZE or NAME.KIND=SIZE; KIND is one of {', '.join(ERROR_KINDS)}"
+        why = "an error is set by its kind and its size, such as 'tip=3 %'"
+        raise QuestionError(Problem(f"'{text}' does not set an error", why, fix))
+    # errors quoted without a distribution are usually standard deviations
     way: ErrorDistributionKind = "normal"
     for each in ("value", "normal", "uniform"):
         if said.strip().startswith(f"{each} "):
@@ -137,23 +139,30 @@ def _setting(text: str) -> ErrorOverride:
         amount = Quantity.parse(said.strip(), unit, plain=True)
     except PydanticCustomError as error:
         fix = str((error.context or {}).get("fix", "give a size"))
-        raise QuestionError(Problem(f"'{text}' sets no error", error.message(), fix)) from None
+        raise QuestionError(Problem(f"'{text}' does not set an error", error.message(), fix)) from None
     if way != "value" and amount.value < 0:
-        raise QuestionError(Problem(f"'{text}': no width of a distribution", "it is below 0", "write it 0 or greater"))
+        what = f"the size in '{text}' is negative"
+        why = "the standard deviation or half width of a distribution is 0 or more"
+        fix = f"give a positive size, or a fixed error: {kind}='value {said.strip()}'"
+        raise QuestionError(Problem(what, why, fix))
     return ErrorOverride(kind, way, amount, of)
 
 
 def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs: Sequence[str]) -> None:
-    """Raise `QuestionError` where an error is set on what the train does not have, or has not cut."""
+    """Raise `QuestionError` if an override names a wheel or pair that the train does not have, or that is not cut."""
     for each in settings:
         known = wheels if each.kind in OF_WHEELS else pairs
         if each.of and each.of not in known:
-            what = f"no {'wheel' if each.kind in OF_WHEELS else 'pair'} '{each.of}' has teeth that are cut by hand"
-            raise QuestionError(Problem(what, f"its {each.kind} cannot be set", suggest(each.of, known)))
+            part = "wheel" if each.kind in OF_WHEELS else "pair"
+            what = f"{part} '{each.of}' of the error '{each.kind}' is not in the trials"
+            why = f"'{each.kind}' is set for a {part} with triangular or conjugate teeth"
+            raise QuestionError(Problem(what, why, suggest(each.of, known)))
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """The errors of one wheel: its own or the train's, then what is set. Raises `RangeError` beyond its tooth."""
+    """Return the errors of one wheel: its own or those of the train, then overrides; `RangeError` if larger than a
+    tooth.
+    """
     name = even.name
     link, wheel = train.wheels[name]
     own = wheel.cutting is not None
@@ -164,17 +173,20 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     for each in settings:
         if each.kind in OF_WHEELS and each.of in ("", name):
             errors[each.kind] = reader.set(each)
+    # errors of size 0 are removed, so that a perfect wheel is recognised as such
     errors = {kind: off for kind, off in errors.items() if off.size}
     reader.check(errors)
     at = cutting.eccentricity_angle if cutting is not None else None
-    # declared ahead, as placement is; teeth are counted as they pass, which is behind
+    # the declared angle is positive ahead, but teeth are counted in the order they pass, which is backwards
     return replace(even, errors=errors, towards=-at.si if at else None, tables=reader.tables(cutting))
 
 
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
-    """The errors of the axes of a pair, in depths of the less deep teeth, those of the wheel `lesser`."""
+    """Return the errors of the axes of a pair, as fractions of the depth of the wheel `lesser`, which has the smaller
+    depth.
+    """
     fitting = mesh.gear.fitting or train.fitting
     reader = _pair_reader(train, mesh, lesser)
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}
@@ -186,7 +198,9 @@ def pair_errors(
 
 
 def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
-    """What one stroke of the file takes, in depths of the less deep teeth; 0 where nothing is filed to fit."""
+    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is
+    not filed.
+    """
     fitting = mesh.gear.fitting or train.fitting
     filing = fitting.filing if fitting is not None else None
     return _pair_reader(train, mesh, lesser).fraction("stroke", filing.stroke) if filing is not None else 0.0
@@ -197,23 +211,24 @@ def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """What one of a fraction is: of an angle (rad), and of a length (m; None where no module says how great)."""
+    """Return the unit of each fraction: an angle [rad], or a length [m] (None if no module with a unit is declared)."""
     deep = None
     module = wheel.transverse_module
     if module is not None:
         if even.displaced is not None:
             deep = even.depth * even.displaced.modules * module
         else:
-            # the pitch circle lies half way down the tooth
+            # the pitch circle is halfway down the tooth
             half = even.depth / 2
             deep = even.depth * module * even.z / 2 / (1 + half if even.ring else 1 - half)
+    # the aperture is the whole angle of a tooth, so its unit is twice the half angle
     lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
     return {"pitch_deviation": even.pitch, "aperture_deviation": 2 * even.half_angle, **lengths}
 
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Reads errors of one wheel or pair as fractions."""
+    """Reader of the errors of one wheel or pair as fractions."""
 
     place: str
     name: str
@@ -224,9 +239,10 @@ class _Reader:
             return float(amount.base)
         scale = self.scales[kind]
         if scale is None:
-            why = "a length says something of a tooth whose size is known, and no module is declared with a unit"
-            fix = "give the module of the wheel, or the error as a fraction of the depth"
-            raise RangeError(Problem(f"{kind} of '{self.name}': {amount.text} of what?", why, fix, self.place))
+            what = f"the {kind} error of '{self.name}' is the length {amount.text}, but its tooth depth is unknown"
+            why = "a length is converted to a fraction of the tooth depth, which needs a module with a unit"
+            fix = "declare `module: 0.5 mm` for the wheel, or give the error as a fraction of the depth: 3 %"
+            raise RangeError(Problem(what, why, fix, self.place))
         return amount.si / scale
 
     def off(self, kind: str, error: AngleError | LengthError | None) -> ErrorSpecification:
@@ -241,14 +257,17 @@ class _Reader:
 
     def check(self, errors: Mapping[str, ErrorSpecification]) -> None:
         for kind, off in errors.items():
-            if abs(off.size) >= MOST[kind]:
-                of = {"pitch_deviation": "its pitch", "aperture_deviation": "its aperture"}.get(
+            if abs(off.size) >= MOST[kind]:  # also for random errors: one standard deviation must leave a tooth
+                of = {"pitch_deviation": "its pitch", "aperture_deviation": "its tooth angle"}.get(
                     kind, "the depth of its teeth"
                 )
                 what = f"the {kind} error of '{self.name}' is {abs(off.size):.3g} of {of}"
-                minimum = self.scales["pitch_deviation"] or 0
-                why = f"an error greater than the tooth leaves none; the pitch is {degrees(minimum):.3g} deg"
-                raise RangeError(Problem(what, why, "give an error smaller than the tooth", self.place))
+                pitch = self.scales["pitch_deviation"] or 0
+                why = (
+                    f"it must be below {MOST[kind]:g}, or the tooth vanishes; the angular pitch is "
+                    f"{degrees(pitch):.3g} deg"
+                )
+                raise RangeError(Problem(what, why, f"give a smaller error: {kind}='2 %'", self.place))
 
     def tables(self, cutting: WheelManufacture | PairMounting | None) -> dict[str, tuple[float, ...]]:
         measured = getattr(cutting, "measured", None)

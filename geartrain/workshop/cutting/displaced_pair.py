@@ -1,12 +1,13 @@
-"""Two wheels of teeth with displaced flanks on their axles: which couple drives, how far the other is off.
+"""Pair of wheels with displaced flanks: which tooth pair drives, and the backlash to the opposite flanks.
 
-Couple k joins tooth k of the driver to tooth k of the driven wheel, both counted on through all turns. Its driver's
-leading flank holds the driven trailing flank; the driver's trailing flank stands before the leading flank of the driven
-tooth k + 1. Each couple alone would let the driven wheel lag by so much, docs/cut-by-hand.md (2); the foremost drives,
-and what is left between it and the nearest couple on the other side is the play.
+Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. The leading
+flank of the driver pushes the trailing flank of the driven tooth. The trailing flank of the driver faces the leading
+flank of the driven tooth k + 1. Each tooth pair by itself would give the driven wheel a certain lag, equation (2) of
+docs/cut-by-hand.md. The foremost tooth pair drives, and its distance from the nearest pair on the other side is the
+backlash.
 
-Teeth are numbered as they pass the line of centres while the wheel turns forward, as those of `CutWheel`. Lengths are
-modules, on cones angles (rad) on the unit sphere.
+Teeth are numbered as they pass the line of centres while the wheel turns forward, like those of `CutWheel`. Lengths
+are in modules, for bevel gears angles (rad) on the unit sphere.
 """
 
 from __future__ import annotations
@@ -33,42 +34,44 @@ if TYPE_CHECKING:
 
 
 _OF_TEETH = ("place", "tip", "leading", "trailing", "leading_low", "trailing_low")
-_PHASES = 4  # of a pitch at which couples are looked at, beside the ends of their paths: between, lags are smooth
-_UNEVEN_PHASES = 32  # where even wheels do not lag alike along their path
-_FINE = 512  # of a pitch: for the mean of a lag with a few corners
+_PHASES = 4  # positions per pitch, besides the ends of the paths of contact: in between, lags are smooth
+_UNEVEN_PHASES = 32  # positions per pitch if the lag of perfect wheels varies along their path of contact
+_FINE = 512  # positions per pitch for the mean of a lag, which has a few kinks
 
 
 @dataclass(frozen=True, slots=True)
 class DisplacedWheel:
-    """Arrays (..., z), leading axes trials; `e` and `towards` one for each trial."""
+    """Wheel with displaced flanks, as arrays (..., z) with trials as leading axes; `e` and `towards` have one value per
+    trial.
+    """
 
     place: Floats
-    """How far behind its even place a tooth stands (rad)."""
+    """Angle of each tooth behind its nominal position [rad]."""
     tip: Floats
-    """How far a tip stands out."""
+    """Height of each tip above nominal."""
     leading: Floats
-    """By how much the flanks are flatter, turned about their pitch points (rad)."""
+    """Angle by which each leading flank is flatter, turned about its pitch point [rad]."""
     trailing: Floats
-    """By how much the flanks are flatter, turned about their pitch points (rad)."""
+    """Angle by which each trailing flank is flatter, turned about its pitch point [rad]."""
     leading_low: Floats
-    """How far the flanks are lowered along their normals."""
+    """Depth by which each leading flank is lowered along its normal."""
     trailing_low: Floats
-    """How far the flanks are lowered along their normals."""
+    """Depth by which each trailing flank is lowered along its normal."""
     e: Any = 0.0
-    """Where the middle of the teeth lies from the axle: how far, and in which direction (rad), counted from the
-    first tooth against the way the wheel turns, as teeth are."""
+    """Eccentricity: distance of the centre of the teeth from the axis."""
     towards: Any = 0.0
-    """Where the middle of the teeth lies from the axle: how far, and in which direction (rad), counted from the
-    first tooth against the way the wheel turns, as teeth are."""
+    """Direction of the eccentricity [rad], counted from the first tooth against the direction of rotation, like the
+    teeth.
+    """
 
     @classmethod
     def even(cls, z: int) -> DisplacedWheel:
-        """A wheel without errors."""
+        """Return a wheel of z teeth without errors."""
         return cls(*(np.zeros(z) for _ in _OF_TEETH))
 
     @property
     def z(self) -> int:
-        """Tooth number."""
+        """Number of teeth."""
         return int(self.place.shape[-1])
 
     @property
@@ -79,7 +82,7 @@ class DisplacedWheel:
 
     @property
     def tips(self) -> Floats:
-        """How far tips stand out, those of an eccentric wheel with it."""
+        """Height of each tip above nominal, including the eccentricity."""
         if not np.any(self.e):
             return self.tip
         angle = np.arange(self.z) * (2 * pi / self.z) - np.asarray(self.towards)[..., None]
@@ -87,24 +90,24 @@ class DisplacedWheel:
         return found
 
     def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
-        """How much flatter one side of the teeth is, and how far lower."""
+        """Return the flattening angles and the lowering depths of one side of the teeth."""
         return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
 
     @property
     def cuttable(self) -> Bools:
-        """For each tooth, whether the next stands behind it."""
+        """Mask (..., z): True if a tooth and the next one keep their order."""
         found: Bools = np.roll(self.place, -1, -1) - self.place > -2 * pi / self.z
         return found
 
     def taken(self, part: slice | NDArray[np.int64]) -> DisplacedWheel:
-        """Some wheels out of many; an array that all share stays."""
+        """Return the wheels of some trials; arrays shared by all trials are kept."""
         teeth = {name: getattr(self, name) for name in _OF_TEETH}
         some = {name: each[part] if each.ndim > 1 else each for name, each in teeth.items()}
         e, towards = (each[part] if np.ndim(each) else each for each in (self.e, self.towards))
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """The wheel seen from behind, turning the other way; tooth i is tooth `first` - i as it was."""
+        """Return the mirrored wheel, turning the other way; its tooth i is tooth `first` - i of this one."""
         order = (first - np.arange(self.z)) % self.z
         return DisplacedWheel(
             -self.place[..., order],
@@ -118,25 +121,29 @@ class DisplacedWheel:
         )
 
     def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
-        """The wheel with its flanks lowered further."""
+        """Return the wheel with its flanks lowered further."""
         return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
 @dataclass(frozen=True)
 class SideTerms:
-    """One side of every tooth at one position of the driver within a pitch, by the pitches n that have passed."""
+    """Lag of tooth pairs on one side at one position of the driver within a pitch, by the number n of
+    pitches passed.
+    """
 
     driver: Any
-    """What each wheel adds to the lag (rad of the driven wheel): (trials, z) of its own n."""
+    """Contribution of the driver to the lag [rad of the driven wheel], (trials, z), indexed by its n."""
     driven: Any
-    """What each wheel adds to the lag (rad of the driven wheel): (trials, z) of its own n."""
+    """Contribution of the driven wheel to the lag [rad of the driven wheel], (trials, z), indexed by its n."""
     pitches: int
-    """By which the couple's own driver's tooth came earlier."""
+    """Number of pitches by which the driving tooth of the pair came earlier."""
 
 
 @dataclass(frozen=True)
 class DisplacedPair:
-    """Two wheels, the first driving, and how much farther their axles stand than the contact has them (one or each)."""
+    """Pair of wheels with displaced flanks, the first driving; `shift` increases the centre distance (one value or one
+    each).
+    """
 
     contact: DisplacedContact
     first: DisplacedWheel
@@ -145,12 +152,12 @@ class DisplacedPair:
 
     @property
     def count(self) -> int:
-        """Couples in a full cycle of teeth."""
+        """Number of tooth pairs in a full meshing cycle."""
         return self.first.z * self.second.z // gcd(self.first.z, self.second.z)
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Tooth numbers."""
+        """Numbers of teeth of the driver and of the driven wheel."""
         return self.first.z, self.second.z
 
     @cached_property
@@ -159,34 +166,38 @@ class DisplacedPair:
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
-        """Some of the trials."""
+        """Return some of the trials."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         return DisplacedPair(self.contact, self.first.taken(rows), self.second.taken(rows), shift)
 
     @cached_property
     def widest(self) -> tuple[float, float]:
-        """Angles (rad of the driver) past a tooth's place from where to where it can touch."""
-        at, (leaving, entering) = self.contact, self._late
+        """First and last angle, relative to the position of a tooth, at which it can touch [rad of the driver]."""
+        at, (leaving, entering) = self.contact, self._end_margins
         return at.start - at.entering.most - entering, at.end + at.leaving.most + leaving
 
     @property
-    def _uneven(self) -> bool:
-        """True for teeth whose even wheels lag more here, less there."""
+    def _lag_varies(self) -> bool:
+        """True if the lag of perfect wheels varies along the path of contact."""
         even = self.contact.even
         return bool(even.any() and np.ptp(even) > 0)
 
     @cached_property
-    def _late(self) -> tuple[float, float]:
-        """How much earlier than the end of the path, and later than its start, some tooth meets a corner."""
+    def _end_margins(self) -> tuple[float, float]:
+        """Maximum angles by which a tooth reaches the end of its path earlier, or its start later, because
+        of errors.
+        """
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
         return leaving, entering
 
-    # ---------------------------------------------------------------------------------------------- couple by couple
+    # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """All couples that can touch on one side where the driver stands u beyond a pitch, whose lag may be least."""
+        """Yield the terms of all tooth pairs on one side that may have the minimum lag, with the driver u beyond a
+        pitch.
+        """
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
@@ -198,13 +209,13 @@ class DisplacedPair:
             found.append((nominal, x, int(sign) * steps))
         minimum = min((nominal for nominal, _, _ in found), default=np.inf)
         for nominal, x, j in found:
-            # far beyond its end a tip lags more than errors can make up for
+            # far beyond the end of its path, the lag of a tip exceeds any effect of errors
             if nominal <= minimum + self._spread:
                 yield self._side(u, x, j, back)
 
     @cached_property
     def _spread(self) -> float:
-        """More than errors can make one couple differ from another (rad of the driven wheel)."""
+        """Upper bound of the difference that errors make between two tooth pairs [rad of the driven wheel]."""
         at, found = self.contact, 0.0
         for gear, wheel in enumerate((self.first, self.second)):
             flanks = np.maximum(np.abs(wheel.leading).max(initial=0.0), np.abs(wheel.trailing).max(initial=0.0))
@@ -212,7 +223,7 @@ class DisplacedPair:
             moved = np.abs(wheel.place).max(initial=0.0) * (1.0 if gear else float(at.ratio))
             tips = at.longer[gear] * np.abs(wheel.tips).max(initial=0.0) * float(at.ratio)
             found += float(2 * (moved + flanks * np.abs(at.tilt[gear]).max() + tips) + lowered * at.normal.max())
-        # the steepest corner, for teeth out of place meet it elsewhere
+        # steepest lag beyond the ends: teeth with pitch deviations meet the ends at other positions
         late = np.abs(self.first.place).max(initial=0.0)
         return found + float(self._steep * late)
 
@@ -222,27 +233,28 @@ class DisplacedPair:
         return max(float(np.diff(each.lags).max(initial=0.0)) / each.step for each in (at.entering, at.leaving))
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """The lag of tips beyond the ends of the path, with tips so much higher."""
+        """Return the lag of tips beyond the ends of the path of contact, with tips higher by given amounts."""
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
     def _even(self, x: Floats) -> Floats:
-        """The lag of even wheels, beyond the ends of the path too."""
+        """Return the lag of perfect wheels, also beyond the ends of the path of contact."""
         return np.asarray(self._along(self.contact.even, x) + self._kinks(x))
 
     def _along(self, column: Floats, x: Any) -> Any:
-        """One column of the contact at x, as `_columns`."""
+        """Interpolate one column of the contact at x, as in `_columns`."""
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Floats) -> list[Floats]:
-        """Columns of the contact at x, linear between their steps, constant beyond the ends.
+        """Interpolate all columns of the contact at x linearly; they are constant beyond the ends.
 
-        Across, along and tilt of both wheels, normal, even, apart.
+        Order: across, along and tilt of both wheels, normal, even, apart.
         """
         at = self.contact
         last = len(at.normal) - 1
+        # constant beyond the ends, where `_kinks` adds the lag of tips
         place = np.clip((x - at.start) * (last / (at.end - at.start)), 0.0, last)
         low = np.minimum(place.astype(np.int64), last - 1)
         part = place - low
@@ -250,9 +262,9 @@ class DisplacedPair:
         return [each[low] + (each[low + 1] - each[low]) * part for each in columns]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Equation (2), apart for the two wheels: teeth of each at one x, placed by n = tooth + j.
+        """Evaluate equation (2) separately for both wheels at one x; teeth are indexed by n = tooth + j.
 
-        late    (trials, z): by how much later the driver stands for each n (rad); then tips count as even
+        late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two = self.first, self.second
@@ -262,67 +274,70 @@ class DisplacedPair:
         ratio = float(at.ratio)
         own = sign * ratio * one.place - flank1 * l1 + low1 * w
         here = x - sign * one.place + (0.0 if late is None else np.roll(late, -j, -1))
-        # a tooth out of place touches elsewhere, where even wheels may lag otherwise
-        own = own + (self._along(at.even, here) if self._uneven else even) + apart * shift
+        # a tooth with a pitch deviation touches at another position, where the lag of perfect wheels may differ
+        own = own + (self._along(at.even, here) if self._lag_varies else even) + apart * shift
         other = -sign * two.place + flank2 * l2 + low2 * w
         if late is not None:
             own = own + self._kinks(here)
-        elif not at.start + self._late[1] < x < at.end - self._late[0]:
+        elif not at.start + self._end_margins[1] < x < at.end - self._end_margins[0]:
             own = own + self._kinks(here, one.tips)
-            # places of the driver's teeth and heights of the driven both move where couples enter: taken one by one
+            # pitch deviations of the driver and tip heights of the driven wheel both move the entry; taken separately
             other = other + at.entering(at.start - at.longer[1] * two.tips - x) - at.entering(np.array(at.start - x))
-        # a couple on the back joins the driver's tooth to the driven tooth that follows
-        driver = np.roll(own, j, -1) + self._swing(one, u, 0.0, -t1 * sign, -y1)
+        # a back pair joins the driver's tooth to the next driven tooth
+        driver = np.roll(own, j, -1) + self._eccentric_terms(one, u, 0.0, -t1 * sign, -y1)
         turned = ratio * u - sign * even
-        driven = np.roll(other, j - back, -1) + self._swing(two, turned, at.stands + back * at.backlash, t2 * sign, y2)
+        driven = np.roll(other, j - back, -1) + self._eccentric_terms(
+            two, turned, at.stands + back * at.backlash, t2 * sign, y2
+        )
         return SideTerms(driver, driven, j)
 
     @staticmethod
-    def _swing(wheel: DisplacedWheel, turned: float, stands: float, across: float, along: float) -> Any:
-        """What an eccentric wheel adds after each number of pitches."""
+    def _eccentric_terms(wheel: DisplacedWheel, turned: float, stands: float, across: float, along: float) -> Any:
+        """Return the contribution of an eccentric wheel after each number of pitches."""
         if not np.any(wheel.e):
             return 0.0
         angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + stands
         angle = angle - np.asarray(wheel.towards)[..., None]
         return np.asarray(wheel.e)[..., None] * (across * np.sin(angle) + along * np.cos(angle))
 
-    # ------------------------------------------------------------------------------------------------ play, and jams
+    # --------------------------------------------------------------------------------------------- backlash, and jams
 
-    def _meetings(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """A couple in front and one on the back, all that meet at some position of the driver within a pitch."""
+    def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
+        """Yield a front and a back tooth pair, for all that meet at some position of the driver within a pitch."""
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
-        phases = _UNEVEN_PHASES if self._uneven else _PHASES
+        phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
         for u in (*(np.arange(phases) * (pitch / phases)), *ends):
             yield from product(self.side_terms(u, False), self.side_terms(u, True))
 
     def backlash(self) -> Floats:
-        """The least play over the whole cycle of teeth (rad of the driven wheel), (trials,).
+        """Return the minimum backlash over the whole meshing cycle [rad of the driven wheel], (trials,).
 
-        What wheels add is apart for each: over all couples that meet, the least sum is that of the least terms.
+        The contributions of the wheels are separate, so the minimum sum over all tooth pairs is the sum of minimum
+        terms.
         """
         best = np.full(self.trials, np.inf)
-        for front, back in self._meetings():
+        for front, back in self._opposite_pairs():
             best = np.minimum(best, minimum_sum(front.driver + back.driver, front.driven + back.driven))
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
-        """The same with the flank that stands out farthest of the four that are nearest there."""
+        """Return the position of minimum backlash with the most protruding of the four flanks involved."""
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
-        for front, back in self._meetings():
+        for front, back in self._opposite_pairs():
             backlash, n1, n2 = minimum_sum_places(front.driver + back.driver, front.driven + back.driven, count)
             rows = np.flatnonzero(backlash < best)
             if len(rows):
                 best[rows] = backlash[rows]
-                where[:, rows] = self._farthest_out(front, back, rows, n1[rows], n2[rows])
+                where[:, rows] = self._most_protruding(front, back, rows, n1[rows], n2[rows])
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
-    def _farthest_out(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Wheel, tooth and side of the flank that stands out farthest of the four that meet in some trials."""
+    def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
+        """Return wheel, tooth and side of the most protruding of the four flanks that meet, in some trials."""
         z1, z2 = self.teeth
-        # what each of the four leaves to the play: the least stands out farthest
+        # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         left = np.stack(
             [
                 terms_at(front.driver, rows, n1),
@@ -343,42 +358,44 @@ class DisplacedPair:
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """The pair with its flanks lowered, arrays (trials, 2 sides, z) of both wheels."""
+        """Return the pair with its flanks lowered by arrays (trials, 2 sides, z) of both wheels."""
         first, second = (
             wheel.filed(each[:, 0], each[:, 1]) for wheel, each in zip((self.first, self.second), low, strict=True)
         )
         return DisplacedPair(self.contact, first, second, self.shift)
 
     def verdicts(self) -> MeshingVerdicts:
-        """What becomes of each trial over the whole cycle of teeth."""
-        clash, dwell = self.overtaken(True), self.overtaken(False)
+        """Return the events of each trial over the whole meshing cycle."""
+        clash, dwell = self.tip_contacts(True), self.tip_contacts(False)
         return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged(), np.zeros(self.trials, bool))
 
     def disengaged(self) -> Bools:
-        """Whether somewhere no couple is in reach (trials,)."""
+        """Return a mask (trials,): True if at some position no tooth pair is in reach."""
         at = self.contact
         whole = (at.end + at.leaving.most) - (at.start - at.entering.most)
         gap = at.pitches[0] + np.roll(self.first.place, -1, -1) - self.first.place
         found: Bools = np.broadcast_to((gap > whole).any(axis=-1), self.trials).copy()
         return found
 
-    def overtaken(self, entering: bool) -> Bools:
-        """Whether a tip meets a tip: where a couple comes in, or where it leaves the driven wheel standing (trials,).
+    def tip_contacts(self, entering: bool) -> Bools:
+        """Return a mask (trials,) of contacts of tip on tip, where a tooth pair enters or where it leaves.
 
-        So it is where the neighbour that should hold the driven wheel lets it lag more than the couple itself.
+        At an entry this is a clash, at an exit a dwell. It occurs if the neighbouring pair, which should hold the
+        driven wheel, gives it a larger lag than the pair itself.
         """
         at = self.contact
         x, j = (at.start - at.entering.most, 1) if entering else (at.end + at.leaving.most, -1)
+        # just inside the limit, so that rounding does not put the pair out of reach
         x += 1e-9 * at.pitches[0] * (1 if entering else -1)
         other = x + j * at.pitches[0]
         nominal = float(self._even(np.array(other))), float(self._even(np.array(x)))
         if not nominal[0] + self._spread > nominal[1]:
             return np.zeros(self.trials, bool)
-        # tips fall behind steeply beyond their path: each couple is looked at where its own tips meet
+        # the lag of tips is steep beyond their path, so each pair is evaluated where its own tips meet
         late = self.first.place
         own, mate = self._side(x, x, 0, False, late), self._side(x, other, j, False, late)
         with np.errstate(invalid="ignore"):
-            # own less the neighbour's, turned round: below 0 where the neighbour lags more
+            # negative if the lag of the neighbour is larger
             margin = minimum_sum(own.driver - mate.driver, own.driven - mate.driven)
         found: Bools = np.broadcast_to(~(margin >= 0), self.trials).copy()
         return found
@@ -386,7 +403,9 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """How far couples k let the driven wheel lag (on the back: lead) where the driver stands at S (rad)."""
+        """Return the lag of the driven wheel due to tooth pairs k (on the back side: the lead), with the driver at S
+        [rad].
+        """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
@@ -406,8 +425,8 @@ class DisplacedPair:
         found: Floats = lag + self._kinks(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
         return found
 
-    def first_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """The least lag over all couples at driver angles S, and which has it; infinite where nothing touches."""
+    def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
+        """Return the minimum lag over all tooth pairs at driver angles S, and its tooth pair; inf if no teeth touch."""
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
         low, high = self.widest
@@ -421,40 +440,40 @@ class DisplacedPair:
 
 
 def even_backlash(contact: DisplacedContact) -> float:
-    """The least play of even wheels (rad of the driven wheel)."""
+    """Return the minimum backlash of perfect wheels [rad of the driven wheel]."""
     return float(DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels)).backlash())
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """The mean lag of even wheels (rad of the driven wheel): 0 at the distance that they are made for."""
+    """Return the mean lag of perfect wheels [rad of the driven wheel]; 0 at the nominal centre distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
     S = np.linspace(0.0, contact.pitches[0], _FINE, endpoint=False)
-    return float(pair.first_lag(np.zeros(_FINE, np.int64), S)[0].mean())
+    return float(pair.minimum_lag(np.zeros(_FINE, np.int64), S)[0].mean())
 
 
 def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:
-    """Terms of some trials, each of one number."""
+    """Return terms of some trials, one tooth number for each."""
     return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
 
 
-def _by_rest(driver: Any, driven: Any) -> list[Floats]:
-    """Terms of both wheels by the rest that their numbers leave: those of one rest meet in the cycle."""
+def _by_residue(driver: Any, driven: Any) -> list[Floats]:
+    """Group the terms of both wheels by residue class modulo gcd(z1, z2); teeth of one class meet in the cycle."""
     rests = gcd(driver.shape[-1], driven.shape[-1])
     return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
 
 def minimum_sum(driver: Any, driven: Any) -> Floats:
-    """The least sum of a term of the driver and one of the driven wheel that meet in the cycle."""
-    one, two = _by_rest(driver, driven)
+    """Return the minimum sum of a driver's term and a driven wheel's term that meet in the cycle."""
+    one, two = _by_residue(driver, driven)
     found: Floats = (one.min(axis=-2) + two.min(axis=-2)).min(axis=-1)
     return found
 
 
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """The same, and the numbers of both terms, (trials,)."""
-    one, two = _by_rest(np.atleast_2d(driver), np.atleast_2d(driven))
+    """Return the minimum sum as in `minimum_sum`, and the numbers of both terms, (trials,)."""
+    one, two = _by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]
     total = one.min(axis=1) + two.min(axis=1)
     rest = np.broadcast_to(total.argmin(axis=1), count)

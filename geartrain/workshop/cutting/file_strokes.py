@@ -1,7 +1,7 @@
 """Filing to fit: a pair is turned through its cycle, and a tooth that jams is filed until it passes.
 
-Where the play is least, two couples jam: four flanks. That of them which stands out farthest takes strokes of the file
-until the couples pass; then the next tightest place is looked for, until the pair turns through.
+At minimum backlash, four flanks of two tooth pairs are in contact. The most protruding of them is filed until the tooth
+pairs pass. This is repeated at the next tightest position, until the pair turns through its cycle.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Ints
     from geartrain.workshop.cutting.cut_wheel import CutWheel
 
-_ROUNDS = 4000  # of looking for the tightest place: more teeth than a pair has flanks to file twice over
+_ROUNDS = 4000  # maximum iterations: enough to file every flank of a pair twice
 
 
 @dataclass(frozen=True)
 class TightPlace:
-    """The tightest place of each of some pairs, and the flank filed there."""
+    """Position of minimum backlash of each of some pairs, and the flank to file there."""
 
     backlash: Floats
-    """Least play over the cycle (rad of the driven wheel); below 0 it jams."""
+    """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
     wheel: Ints
-    """0 the driver, 1 the driven wheel; `tooth` of it, on its `side`: 0 leading, 1 trailing."""
+    """Wheel to file: 0 driver, 1 driven wheel. `tooth` is its tooth and `side` the flank: 0 leading, 1 trailing."""
     tooth: Ints
     side: Ints
     gain: Floats
-    """The most (rad of the driven wheel) by which the play grows where that flank is lowered by 1."""
+    """Maximum increase of the backlash when the flank is lowered by one unit of length [rad of the driven wheel]."""
 
 
 class FileablePair(Protocol):
-    """Many pairs of cut wheels whose flanks can be filed."""
+    """Pairs of cut wheels whose flanks can be filed."""
 
     @property
     def trials(self) -> tuple[int, ...]:
@@ -45,16 +45,16 @@ class FileablePair(Protocol):
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Tooth numbers."""
+        """Numbers of teeth of the driver and of the driven wheel."""
 
     def taken(self, rows: Ints) -> Self:
-        """Some of the trials."""
+        """Return some of the trials."""
 
     def tight_place(self) -> TightPlace:
-        """Where each jams first."""
+        """Return the position of minimum backlash of each pair."""
 
     def filed(self, low: tuple[Floats, Floats]) -> Self:
-        """With flanks lowered: arrays (trials, 2 sides, z) of either wheel."""
+        """Return the pairs with flanks lowered by arrays (trials, 2 sides, z) of each wheel."""
 
 
 Pair = TypeVar("Pair", bound=FileablePair)
@@ -62,25 +62,25 @@ Pair = TypeVar("Pair", bound=FileablePair)
 
 @dataclass(frozen=True)
 class FilingWork(Generic[Pair]):
-    """What was filed of many pairs: the pairs after it, and by trial how many strokes on how many teeth, (trials,)."""
+    """Result of filing many pairs: the filed pairs, and the numbers of strokes and of filed teeth, (trials,)."""
 
     pair: Pair
     strokes: Ints
     teeth: Ints
     low: tuple[Floats, Floats]
-    """How far each flank of either wheel is lowered, (trials, 2 sides, z)."""
+    """Depth by which each flank of each wheel is lowered, (trials, 2 sides, z)."""
 
     @property
     def filed(self) -> Bools:
-        """Which were filed at all."""
+        """Mask of the trials in which the pair was filed."""
         found: Bools = self.strokes > 0
         return found
 
 
 def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
-    """Pairs filed until they pass, a `stroke` at a time; a flank lower by more than `deepest` spoils a pair.
+    """Lower the flanks of pairs by filing until they pass, one `stroke` of depth at a time.
 
-    Those that are spoilt are left as they are, and still jam.
+    A pair is given up, and still jams, if a flank would be lowered by more than `deepest`.
     """
     count = pair.trials[0]
     low = tuple(np.zeros((count, 2, z)) for z in pair.teeth)
@@ -92,14 +92,16 @@ def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
         active, tight = active[jams], _some(tight, jams)
         if not len(active):
             break
-        # no more strokes than this place needs at the least; where they were too few, it comes again
+        # the minimum number of strokes for this position; if it is not enough, the position is found again
         wanted = np.maximum(np.ceil(-tight.backlash / (tight.gain * stroke)), 1).astype(np.int64)
+        # limited, so that a pair that cannot pass is not filed far beyond the limit at once
         wanted = np.minimum(wanted, int(np.ceil(deepest / stroke)))
         strokes[active] += wanted
         for wheel in (0, 1):
             at = tight.wheel == wheel
             low[wheel][active[at], tight.side[at], tight.tooth[at]] += wanted[at] * stroke
         lowest = np.maximum(*(each[active].max(axis=(1, 2)) for each in low))
+        # pairs with a flank beyond the limit are given up
         active = active[lowest <= deepest]
         if not len(active):
             break
@@ -115,7 +117,7 @@ def _some(tight: TightPlace, rows: Bools) -> TightPlace:
 
 @dataclass(frozen=True)
 class FileableCutPair:
-    """Many pairs of cut triangular wheels, one axis of trials."""
+    """Pairs of cut triangular wheels, with one axis of trials."""
 
     pair: CutGearPair
 
@@ -126,46 +128,46 @@ class FileableCutPair:
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Tooth numbers."""
+        """Numbers of teeth of the driver and of the driven wheel."""
         return self.pair.first.z, self.pair.second.z
 
     def taken(self, rows: Ints) -> FileableCutPair:
-        """Some of the trials."""
+        """Return some of the trials."""
         return FileableCutPair(taken(self.pair, rows))
 
     def filed(self, low: tuple[Floats, Floats]) -> FileableCutPair:
-        """With flanks lowered: arrays (trials, 2 sides, z) of either wheel."""
+        """Return the pairs with flanks lowered by arrays (trials, 2 sides, z) of each wheel."""
         pair = self.pair
         first, second = pair.first.filed(low[0][:, 0], low[0][:, 1]), pair.second.filed(low[1][:, 0], low[1][:, 1])
         return FileableCutPair(CutGearPair(pair.sizes, first, second, pair.shift))
 
     def tight_place(self) -> TightPlace:
-        """Where each has its least play, and of the four flanks there that which stands out farthest."""
+        """Return the position of minimum backlash of each pair, with the most protruding of the four flanks there."""
         parts = [MeshingCycle(part).tightest() for part in chunks(self.pair, CHUNK // self.pair.count)]
         backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
         rows, (z1, z2), sizes = np.arange(len(backlash)), self.teeth, self.pair.sizes
         back = front - apart
-        # the back couple joins the driver's tooth to the driven tooth that follows
+        # the back pair joins the driver's tooth to the next driven tooth
         teeth = np.stack([front % z1, back % z1, (back + 1) % z2, front % z2])
         first, second = self.pair.first, self.pair.second
         out = np.stack(
             [
-                _stands_out(first, 0)[rows, teeth[0]],
-                _stands_out(first, 1)[rows, teeth[1]],
-                _stands_out(second, 0)[rows, teeth[2]],
-                _stands_out(second, 1)[rows, teeth[3]],
+                _flank_height(first, 0)[rows, teeth[0]],
+                _flank_height(first, 1)[rows, teeth[1]],
+                _flank_height(second, 0)[rows, teeth[2]],
+                _flank_height(second, 1)[rows, teeth[3]],
             ]
         )
         flank = out.argmax(axis=0)
-        # a flank leans by its half angle and, where it touches, by the reach: the arm is no shorter than this
+        # a flank is inclined by its half angle plus the reach, which gives a lower bound of the moment arm
         lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
         nearest = sizes.R2 if sizes.ring == 2 else sizes.R2 - sizes.depths[1]
         gain = 1 / (nearest * max(cos(min(lean, 1.4)), 0.1))
         return TightPlace(backlash, flank // 2, teeth[flank, rows], flank % 2, np.full(len(backlash), gain))
 
 
-def _stands_out(wheel: CutWheel, side: int) -> Floats:
-    """How far each flank, leading or trailing, stands out along its normal half way down the tooth, (trials, z)."""
+def _flank_height(wheel: CutWheel, side: int) -> Floats:
+    """Return the height of each leading or trailing flank along its normal halfway down the tooth, (trials, z)."""
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
     half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
     found = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean

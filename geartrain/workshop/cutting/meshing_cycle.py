@@ -1,15 +1,15 @@
-"""Verdicts on many pairs of cut wheels at once: which of them jam, clash, stand still, lose each other.
+"""Events of many pairs of cut wheels at once: jam, clash, dwell and loss of contact.
 
-What can go wrong does so at few places. Two flanks jam where a front and a back couple come nearest (`closing`); the
-driven wheel is left standing only where a couple leaves, and a tooth meets a tip only where one comes in. So a cycle
-of lcm(z1, z2) couples costs a few contacts each, whatever the fineness of time (`MeshingCycle`).
+Events occur only at a few positions. Two flanks jam where a front and a back tooth pair come nearest (`backlash`). The
+driven wheel dwells only where a tooth pair leaves, and a tooth meets a tip only where one enters. A cycle of
+lcm(z1, z2) tooth pairs therefore needs a few contact computations each, without time steps (`MeshingCycle`).
 
-Of teeth that are right but for their places a trial costs z1 + z2 steps, however long the cycle is: 1000 trials of
-`freeth-2021-cut` then take 13 s where couple by couple they take 412 s. The contact of a couple is the same function
-for all, and the driven teeth only add their places. The least play of a front couple against the back couple n before
-it is J_n(difference of the two driver's teeth), less what two driven teeth stand apart: one term of the driver's teeth,
-one of the driven teeth. Over lcm(z1, z2) couples every tooth meets every other whose number leaves the same rest by
-gcd(z1, z2): the least of the sums is, for each rest, the sum of the two least.
+With pitch deviations only, a trial costs z1 + z2 operations for a cycle of any length: 1000 trials of
+`freeth-2021-cut` take 13 s, and 412 s pair by pair. The contact of every tooth pair is the same function, and the
+driven teeth only add their deviations. The minimum backlash of a front tooth pair against the back tooth pair n before
+it is J_n(difference of the two driving teeth) minus the distance of the two driven teeth: one term depends on driving
+teeth, the other on driven teeth. Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent modulo
+gcd(z1, z2). So the minimum of the sums is, in each residue class, the sum of the two minima.
 """
 
 from __future__ import annotations
@@ -42,43 +42,48 @@ if TYPE_CHECKING:
     from geartrain.workshop.cutting.cut_wheel import CutWheel
 
 
-CHUNK = 1 << 15  # couples worked on at once: their arrays stay in a cache, and memory is bounded
-_SLACK = 0.05  # of a driven pitch: about what a rough play is above the exact one, or more
-_NODES = 2001  # of the table of J_n over the range of places: linear between them
-_UNSURE = 1e-4  # of a driven pitch: play that is nearer to 0 is looked at without tables
+CHUNK = 1 << 15  # tooth pairs processed at once: their arrays stay in the cache, and memory is bounded
+_SLACK = 0.05  # driven pitches: initial bound of estimated minus exact backlash, enlarged if it proves too small
+_NODES = 2001  # of the table of J_n, with linear interpolation: the error is below 1e-6 of a pitch
+_UNSURE = 1e-4  # driven pitches: a smaller backlash is recomputed without tables, so that their error cannot matter
 
 
 @dataclass(frozen=True, slots=True)
 class MeshingVerdicts:
-    """What becomes of each trial, arrays (trials,)."""
+    """Events of each trial, as arrays (trials,)."""
 
     backlash: Floats
-    """Least play over the cycle of teeth (rad of the driven wheel): below 0 a front flank is against a back flank;
-    inf where nothing touches."""
+    """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if front and back flanks overlap
+    (jam), inf if no teeth touch.
+    """
     clash: Bools
-    """A tooth comes in against a tip or in front of it, the driven wheel dragging: the pair sticks fast, or, rarely,
-    skips a tooth; led by hand within its play it may pass."""
+    """Clash: a tooth enters against a tip or in front of it while the driven wheel drags.
+
+    The pair then locks or, rarely, skips a tooth; turning the driven wheel by hand within its backlash may free it.
+    """
     dwell: Bools
-    """The driven wheel is left standing somewhere."""
+    """Dwell: the driven wheel stops somewhere until the next tooth reaches it."""
     disengaged: Bools
-    """Somewhere no tooth is in reach."""
+    """Loss of contact: at some position no tooth is in reach."""
     leans: Bools
-    """A flank leans beyond the perpendicular where tips meet: which couple touches first is then not certain."""
+    """True if a flank is inclined beyond the perpendicular when tips meet; which tooth pair touches first is then
+    uncertain.
+    """
 
     @property
     def jams(self) -> Bools:
-        """True where flanks jam: whatever the driven wheel does within its play, the pair cannot turn on."""
+        """True if flanks jam: the pair cannot turn, wherever the driven wheel is within its backlash."""
         stuck: Bools = self.backlash < 0
         return stuck
 
     @property
     def stops(self) -> Bools:
-        """True where the pair, its driven wheel dragging, cannot turn through its cycle: a jam or a clash."""
+        """True if the pair with a dragging driven wheel cannot turn through its cycle, because of a jam or a clash."""
         return self.jams | self.clash
 
     @classmethod
     def joined(cls, parts: list[MeshingVerdicts]) -> MeshingVerdicts:
-        """Several batches as one."""
+        """Combine the verdicts of several batches."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
@@ -90,36 +95,37 @@ def batch_verdicts(
     shift: Any = 0.0,
     chunk: int = CHUNK,
 ) -> MeshingVerdicts:
-    """The verdict on each trial: wheels whose arrays are (trials, z), or (z,) where all trials share one.
+    """Return the events of each trial, for wheels with arrays (trials, z), or (z,) if all trials share one.
 
-    shift   by how much the centre distance is greater, as the radii: one, or (trials,)
-    chunk   couples worked on at once
+    shift   increase of the centre distance [unit of the radii], one value or (trials,)
+    chunk   number of tooth pairs processed at once
     """
     whole = CutGearPair(sizes, first, second, shift)
     if (first.z, second.z) != (sizes.z1, sizes.z2):
         raise RangeError(
             Problem(
-                f"wheels of {first.z} and {second.z} teeth stand for a pair of {sizes.z1} and {sizes.z2}",
-                "the driver comes first",
-                "give one wheel for each of the pair, in this order",
+                f"wheels of {first.z} and {second.z} teeth do not match a pair of {sizes.z1} and {sizes.z2} teeth",
+                "the numbers of teeth must be equal, and the driver comes first",
+                f"give wheels of {sizes.z1} and {sizes.z2} teeth, in this order",
             )
         )
     if len(whole.trials) != 1 or whole.trials[0] < 1:
         raise RangeError(
             Problem(
-                f"trials of shape {whole.trials} are no batch",
-                "a batch has one axis of trials, and at least one of them",
-                "give at least one wheel as arrays (trials, z)",
+                f"the trials have the shape {whole.trials}",
+                "a batch has one axis of trials, with at least one trial",
+                "give arrays of shape (trials, z) for at least one of the wheels",
             )
         )
-    if first.only_placed and second.only_placed and np.ndim(shift) == 0:
+    # with a common contact function the cost does not depend on the length of the cycle
+    if first.only_pitch_deviations and second.only_pitch_deviations and np.ndim(shift) == 0:
         return verdicts_of_pitch_errors(whole, chunk)
     return MeshingVerdicts.joined([cycle_verdicts(part) for part in chunks(whole, chunk // whole.count)])
 
 
 def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    teeth = _Passing(pair)
-    if teeth.reach < 0:  # the tip circles do not meet
+    teeth = _EntriesAndExits(pair)
+    if teeth.reach < 0:  # the tip circles do not intersect
         nowhere, never = teeth.disengaged, np.zeros(pair.trials, bool)
         return MeshingVerdicts(np.full(pair.trials, inf), never, never, nowhere, never)
     backlash = backlash_of_pitch_errors(pair)
@@ -127,8 +133,8 @@ def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
         backlash[rows] = MeshingCycle(_some(pair, rows)).backlash()
     clash, stands = np.zeros(len(backlash), bool), np.zeros(len(backlash), bool)
     for rows in _parts(teeth.doubtful, chunk // pair.count):
-        some = _Passing(_some(pair, rows))
-        clash[rows], stands[rows], entering = some.passing()
+        some = _EntriesAndExits(_some(pair, rows))
+        clash[rows], stands[rows], entering = some.events()
         backlash[rows] = np.minimum(backlash[rows], entering)
     return MeshingVerdicts(
         backlash, clash, stands, teeth.disengaged, np.full(len(backlash), teeth.tooth_pair.leaning.item())
@@ -136,20 +142,20 @@ def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def taken(pair: CutGearPair, part: slice | Ints) -> CutGearPair:
-    """Some trials of a batch."""
+    """Return some trials of a batch."""
     shift = pair.shift if np.ndim(pair.shift) == 0 else pair.shift[part]
     return CutGearPair(pair.sizes, pair.first.taken(part), pair.second.taken(part), shift)
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
-    """A batch in parts of some trials, at least one."""
+    """Yield a batch in parts of some trials, at least one."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
         yield taken(pair, slice(start, min(start + step, count)))
 
 
 def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
-    """The rows chosen, some at a time."""
+    """Yield the indices of the chosen rows, `size` at a time."""
     rows = np.flatnonzero(chosen)
     for start in range(0, len(rows), max(1, size)):
         yield rows[start : start + max(1, size)]
@@ -163,32 +169,33 @@ def _some(pair: CutGearPair, rows: NDArray[np.int64]) -> CutGearPair:
 
 
 def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
-    """The verdict on each trial of a batch, couple by couple."""
+    """Return the events of each trial of a batch, found pair by pair."""
     cycle = MeshingCycle(pair)
-    backlash, dwell, clash = cycle.backlash(), cycle.left_standing(), cycle.clashes()
+    backlash, dwell, clash = cycle.backlash(), cycle.dwells(), cycle.clashes()
     if dwell.any():
         backlash = np.minimum(backlash, np.where(dwell, cycle.backlash_at_entries(), inf))
     return MeshingVerdicts(backlash, clash, dwell, cycle.disengaged(), pair.leans)
 
 
 class MeshingCycle:
-    """All couples of a cycle, for all trials of a batch: arrays (trials, couples)."""
+    """Tooth pairs of a full meshing cycle, for all trials of a batch: arrays (trials, tooth pairs)."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes, self.trials = pair, pair.sizes, pair.trials[0]
         k = np.arange(pair.count)
         self.front = pair.tooth_pairs(k)
+        # the back flanks are the front flanks of the mirrored pair
         self.back = pair.mirrored.tooth_pairs(-k)
         self.driver, self.driven = pair.places(k)
 
     # ---------------------------------------------------------------------------------------------------------- places
 
     def ahead(self, n: int) -> Any:
-        """How far the driver's tooth of each couple is behind that n couples before (rad)."""
+        """Return the angle of each driving tooth behind the one n tooth pairs before it [rad]."""
         return n * self.sizes.p1 + (self.driver - np.roll(self.driver, n, -1))
 
     def apart(self, n: int) -> Any:
-        """How far the driven tooth of each couple is behind that n couples before (rad)."""
+        """Return the angle of each driven tooth behind the one n tooth pairs before it [rad]."""
         return n * self.sizes.p2 + (self.driven - np.roll(self.driven, n, -1))
 
     def _all(self, found: Any) -> Any:
@@ -197,19 +204,21 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def backlash(self) -> Floats:
-        """Least play of each trial (trials,)."""
+        """Return the minimum backlash of each trial [rad of the driven wheel], (trials,)."""
         return self.tightest()[0]
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Least play of each trial, its front couple, and how many couples before it the back couple is, (trials,).
+        """Return for each trial the minimum backlash, its front tooth pair, and the distance of its back pair.
 
-        Told roughly for all couples, exactly for those that come near it.
+        The distance is the number of tooth pairs by which the back pair precedes the front pair.
+
+        The backlash is estimated for all tooth pairs, and computed exactly for those near the minimum.
         """
         rough: dict[int, Any] = {}
         backlash = np.full(self.trials, inf)
         where = np.zeros((2, self.trials), np.int64)
         for bound, each in self._candidates():
-            if bound > backlash.max():
+            if bound > backlash.max():  # in ascending order, so no later candidate can be smaller
                 break
             value = self._all(self._rough(each))
             rough[each.n] = np.minimum(rough[each.n], value) if each.n in rough else value
@@ -219,7 +228,9 @@ class MeshingCycle:
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
-        """The exact play of every couple that may have the least: those seen tell how far rough ones are above it."""
+        """Compute the exact backlash of every tooth pair that may have the minimum, adapting the margin of the
+        estimates.
+        """
         slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
         chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
@@ -229,79 +240,93 @@ class MeshingCycle:
                 return
             exact = self._exactly(rows, columns, n)
             less = np.flatnonzero(exact <= backlash[rows])
-            # the least of each trial comes last, and stays
+            # with repeated rows the last assignment wins, so each trial keeps its minimum
             less = less[np.argsort(-exact[less], kind="stable")]
             where[0, rows[less]], where[1, rows[less]] = columns[less], n
-            # tips that reach round a quarter of the wheel have no angle: such teeth jam at their other couples
+            # fmin ignores NaN of tips with a reach above a quarter turn: such teeth jam at other tooth pairs anyway
             np.fmin.at(backlash, rows, exact)
             open_[rows, columns] = False
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _candidates(self) -> list[tuple[float, BacklashCandidate]]:
-        """The ways of jamming, each after what errors as great as these leave it at least; the least first."""
+        """Return the candidates of jamming with a lower bound of their backlash under errors of this size, in ascending
+        order.
+        """
         found = backlash_candidates(self.sizes, farthest(self.pair))
-        nearest = {each.n: each.backlash for each in reversed(found)}
-        radial = self._radial()
-        bounds = {n: backlash - self._rim(n) - radial - _SLACK * self.sizes.p2 for n, backlash in nearest.items()}
+        nearest = {
+            each.n: each.backlash for each in reversed(found)
+        }  # reversed, so that the smallest of each n remains
+        radial = self._other_error_bound()
+        bounds = {
+            n: backlash - self._pitch_deviation_bound(n) - radial - _SLACK * self.sizes.p2
+            for n, backlash in nearest.items()
+        }
         near = [each for each in found if each.backlash <= nearest[each.n] + _SLACK * self.sizes.p2]
         return sorted(((bounds[each.n], each) for each in near), key=lambda pair: pair[0])
 
-    def _rim(self, n: int) -> float:
-        """More than the places of teeth can take from the play of a couple and the one n before it (rad)."""
+    def _pitch_deviation_bound(self, n: int) -> float:
+        """Return an upper bound of the backlash that pitch deviations take from a front and back pair n apart [rad]."""
         driver = float(np.abs(self.ahead(n) - n * self.sizes.p1).max())
-        driven = float(np.abs(self._stop(n) - (1 - n) * self.sizes.p2).max())
-        # 1.2 here and 3 below give room: too wide a bound costs time only, too narrow a one a jam
+        driven = float(np.abs(self._driven_term(n) - (1 - n) * self.sizes.p2).max())
+        # factors 1.2 here and 3 below are margins: a bound too wide only costs time, one too narrow would miss a jam
         return 1.2 * max(steepest(even_tooth_pair(self.sizes)), self.sizes.ratio) * driver + driven
 
-    def _radial(self) -> float:
-        """More than heights, half angles and distance can change any play (rad)."""
+    def _other_error_bound(self) -> float:
+        """Return an upper bound of the change of any backlash by heights, half angles and centre distance [rad]."""
         one, two, sizes = self.pair.first, self.pair.second, self.sizes
         tips = float(np.abs(one.tip).max() + np.abs(two.tip).max() + np.abs(self.pair.shift).max()) / sizes.R2
         flanks = max(float(np.abs(each).max()) for wheel in (one, two) for each in (wheel.leading, wheel.trailing))
+        # limited to 1.4 rad, because the tangent is infinite at a right angle
         steep = min(max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2, 1.4)
         length = (sizes.delta / sizes.R2 + tips) / np.cos(steep)
         return float(3 * np.tan(steep) * tips + 3 * length * flanks)
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """The play of every couple where even wheels have their least: no less than it is at its own least."""
+        """Estimate the backlash of every tooth pair at the position of the minimum for perfect wheels, which is an
+        upper bound.
+        """
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
         with np.errstate(all="ignore"):
             x = np.clip(delta / 2 + pinch.offset, low, high)
             y = self.front.angle(pinch.phases[0], x, np) + back.angle(pinch.phases[1], delta - x, np)
-            return np.where(low < high, y, inf) + self._stop(pinch.n)
+            return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
-    def _stop(self, n: int) -> Any:
-        """What the driven teeth add to the play: that of the back couple, one on, behind that of the front couple."""
+    def _driven_term(self, n: int) -> Any:
+        """Return the contribution of the driven teeth to the backlash of a front pair and the back pair n before it
+        [rad].
+        """
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """The play of one front couple in each of some trials against the back couple n before."""
+        """Compute the backlash of one front tooth pair in each of some trials against the back pair n before it."""
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each
 
         front, back = self.front.picked(at(columns)), self.back.picked(at((columns - n) % self.pair.count))
-        delta, stop = self._all(self.ahead(n))[rows, columns], self._all(self._stop(n))[rows, columns]
+        delta, stop = self._all(self.ahead(n))[rows, columns], self._all(self._driven_term(n))[rows, columns]
         found: Floats = minimum_sum(front, back, delta) + stop
         return found
 
     # ------------------------------------------------------------------------------------------------ entries and exits
 
-    def _most(self) -> int:
-        """Couples that can be in reach at once, and one."""
+    def _pairs_in_reach(self) -> int:
+        """Return the maximum number of tooth pairs that can be in reach at once, plus one."""
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
-            return self.pair.count - 2  # a tooth may be missing: the couple that pushes next may be far behind
+            return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
-    def left_standing(self) -> Bools:
-        """Whether, where a couple leaves, every one behind it is still clear of its driven tooth (trials,)."""
+    def dwells(self) -> Bools:
+        """Return a mask (trials,) of dwells: where some tooth pair leaves, no later pair touches its driven
+        tooth yet.
+        """
         front = self.front
         stands: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
-        for n in (*range(1, self._most() + 1), -1):
-            # seen from the couple that catches: the one n before it leaves
+        for n in (*range(1, self._pairs_in_reach() + 1), -1):
+            # indexed by the pair that takes over; the one n before it leaves
             x = self.ahead(n) - np.roll(self._all(front.reach), n, -1)
             y = np.where(x <= front.reach, self._held(front, x) - self.apart(n), inf)
             stands &= np.roll(self._all(y), -n, -1) > limit
@@ -311,27 +336,31 @@ class MeshingCycle:
         return found
 
     def clashes(self) -> Bools:
-        """Whether, where a couple comes in, the driven wheel holds its driven tooth behind the tip (trials,)."""
+        """Return a mask (trials,) of clashes: where some tooth pair enters, its driven tooth is held behind the tip."""
         tip = self._all(-self.front.exit_angle) + ROUNDING * self.sizes.p2
         y = np.where(self._all(self.front.reach > -inf), inf, -inf)
-        for n in range(1, self._most() + 2):
+        for n in range(1, self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.front.reach))
-            if not (y > tip).any():
+            if not (y > tip).any():  # y only decreases, so later pairs cannot cause a clash
                 break
         found: Bools = ((y > tip) & np.isfinite(y)).any(axis=1)
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Least play where a couple comes in that stops the driven wheel, which may stand there (trials,)."""
+        """Return the minimum backlash at the entries of tooth pairs that stop the driven wheel, where it may dwell,
+        (trials,).
+        """
         y = np.full((self.trials, self.pair.count), inf)
-        for n in range(self._most() + 2):
+        for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
         backlash = y + np.roll(self._all(self.apart(1)), -1, -1) + self.back.exit_angle
         found: Floats = np.where(self._all(self.back.reach > -inf), backlash, inf).min(axis=1)
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """alpha_2 of each driven tooth, its driver's tooth at `reach`, as the couple n before has it; inf if none."""
+        """Return alpha_2 of each driven tooth as held by the pair n before, with its driving tooth at `reach`; inf if
+        none.
+        """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
         touches = (x <= before.reach) & (before.reach > -inf) & (x > -inf)
@@ -339,13 +368,13 @@ class MeshingCycle:
 
     @staticmethod
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
-        """alpha_2 of the driven tooth: in contact, or where the couple has left it."""
+        """Return alpha_2 of the driven tooth in contact, or where the tooth pair has left it."""
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Whether somewhere no couple is in reach, of those that push or of those that stop (trials,)."""
+        """Return a mask (trials,): True if at some position no pushing or no stopping tooth pair is in reach."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -355,44 +384,49 @@ class MeshingCycle:
         at = np.arange(self.pair.count) * self.sizes.p1 + self.driver
         enters = np.where(touches, at - reach, inf)
         leaves = np.where(touches, at + reach, -inf)
-        before = leaves - cycle
+        before = leaves - cycle  # the sequence of contacts is periodic
         until = np.maximum.accumulate(np.concatenate((before, leaves), axis=1), axis=1)[:, self.pair.count - 1 : -1]
-        # what comes in before its forerunner opens no gap
+        # a pair that enters before its predecessor does not open a gap
         following = np.minimum.accumulate(enters[:, ::-1], axis=1)[:, ::-1]
         gap = (following > until + ROUNDING * self.sizes.p1) & np.isfinite(following)
         found: Bools = gap.any(axis=1) | ~touches.any(axis=1)
         return found
 
 
-# ------------------------------------------------------------------------------------------------- errors of place only
+# ------------------------------------------------------------------------------------------------ pitch deviations only
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """The verdict on each trial; those that may clash or stand still are looked at couple by couple."""
+    """Return the events of each trial with pitch deviations only; doubtful trials are computed pair by pair."""
     parts = [_verdicts(part, chunk) for part in chunks(pair, chunk // (pair.sizes.z1 + pair.sizes.z2))]
     return MeshingVerdicts.joined(parts)
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
-    """Least play over the cycle (rad of the driven wheel), (trials,), to a millionth of a pitch."""
+    """Return the minimum backlash over the cycle [rad of the driven wheel], (trials,), exact to a millionth
+    of a pitch.
+    """
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
-    spread = 2 * float(np.abs(driver).max())
+    spread = 2 * float(np.abs(driver).max())  # two driving teeth may deviate in opposite directions
     near = {each.n: each.backlash for each in reversed(backlash_candidates(sizes, farthest(pair)))}
     tooth_pair, backlash = even_tooth_pair(sizes), np.full(pair.trials, inf)
     both, steep = 2 * float(tooth_pair.reach), steepest(tooth_pair)
     for n in sorted(near, key=lambda n: near[n]):
         apart, stop = driver - np.roll(driver, n, -1), np.roll(driven, n - 1, -1) - driven
         if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > backlash.max():
-            continue  # errors of place do not bring these below what others have
-        own = _read(_table(sizes, n, _rounded(spread)), _rounded(spread), apart)
+            continue  # pitch deviations cannot bring these below the current minimum
+        own = _interpolate(_table(sizes, n, _next_power_of_two(spread)), _next_power_of_two(spread), apart)
+        # teeth farther apart than the common reach never hold the driven wheel together
         own = np.where(np.abs(n * sizes.p1 + apart) < both, own, inf)
-        backlash = np.minimum(backlash, _met(own, (1 - n) * sizes.p2 + stop, np.minimum))
+        backlash = np.minimum(backlash, _extreme_sum(own, (1 - n) * sizes.p2 + stop, np.minimum))
     return np.asarray(backlash)
 
 
-def _met(driver: Any, driven: Any, minimum: Any) -> Any:
-    """The least (greatest) sum of a term of a driver's tooth and a term of a driven tooth that meet in the cycle."""
+def _extreme_sum(driver: Any, driven: Any, minimum: Any) -> Any:
+    """Return the minimum (or maximum) sum of a term of a driving and a term of a driven tooth that meet in
+    the cycle.
+    """
     rests = gcd(driver.shape[-1], driven.shape[-1])
 
     def by_rest(each: Any) -> Any:
@@ -401,34 +435,36 @@ def _met(driver: Any, driven: Any, minimum: Any) -> Any:
     return minimum.reduce(by_rest(driver) + by_rest(driven), axis=-1)
 
 
-def _rounded(spread: float) -> float:
-    """A power of 2 no less than the spread, so that few tables serve many batches."""
-    # without errors of place any width serves: the table is read at its middle
+def _next_power_of_two(spread: float) -> float:
+    """Round the spread up to a power of 2, so that few tables serve many batches."""
+    # without pitch deviations the table is read at its middle, so any width will do
     return float(2.0 ** np.ceil(np.log2(spread))) if spread > 0 else 1e-9
 
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """J_n at places of two driver's teeth that differ by up to `spread` (rad) from even."""
+    """Tabulate J_n for two driving teeth whose distance differs by up to `spread` [rad] from nominal."""
     nodes = np.linspace(-spread, spread, _NODES)
     tooth_pair = even_tooth_pair(sizes)
     values = minimum_sum(tooth_pair, tooth_pair, n * sizes.p1 + nodes)
-    # beyond the common reach, of which there none is asked for: tips meet tips
+    # beyond the common reach, where no contact is needed, tips meet tips
     tips = -2 * np.sign(n * sizes.p1 + nodes) * float(tooth_pair.exit_angle)
     found: Floats = np.where(np.isfinite(values), values, tips)
     return found
 
 
-def _read(table: Floats, spread: float, apart: Any) -> Any:
-    """A table over -spread..spread, linear between its even nodes."""
+def _interpolate(table: Floats, spread: float, apart: Any) -> Any:
+    """Interpolate linearly in a table over -spread..spread with equal steps."""
     at = (apart + spread) * ((_NODES - 1) / (2 * spread))
     low = np.clip(at.astype(np.int64), 0, _NODES - 2)
     first = table[low]
     return first + (table[low + 1] - first) * (at - low)
 
 
-class _Passing:
-    """Teeth that come in and leave, all of one contact: the driver's teeth say where, the driven teeth only add."""
+class _EntriesAndExits:
+    """Entries and exits of teeth with a common contact function: driving teeth give the angle, driven teeth
+    only add.
+    """
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, _shifted(pair)
@@ -438,20 +474,22 @@ class _Passing:
         self.driver, self.driven = (np.atleast_2d(wheel.place) for wheel in (pair.first, pair.second))
 
     def _between(self, n: int) -> tuple[Any, Any]:
-        """How far the tooth n on is behind each, of the driver and of the driven wheel (rad)."""
+        """Return the angle of the tooth n later behind each tooth, for the driver and the driven wheel [rad]."""
         driver = n * self.sizes.p1 + np.roll(self.driver, -n, -1) - self.driver
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
-    def _coming(self, n: int) -> tuple[Any, Any]:
-        """Where a tooth comes in, alpha_2 of its driven tooth as the couple n before holds it: the sum of two terms.
+    def _entering(self, n: int) -> tuple[Any, Any]:
+        """Return alpha_2 of a driven tooth at its entry, as held by the pair n before, as two terms of either wheel.
 
-        Each by the tooth n before.
+        The terms are indexed by the tooth n before.
         """
         driver, driven = self._between(n)
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Where a tooth leaves, alpha_2 of its driven tooth as the couple n on would have it: the sum of two terms."""
+        """Return alpha_2 of a driven tooth at its exit, as the pair n later would hold it, as two terms of either
+        wheel.
+        """
         driver, driven = self._between(n)
         return self._held(driver - self.reach), -driven
 
@@ -461,36 +499,37 @@ class _Passing:
 
     @property
     def disengaged(self) -> Bools:
-        """Whether somewhere no tooth is in reach (trials,)."""
+        """Mask (trials,): True if at some position no tooth is in reach."""
         gap = self._between(1)[0].max(axis=1) > 2 * self.reach + ROUNDING * self.sizes.p1
         found: Bools = np.broadcast_to(gap, self.pair.trials).copy()
         return found
 
     @property
     def doubtful(self) -> Bools:
-        """Trials in which the next couple alone is not in time for all (trials,)."""
-        # far above rounding: what comes as near is looked at couple by couple
+        """Mask (trials,): True if the next tooth pair may be too late somewhere, so that all pairs must be compared."""
+        # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
-        clash = _met(*self._coming(1), np.maximum) > self.tip - near
-        stands = _met(*self._leaving(1), np.maximum) > -self.tip - near
+        clash = _extreme_sum(*self._entering(1), np.maximum) > self.tip - near
+        stands = _extreme_sum(*self._leaving(1), np.maximum) > -self.tip - near
         found: Bools = np.broadcast_to(clash | stands, self.pair.trials).copy()
         return found
 
-    def passing(self) -> tuple[Bools, Bools, Floats]:
-        """Whether a tooth comes in against a tip, whether the driven wheel is left standing, and its play then.
-
-        That where a tooth comes in that stops it, of trials in which it stands; else inf. All (trials,).
+    def events(self) -> tuple[Bools, Bools, Floats]:
+        """Return masks of clashes and dwells and the minimum backlash at entries of trials with a dwell (else inf),
+        (trials,).
         """
         stands = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
-        y = self._minimum(self._coming)
+        y = self._minimum(self._entering)
         clash = (y > self.tip + self.small).any(axis=1)
         next_on = self._between(1)[1][:, np.arange(self.pair.count) % self.sizes.z2]
         return clash, stands, np.where(stands, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """The least over all couples near, for every couple of the cycle (trials, couples)."""
+        """Return the minimum over all neighbouring tooth pairs, for every tooth pair of the cycle, (trials, tooth
+        pairs).
+        """
         k = np.arange(self.pair.count)
-        coming = terms == self._coming
+        coming = terms == self._entering
         spread = float(np.ptp(self.driver))
         found: Any = inf
         for n in range(1, max(1, int(np.ceil((2 * self.reach + spread) / self.sizes.p1))) + 1 + coming):
@@ -501,7 +540,7 @@ class _Passing:
 
 
 def _shifted(pair: CutGearPair) -> TriangularSizes:
-    """The sizes at the centre distance the axles really have."""
+    """Return the sizes of the pair at the actual centre distance."""
     if not pair.shift:
         return pair.sizes
     return pair.sizes.at(pair.sizes.side * ((pair.sizes.D + pair.shift) / pair.sizes.deepest_distance - 1))

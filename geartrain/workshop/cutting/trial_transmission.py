@@ -1,4 +1,4 @@
-"""The transmission functions of many pairs of one plan at once: trial t of its wheels at angles of its own."""
+"""Transmission functions of many pairs of one plan at once: each angle belongs to one trial of the wheels."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats, Ints
 
-_LEFT_BEHIND = 2  # pitches beyond the reach: who left so long ago lags more than who left later
-_SLOPE = 1e-4  # of a pitch: over which the speed is the slope of the lag
-_TRIAL_BLOCK = 8192  # angles worked on at once: their arrays stay in a cache
+_LAG_WINDOW = 2  # pitches beyond the reach: a pair that left earlier always lags more than one that left later
+_SLOPE = 1e-4  # pitches: step of the central difference for the speed, well above rounding
+_TRIAL_BLOCK = 8192  # angles processed at once: their arrays stay in the cache
 
 
 class TrialTransmissionFunction(TransmissionFunction):
-    """Many pairs of cut wheels as one law.
+    """Transmission function of a pair of cut wheels in many trials.
 
-    even     the mean error of wheels without errors (rad)
-    rows     the trial asked at each angle
-    count    couples in a full cycle of teeth; `pitches` of both wheels (rad)
-    last     errors (rad of the driven wheel) as they were when each trial was last asked
+    even     mean transmission error of wheels without errors (rad)
+    rows     number of the trial at each angle
+    count    number of tooth pairs in a full meshing cycle; `pitches` of both wheels (rad)
+    last     errors (rad of the driven wheel) of the last evaluation of each trial
     """
 
     def __init__(self, teeth: tuple[int, int], even: float, rows: Ints) -> None:
@@ -41,64 +41,66 @@ class TrialTransmissionFunction(TransmissionFunction):
         self._columns: Ints | slice = slice(None)
 
     @abstractmethod
-    def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
-        """Errors and speeds of some trials."""
+    def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
+        """Return errors and speeds of some trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Transmission errors (rad of the driven wheel), -inf where nothing touches, and dq/dS; S is (n,)."""
+        """Return the transmission errors [rad of the driven wheel], -inf if no teeth touch, and dq/dS, at angles S
+        (n,).
+        """
         S = np.asarray(S, dtype=float)
         error, speed = np.empty_like(S), np.empty_like(S)
         for start in range(0, len(S), _TRIAL_BLOCK):
             part = slice(start, start + _TRIAL_BLOCK)
-            error[part], speed[part] = self._found(S[part], self.rows[part])
+            error[part], speed[part] = self._evaluate(S[part], self.rows[part])
         self.last[self._columns] = error
         return error, speed
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """The laws of some of the trials."""
+        """Return the transmission functions of some of the trials."""
         found = copy(self)
         found.rows, found._columns = self.rows[columns], columns
         return found
 
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission errors (rad of the driven wheel)."""
+        """Return the transmission errors [rad of the driven wheel]."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """dq/dS."""
+        """Return the derivative dq/dS at each angle."""
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """The mean error of even wheels, and no ripple: what a superposition counts in its phases."""
+        """Return the mean error of perfect wheels and a ripple of 0, as needed for superposition."""
         return self.even, 0.0
 
     def error_range(self) -> tuple[float, float]:
-        """Not known before all trials are asked."""
+        """Return infinite limits, because the range is unknown before all trials are evaluated."""
         return -inf, inf
 
     def speed_range(self) -> tuple[float, float]:
-        """Not known before all trials are asked."""
+        """Return the limits 0 and infinity, because the range is unknown before all trials are evaluated."""
         return 0.0, inf
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Not asked of trials."""
+        """Return NaN at each angle, because trials do not compute efficiency."""
         return np.full(np.shape(S), np.nan)
 
     def efficiency_mean(self) -> float:
-        """Not asked of trials."""
+        """Return NaN, because trials do not compute efficiency."""
         return float("nan")
 
     def efficiency_at_constant_load(self) -> float:
-        """Not asked of trials."""
+        """Return NaN, because trials do not compute efficiency."""
         return float("nan")
 
     def efficiency_minimum(self) -> float:
-        """Not asked of trials."""
+        """Return NaN, because trials do not compute efficiency."""
         return float("nan")
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Of triangular teeth: `pair` has arrays (trials, z), or (z,) where all trials share a wheel."""
+    """Transmission function of triangular teeth; `pair` has arrays (trials, z), or (z,) if all trials share a wheel."""
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
@@ -107,9 +109,10 @@ class CutTrialTransmission(TrialTransmissionFunction):
         apart = float(np.ptp(place)) / pair.sizes.p1 + float(np.ptp(pair.second.place)) / pair.sizes.p2
         low = floor((-widest - float(place.max())) / pair.sizes.p1) if widest > -inf else 0
         high = ceil((widest - float(place.min())) / pair.sizes.p1) + 1 if widest > -inf else -1
-        self._window = range(low - _LEFT_BEHIND - ceil(apart), high + 1)
+        # numbers of tooth pairs, relative to the nearest one, that can touch or can be the last to have left
+        self._window = range(low - _LAG_WINDOW - ceil(apart), high + 1)
 
-    def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
+    def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
         pitch = self.pair.sizes.p1
         u = np.empty_like(S)
         behind(S, pitch, u, np.empty_like(S))
@@ -122,7 +125,9 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """What couples k make the driven wheel lag (rad); inf out of reach. One that has left holds it where it did."""
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf out of reach, constant after a pair has
+        left.
+        """
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)
@@ -134,7 +139,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """The speed couples k give the driven wheel; 0 where they have left."""
+        """Return the speed ratio given by tooth pairs k; 0 after they have left."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
         x, tooth_pairs = ahead + of_teeth(self.pair.first.place, rows, i), self._tooth_pairs(rows, i, j)
         reach = tooth_pairs.reach
@@ -151,18 +156,18 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
 
 class DisplacedTrialTransmission(TrialTransmissionFunction):
-    """Of conjugate teeth with displaced flanks: the foremost couple drives."""
+    """Transmission function of conjugate teeth with displaced flanks: the foremost tooth pair drives."""
 
     def __init__(self, pair: DisplacedPair, even: float, rows: Ints) -> None:
         super().__init__(pair.teeth, even, rows)
         self.pair = pair
 
-    def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
+    def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
         rest = np.mod(S, self.period)
-        lag, tooth_pair = self.pair.first_lag(rows, rest)
+        lag, tooth_pair = self.pair.minimum_lag(rows, rest)
         step = _SLOPE * self.pitches[0]
         with np.errstate(invalid="ignore"):
-            # inf - inf where nothing touches
+            # inf - inf where no teeth touch
             slope = (self.pair.lag(rows, rest + step, tooth_pair) - self.pair.lag(rows, rest - step, tooth_pair)) / (
                 2 * step
             )

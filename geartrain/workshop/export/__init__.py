@@ -1,15 +1,15 @@
-"""Files for makers and for other tools: outlines to cut, plates, solids, graphs, tables.
+"""Export of trains for makers and for other tools: outlines to cut, plates, solids, graphs, tables.
 
-Lengths are in mm, in GLB in m. Only formats are computed here: outlines are those of docs/shapes.md, motions in GLB the
-exact speeds.
+Lengths are in mm, in GLB in m. These modules only write file formats. The outlines are described in docs/shapes.md, and
+the motion in GLB uses exact speeds.
 
-file_set         the files of an export, and tables as CSV
+file_set         files of an export, and tables as CSV
 triangle_files   STL and GLB
 step_file        STEP
 rexs             REXS
 cut_sheets       outlines of wheels and plates, laid out on sheets
-parts_list       the parts with their stock and fits
-assembly_guide   the README of a folder: assembly in steps, with pictures
-proof            proof that the written parts turn
+parts_list       list of parts with their stock and fits
+assembly_guide   README of a folder: assembly in steps, with pictures
+proof            proof that the written parts can turn
 verb             the command
 """

@@ -1,4 +1,4 @@
-"""How to assemble the parts of an exported folder: its README, the steps in order of heights, and their pictures."""
+"""Assembly instructions of an exported folder: its README, the steps in order of height, and their pictures."""
 
 from __future__ import annotations
 
@@ -32,22 +32,27 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_part import SolidPart
 
 
-_GROUPS = "In the way:", "Not among the files, to be made by hand:", "Noted:"
-_BY_HAND = "W3", "S1"  # notes that a wheel has no drawing, or an axis no bearing
-_HEADER = "| mesh | play declared | least play | overlap mm2 | contact ratio | clearance | tip width | verdict |"
-_CHORD = 0.1  # mm: how far what is drawn of an outline may leave it
-_GAP = 0.12  # of the width: between both views
-_MARGIN = 0.04
+_GROUPS = "Errors:", "Not among the files, to be made by hand:", "Notes:"
+_BY_HAND = "W3", "S1"  # rules of notes that a wheel has no drawing, or an axis no bearing
+_HEADER = (
+    "| mesh | declared backlash | minimum backlash | overlap mm2 | contact ratio | clearance | tip width | verdict |"
+)
+_CHORD = 0.1  # mm: maximum deviation of drawn chords from an outline
+_GAP = 0.12  # distance of the two views, as a fraction of the width
+_MARGIN = 0.04  # as a fraction of the width
 _WIDE = 720  # pixels
-_LETTER = 0.016  # of the width
-_TOLD = 14  # parts that are named in the picture
+_LETTER = 0.016  # height of letters, as a fraction of the width
+_MOST_NAMED = 14  # parts that are labelled in a picture: more labels would overlap
 _PAPER = THEMES["light"]
 _NEW, _OLD = (series_colour(0), _PAPER.band), (_PAPER.line, "none")  # edge and face
 
 
 def unproved() -> str:
-    """The first sentence of a README where nothing can be proved."""
-    return f"**Not proved**: nothing was turned, for shapely and manifold3d are missing: `{install_command('proof')}`."
+    """Return the first sentence of a README if nothing can be proved."""
+    return (
+        "**Not proved**: the parts were not turned, because shapely and manifold3d are not installed: "
+        f"`{install_command('proof')}`."
+    )
 
 
 def readme(
@@ -57,12 +62,12 @@ def readme(
     parts: bool,
     proof: TrainProof | None = None,
 ) -> str:
-    """Whether the parts are ready to cut, what the files are, how the parts go together, and what could not be made.
+    """Build the README: readiness for cutting, list of files, parts and assembly, and what could not be made.
 
-    files     paths, and what each shows
-    missing   what could not be made
-    parts     whether some of the files show parts
-    proof     None where nothing was proved
+    files     paths and descriptions of the files
+    missing   problems of what could not be made
+    parts     True if some of the files show parts
+    proof     proof of the train; None if nothing was proved
     """
     declared = work.train.declaration
     lines = [f"# {_cell(declared.name)}", "", *([_cell(declared.title), ""] if declared.title else [])]
@@ -70,33 +75,37 @@ def readme(
         lines += verdict_lines(proof, _cell)
     elif parts:
         lines += [unproved(), ""]
-    lines += ["Lengths are in mm, drawings 1:1. Of their layers CUT is cut, PITCH guides, ENGRAVE is letters.", ""]
-    lines += ["| file | what it is |", "| --- | --- |"]
+    lines += [
+        "Lengths are in mm, and drawings are 1:1. Cut the layer CUT and engrave the layer ENGRAVE. The layer PITCH is",
+        "for reference.",
+        "",
+    ]
+    lines += ["| file | content |", "| --- | --- |"]
     pictures = any(path == picture_path(1) for path, _ in files)
     lines += [f"| {path} | {_cell(title)} |" for path, title in files if not path.startswith("assembly/")]
     if pictures:
-        lines.append("| assembly/ | a picture of each step of putting it together |")
+        lines.append("| assembly/ | one picture for each step of the assembly |")
     if proof is not None:
         lines += proof_lines(proof, _cell)
     if parts:
         lines += [*_backlashes(work), *_parts(parts_list(work))]
         if work.frame is not None:
-            lines += ["", "## Fits", "", *_fits(work), "", "## Putting it together", "", *_steps(work, pictures)]
-    told = set() if proof is None else {found.problem for found in proof.findings}
-    if left := [each for each in missing if each not in told]:
-        lines += ["", "## What could not be made", ""]
+            lines += ["", "## Fits", "", *_fits(work), "", "## Assembly", "", *_steps(work, pictures)]
+    reported = set() if proof is None else {found.problem for found in proof.findings}
+    if left := [each for each in missing if each not in reported]:
+        lines += ["", "## Parts that could not be made", ""]
         lines += [f"- {_cell(each.text)}" for each in left]
     return "\n".join([*lines, ""])
 
 
 def _backlashes(work: SolidModel) -> list[str]:
-    """The play of every pair whose wheels are cut, as a list."""
+    """Return the backlash of every pair of cut wheels, as the lines of a list."""
     found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.backlashes]
-    return ["", "## Play of the teeth as cut, along the pitch circles", "", *found] if found else []
+    return ["", "## Backlash of the teeth as cut, along the pitch circles", "", *found] if found else []
 
 
 def _angles(backlash: PairBacklash) -> str:
-    """The play as angles of both wheels; or that they jam where they stand."""
+    """Format the backlash as angles of both wheels, with a note if the pair jams."""
     turned = ", ".join(
         f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(backlash.wheels, backlash.angles, strict=True)
     )
@@ -104,21 +113,21 @@ def _angles(backlash: PairBacklash) -> str:
 
 
 def _parts(rows: Sequence[ListedPart]) -> Iterator[str]:
-    yield from ("", "## Parts", "", "| part | count | kind | material | mm | g each | fits |")
+    yield from ("", "## Parts", "", "| part | count | kind | material | size mm | mass of one g | fits |")
     yield "| --- | ---: | --- | --- | --- | ---: | --- |"
     for row in rows:
         cells = ", ".join(row.names), str(row.count), row.kind, row.material, row.size, f"{row.mass:.4g}", row.fits
         yield f"| {' | '.join(map(_cell, cells))} |"
     yield ""
-    yield f"Together {sum(row.count * row.mass for row in rows):.4g} g, by the densities of handbooks."
+    yield f"Total mass: {sum(row.count * row.mass for row in rows):.4g} g, with densities from handbooks."
 
 
 def _fits(work: SolidModel) -> Iterator[str]:
     process = work.process
-    yield f"Process: {process.name}. The hole of what turns is {process.running:g} mm wider than it; wheels on arbors"
+    yield f"Process: {process.name}. Bearing holes are {process.running:g} mm wider than their pivots. Wheels on arbors"
     yield f"are {process.joint} (hole {process.press:+g} mm). An arbor between plates has {SHAKE:g} mm of end shake."
-    kerf = f"outlines are compensated for a kerf of {process.kerf:g} mm" if process.kerf else "outlines are true size"
-    yield f"In drawings {kerf}. The numbers are usual ones: cut a test piece first."
+    kerf = f"are compensated for a kerf of {process.kerf:g} mm" if process.kerf else "have the finished size"
+    yield f"Outlines in drawings {kerf}. These are typical values: cut a test piece first."
 
 
 def _steps(work: SolidModel, pictures: bool) -> Iterator[str]:
@@ -135,7 +144,7 @@ def _cell(text: str) -> str:
 
 
 def verdict_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
-    """The verdict and what is in the way; `cell` makes a text safe in Markdown."""
+    """Return the lines of the verdict and of all findings; `cell` makes a text safe in Markdown."""
     lines = [f"**{'Ready to cut.' if proof.is_ready else 'Not ready to cut.'}**", ""]
     groups: dict[str, list[BuildFinding]] = {}
     for found in proof.findings:
@@ -146,7 +155,7 @@ def verdict_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
 
 
 def _group(found: BuildFinding) -> str:
-    """Which of the lists a finding stands in."""
+    """Return the heading under which a finding is listed."""
     return _GROUPS[0 if found.is_error else 1 if found.rule in _BY_HAND else 2]
 
 
@@ -155,19 +164,19 @@ def _items(findings: list[BuildFinding], cell: Callable[[str], str]) -> list[str
 
 
 def proof_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
-    """What was measured, and how."""
-    lines = ["", "## Proved on the outlines as written", ""]
+    """Return the lines with the measured values of the proof and the method."""
+    lines = ["", "## Proof on the written outlines", ""]
     lines += [
-        f"The drawings were read back, arcs as chords within {TOLERANCE:g} mm, and the wheels of every mesh turned",
-        f"through a pitch. An overlap above {NOTHING:g} mm2 counts, and play may be {ALLOWED:g} mm less than declared.",
-        "Lengths are in mm.",
+        f"The drawings were read back, with arcs as chords within {TOLERANCE:g} mm, and the wheels of every mesh were",
+        f"turned through a pitch. An overlap above {NOTHING:g} mm2 is an error. The backlash may be {ALLOWED:g} mm",
+        "below the declared one. Lengths are in mm.",
         "",
         _HEADER,
         "| --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |",
         *(_row(mesh, cell) for mesh in proof.meshes),
     ]
     if proof.links:
-        lines += ["", "While the input is held, the teeth let each link turn by:", ""]
+        lines += ["", "While the input is held, each link can turn by this angle:", ""]
         lines += ["| link | degrees |", "| --- | ---: |"]
         lines += [f"| {cell(each.link)} | {_turn(each.backlash)} |" for each in proof.links]
     return lines
@@ -194,31 +203,32 @@ class AssemblyStep(Shown):
 
     See Also
     --------
-    assembly_steps : gives these.
+    assembly_steps : List the steps of an assembly.
     """
 
     text: str
-    """What is done."""
+    """Instruction as a sentence."""
     parts: tuple[str, ...]
-    """The parts that it adds."""
+    """Names of the parts that it adds."""
     shown: bool = True
-    """Whether a picture shows them; what hangs is too tall."""
+    """True if a picture shows the parts. Hanging parts are too tall for one."""
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
-    """Steps of the assembly of a train, in the order of heights.
+    """List the steps of the assembly of a train, in order of height.
 
-    Arbors and their wheels, what carriers bear, the back plate with studs, all arbors, the front plate, dials.
+    The order is: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors, the front
+    plate, dials.
 
     Parameters
     ----------
     work : SolidModel
-        The train at the sizes at which it is made.
+        The train with its manufacturing sizes.
 
     Returns
     -------
     list of AssemblyStep
-        Empty for a train without plates.
+        Steps of the assembly; empty for a train without plates.
 
     Examples
     --------
@@ -264,36 +274,36 @@ class _Steps:
         yield from self._through()
         yield from self._studs(AxisBearing.FRONT_STUD, self.high)
         yield self._step(
-            f"Lead all upper pivots into the {self.high} plate, press it on the pillars, and try the end shake of each "
-            "arbor",
+            f"Guide all upper pivots into the {self.high} plate, press it on the pillars, and check the end shake of "
+            "each arbor",
             [f"{base} {self.high} plate"],
         )
         yield from self._bridge()
-        yield from self._across()
+        yield from self._cross_parts()
         if self.work.dials:
             names = [dial.name for dial in self.work.dials]
             feet = [foot.name for dial in self.work.dials for foot in dial.feet]
             yield self._step(
-                f"Press the feet into {', '.join(names)} and into the plate before which each stands, and put hands "
-                "on the arbors",
+                f"Press the feet into {', '.join(names)} and into the plate behind each dial, and put the hands on the "
+                "arbors",
                 [*names, *feet],
             )
         if "pendulum cock" in self.known:
             yield self._step("Press the cock of the pendulum into its plate", ["pendulum cock"])
             yield replace(self._step("Hang the pendulum on its cock", ["pendulum rod", "pendulum bob"]), shown=False)
         if "weight" in self.known:
-            yield replace(self._step("Hang the weight on a line round its barrel", ["weight"]), shown=False)
-        yield AssemblyStep("Turn it by the lead through a whole turn of the slowest wheel before it is oiled", ())
+            yield replace(self._step("Hang the weight on a line around its barrel", ["weight"]), shown=False)
+        yield AssemblyStep("Before oiling, turn the driving link until the slowest wheel has turned once", ())
 
-    def _across(self) -> Iterator[AssemblyStep]:
-        """Arms of pins, cages of carriers and brackets of arbors that lie across the plates."""
+    def _cross_parts(self) -> Iterator[AssemblyStep]:
+        """Yield the steps for arms of pins, cages of carriers and brackets of arbors across the plates."""
         arms = sorted(name for name in self.known if name.endswith(" pin arm"))
         cages = [part.name for cage in self.work.cages for part in cage.parts]
         brackets = [bracket.part.name for bracket in self.work.brackets]
         for names, text in (
             (arms, "Fix the arms to the arbors of their links, pins outwards"),
-            (cages, "Fix the posts of the cages to their carriers, and hang the arbors across in the eyes"),
-            (brackets, "Screw the brackets to the plates, arbors between them"),
+            (cages, "Fix the posts of the cages to their carriers, and put the cross arbors into their eyes"),
+            (brackets, "Screw the brackets to the plates, with the arbors between them"),
         ):
             if names:
                 yield self._step(text, names)
@@ -302,7 +312,7 @@ class _Steps:
         return AssemblyStep(text, tuple(name for name in parts if name in self.known))
 
     def _column(self, column: AxisColumn) -> Iterator[AssemblyStep]:
-        """Which wheels go on which arbor or pipe, and which pipes over which."""
+        """Yield the steps that put wheels on arbors or pipes, and pipes over each other."""
         for member in column.members:
             every = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low)]
             wheels = [name for name in every if name not in self.plan.cut]
@@ -310,27 +320,27 @@ class _Steps:
             if wheels:
                 order = ", from below in this order" if len(wheels) > 1 else ""
                 spacers, collets = self._sleeves(every)
-                order += _with(wheels, spacers, collets)
+                order += _sleeve_phrase(wheels, spacers, collets)
                 barrel = self._barrel(every)
                 text = f"Fix {', '.join(wheels)} on the {what} of '{member.link}'{order}"
-                text += ", its barrel beside it" if barrel else ""
+                text += ", with its barrel next to it" if barrel else ""
                 yield self._step(text, [rod_name(column, member), *every, *spacers, *collets, *barrel])
                 yield from self._on_eccentrics(every)
-                yield from self._plated_pins(every)
+                yield from self._plate_pins(every)
         pipes = [member for member in column.members if member.inner]
         if pipes and not column.is_stud:
             links = ", ".join(member.link for member in pipes)
-            text = f"On axis {column.axis} slide on the pipes, innermost first: {links}"
+            text = f"Slide the pipes on axis {column.axis}, innermost first: {links}"
             yield self._step(text, [rod_name(column, member) for member in pipes])
 
     def _sleeves(self, names: Sequence[str]) -> tuple[list[str], list[str]]:
-        """Spacers between neighbours of some wheels, and their collets."""
+        """Return the spacers between neighbouring wheels, and the collets of the wheels."""
         spacers = (f"spacer {low} to {high}" for low, high in pairwise(names))
         collets = (f"collet of {name}" for name in names)
         return [each for each in spacers if each in self.known], [each for each in collets if each in self.known]
 
     def _barrel(self, wheels: Sequence[str]) -> list[str]:
-        """That is fixed to one of some wheels."""
+        """Return the name of the barrel that is fixed to one of some wheels, as a list of at most one item."""
         barrel = self.frame.barrel
         return [] if barrel is None or barrel.wheel not in wheels else [barrel.part.name]
 
@@ -341,30 +351,30 @@ class _Steps:
             pins = [f"{name} pin {at + 1}" for at in range(len(cut.coupling.pins_at))] or [f"{name} pin"]
             yield self._step(f"Press the pin{'s'[: len(pins) - 1]} of '{name}' into {cut.pin.id}", pins)
 
-    def _plated_pins(self, plates: Sequence[str]) -> Iterator[AssemblyStep]:
-        """Pins that stand in some of the plates that turn."""
+    def _plate_pins(self, plates: Sequence[str]) -> Iterator[AssemblyStep]:
+        """Yield the steps that press pins into some of the turning plates."""
         for each in self.frame.standing:
             if each.seat in plates:
                 pins = [f"{each.name} {at}" for at in range(1, 1 + len(each.spots))]
                 text = f"Press the pins of '{each.name.removesuffix(' pin')}' into {each.seat}"
                 if each.joined:
-                    text = f"Press the {each.name} into {each.seat}, and into {each.wheel} when all between them stands"
+                    text = f"Press the {each.name} into {each.seat}, and into {each.wheel} once all between is in place"
                 yield self._step(text, pins)
 
     def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
-        """What turns on some eccentrics, of which it may need others that stand already."""
+        """Yield the steps that put wheels on eccentrics, once all eccentrics they need are in place."""
         every = self.plan.stack.eccentrics
         for each in (each for each in every if each.name in names):
             own = [other.name for other in every if other.wheels == each.wheels]
             if each.name == own[-1]:
                 washers = [f"{name} washer {at}" for name in own for at in (1, 2)]
-                text = f"Put {', '.join(each.wheels)} on {', '.join(own)}, to turn there between washers"
+                text = f"Put {', '.join(each.wheels)} on {', '.join(own)} between washers, free to turn"
                 if each.wave is not None:
-                    text = f"Bend {', '.join(each.wheels)}, of one piece with its cup, over {each.name}"
+                    text = f"Bend {', '.join(each.wheels)}, which is one piece with its cup, over {each.name}"
                 yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:
-        """Studs of carriers with what turns on them, the nearest to the carrier first."""
+        """Yield the steps for the studs of carriers with the parts that turn on them, nearest to the carrier first."""
         for seat in self.plan.choice.seats:
             own = {
                 label: column
@@ -375,8 +385,8 @@ class _Steps:
             for label in feet:
                 steps = [other for other, column in own.items() if column.on == label]
                 both = " and ".join([label, *steps])
-                text = f"Press the stud of {both} into {seat.seat}, its pipes on it" + (
-                    f": first that of {label}, then that of {steps[0]}" if steps else ""
+                text = f"Press the stud of {both} into {seat.seat}, with its pipes on it" + (
+                    f": first {label}, then {steps[0]}" if steps else ""
                 )
                 yield self._step(text, [f"{axis} stud" for axis in (label, *steps)])
 
@@ -395,7 +405,7 @@ class _Steps:
     def _studs(self, bearing: AxisBearing, side: str) -> Iterator[AssemblyStep]:
         studs = [column.axis for column in self.plan.columns if column.bearing is bearing]
         if studs:
-            text = f"Put the pipes on the studs of {', '.join(studs)} and press the studs into the {side} plate"
+            text = f"Put the pipes on the studs of {', '.join(studs)}, and press the studs into the {side} plate"
             yield self._step(text, [f"{axis} stud" for axis in studs])
 
     def _through(self) -> Iterator[AssemblyStep]:
@@ -409,12 +419,12 @@ class _Steps:
             collars = [name for link in links for name in (f"{link} back collar", f"{link} front collar")]
             arbors = [f"{link} arbor" for link in links]
             yield self._step(
-                f"Stand the arbors in the {self.low} plate, lowest wheels first: {names}", [*arbors, *collars]
+                f"Put the arbors into the {self.low} plate, lowest wheels first: {names}", [*arbors, *collars]
             )
 
 
-def _with(wheels: Sequence[str], spacers: Sequence[str], collets: Sequence[str]) -> str:
-    """In words, what goes on with the wheels."""
+def _sleeve_phrase(wheels: Sequence[str], spacers: Sequence[str], collets: Sequence[str]) -> str:
+    """Return a phrase that names the spacers and collets mounted with the wheels."""
     words = "" if not spacers else ", with the spacer between them" if len(spacers) == 1 else ", with their spacers"
     if collets:
         alone = [name.removeprefix("collet of ") for name in collets]
@@ -425,28 +435,29 @@ def _with(wheels: Sequence[str], spacers: Sequence[str], collets: Sequence[str])
     return words
 
 
-# -------------------------------------------------------- pictures: a step from above and from the side, new parts dark
+# ----------------------------------------------------- pictures: a step from above and from the side, with new parts
+# dark
 
 
 def picture_path(number: int) -> str:
-    """Where the picture of a step is, in the folder."""
+    """Return the path of the picture of a step, relative to the folder."""
     return f"assembly/{number:02d}.svg"
 
 
 def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
-    """Path, title and maker of the picture of every step by which parts come in."""
+    """Yield path, title and drawing function of the picture of every step that adds parts."""
     steps = assembly_steps(work)
     pictures = AssemblyPictures(work, steps) if steps else None
     before: dict[str, None] = {}
     for number, step in enumerate(steps, 1):
         if pictures is not None and step.parts and step.shown:
             draw = partial(pictures.draw, step, number, tuple(before))
-            yield picture_path(number), f"step {number} of putting it together", draw
+            yield picture_path(number), f"step {number} of the assembly", draw
         before |= dict.fromkeys(step.parts)
 
 
 class AssemblyPictures:
-    """Pictures of one train in the coordinates of its stack (mm)."""
+    """Pictures of the assembly of one train, in the coordinates of its stack [mm]."""
 
     def __init__(self, work: SolidModel, steps: Sequence[AssemblyStep]) -> None:
         assert work.frame is not None
@@ -456,7 +467,7 @@ class AssemblyPictures:
 
     @cached_property
     def boxes(self) -> dict[str, Floats]:
-        """Least and greatest right, up and height of each part, (2, 3)."""
+        """Minimum and maximum x (right), y (up) and height of each part, shape (2, 3)."""
         found = {}
         for name, part in self.parts.items():
             seen = part.placed.vertices @ self.stack.turn
@@ -465,12 +476,12 @@ class AssemblyPictures:
 
     @cached_property
     def extent(self) -> tuple[Floats, Floats]:
-        """Of all parts."""
+        """Minimum and maximum coordinates of all parts."""
         boxes = np.array(list(self.boxes.values()))
         return boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
 
     def draw(self, step: AssemblyStep, number: int, before: Sequence[str]) -> bytes:
-        """One step as SVG, after what came before it."""
+        """Draw one step as SVG, with the parts of earlier steps."""
         low, high = self.extent
         wide, deep, tall = (high - low).tolist()
         gap, margin = _GAP * wide, _MARGIN * wide
@@ -502,7 +513,7 @@ class AssemblyPictures:
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
-        """Outlines from above; turned parts, and wheels that stand already, as circles."""
+        """Yield the outlines of a part from above; turned parts and wheels of earlier steps are circles."""
         low, high = self.extent
         radius = part.turned.diameter / 2 if part.turned is not None else 0.0
         if part.kind == "wheel" and part.contours and not fine:
@@ -523,10 +534,12 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, letter: float, corner: Floats) -> Iterator[str]:
-        """Names of what comes in, at its middle, those of one place below each other; none of many."""
+        """Yield the names of new parts at their centres, below each other if they coincide; nothing if there are too
+        many.
+        """
         low, high = self.extent
         taken: set[tuple[int, int]] = set()
-        for name in step.parts if len(step.parts) <= _TOLD else ():
+        for name in step.parts if len(step.parts) <= _MOST_NAMED else ():
             x, y, _ = self.boxes[name].mean(axis=0)
             at = corner[0] + x - low[0], corner[1] + high[1] - y
             column, row = round(at[0] / letter / 4), round(at[1] / letter)

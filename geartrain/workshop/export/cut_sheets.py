@@ -1,7 +1,7 @@
-"""All flat drawings of an export, as they are cut: wheels, plates, and sheets of stock with all of them.
+"""Flat drawings of an export, as they are cut: wheels, plates, and sheets of stock with all parts.
 
-A wheel sheet is made once for each shape of wheel, however often it is needed. Outlines are moved outwards by half of
-what the cut removes. On stock, parts are placed in rows, the tallest first.
+Wheels of equal shape share one drawing. Outlines are offset outwards by half the kerf. On sheets of stock, parts are
+placed in rows, the tallest first.
 """
 
 from __future__ import annotations
@@ -30,19 +30,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class FlatPart:
-    """A part to be cut."""
+    """Flat part to be cut."""
 
     name: str
-    """Of its file, and on sheets of stock."""
+    """Name of its file and label on sheets of stock."""
     drawing: FlatDrawing
     count: int
-    """How often it is needed."""
+    """Number of parts needed."""
     thickness: float
-    """Of its sheet (mm)."""
+    """Thickness of its sheet [mm]."""
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Paths, without suffixes, and drawings, outlines moved by half the kerf of the process."""
+    """Yield paths without suffixes and drawings, with outlines compensated for the kerf of the process."""
     kerf, parts = work.process.kerf, list(_parts(work))
     for folder, part in parts:
         yield f"{folder}/{part.name}", compensated(part.drawing, kerf)
@@ -53,7 +53,7 @@ def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
 
 
 def wheel_drawing(work: SolidModel, blank: Blank) -> FlatDrawing:
-    """Of one wheel."""
+    """Return the drawing of one wheel, compensated for the kerf."""
     return compensated(wheel_sheets({blank.wheel: blank})[0].drawing, work.process.kerf)
 
 
@@ -67,18 +67,18 @@ def _parts(work: SolidModel) -> Iterator[tuple[str, FlatPart]]:
 
 # -------------------------------------------------------------------------------------------------------------- wheels
 
-_LETTER_SHARE = 0.5  # of the free width of the web: height of letters
-_MAXIMUM = 5.0  # mm
-_LETTER_WIDTH = 0.62  # of its height, as letters of this kind are in the mean
-_BESIDE = 0.3  # mm between letters and a hole
-_SMALLER, _WAYS, _STEPS = (1.0, 0.8, 0.6, 0.45, 0.3, 0.2), 24, 9  # letters, and places for them, that are tried
-_CENTRAL = 1e-6  # mm from the axle: that hole is the bore
-_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # names that Windows keeps for itself
+_LETTER_SHARE = 0.5  # height of letters, as a fraction of the free width of the web
+_MAXIMUM = 5.0  # mm: maximum height of letters
+_LETTER_WIDTH = 0.62  # mean width of a letter, as a fraction of its height
+_GAP = 0.3  # mm between letters and a hole
+_SMALLER, _WAYS, _STEPS = (1.0, 0.8, 0.6, 0.45, 0.3, 0.2), 24, 9  # sizes, directions and radii tried for a label
+_CENTRAL = 1e-6  # mm: a hole whose centre is nearer to the axis is the bore
+_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # file names reserved by Windows
 
 
 @dataclass(frozen=True, slots=True)
 class WheelSheet:
-    """A drawing with the name of its file, without suffix, what it shows, and how thick its sheet is (mm)."""
+    """Drawing of one shape of wheel: file name without suffix, wheels that have this shape, and thickness [mm]."""
 
     file: str
     drawing: FlatDrawing
@@ -87,7 +87,7 @@ class WheelSheet:
 
 
 def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
-    """A sheet for each shape among the blanks; wheels of one shape share it."""
+    """Return one drawing for each shape of wheel; wheels of one shape share it."""
     alike: dict[object, list[Blank]] = {}
     for blank in blanks.values():
         alike.setdefault(_shape(blank), []).append(blank)
@@ -99,14 +99,15 @@ def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
 
 
 def file_names(names: Iterable[str]) -> list[str]:
-    """Names that every file system takes, all different even where letters' case is one."""
+    """Return file names that are valid on every file system and differ also without regard to case."""
     used: set[str] = set()
     found = []
     for name in names:
+        # at most 80 characters, so that paths stay below the limits of file systems
         base = re.sub(r"[^\w.+-]+", "-", name).strip("-.")[:80] or "part"
         stem = base = f"part-{base}" if _RESERVED.match(base) else base
         count = 1
-        while stem.lower() in used:
+        while stem.lower() in used:  # some file systems ignore case
             count += 1
             stem = f"{base}-{count}"
         used.add(stem.lower())
@@ -128,20 +129,22 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
         f"{names}{often}: {blank.teeth} {what}{' inside' if blank.kind == 'ring' else ''}, {blank.form}, module "
         f"{blank.module:.6g} mm, pitch diameter {2 * blank.pitch_radius:.4f} mm, thickness {blank.thickness:.4g} mm"
         + (f", bore {blank.bore:.4g} mm" if blank.bore else "")
-        + (f", {blank.arms} arms" if blank.arms else "")
+        + (f", {blank.arms} spokes" if blank.arms else "")
     )
     inner, outer = blank.bore / 2, min(blank.root_radius, blank.tip_radius)
     if blank.kind == "ring":
         inner, outer = blank.root_radius, float(abs(blank.contours[0].points).max())
     elif blank.arms:
-        inner = outer - RIM * blank.module  # on the rim: below it there is an arm or nothing
+        inner = outer - RIM * blank.module  # on the rim, because below it there are only spokes
     height = min(_LETTER_SHARE * (outer - inner), _MAXIMUM, 1.6 * outer / max(len(names), 1))
-    mark = _clear_of(_holes(blank), EngravedText(names, (0.0, (inner + outer) / 2), height), inner, outer)
+    mark = _label_off_holes(_holes(blank), EngravedText(names, (0.0, (inner + outer) / 2), height), inner, outer)
     return FlatDrawing(title, blank.contours, (Contour.circle(blank.pitch_radius),), (mark,))
 
 
 def _holes(blank: Blank) -> list[tuple[complex, float]]:
-    """Circles that hold the holes beside a wheel's bore: middles and radii (mm); none of a wheel with arms."""
+    """Return circles around the holes of a wheel besides its bore: centres and radii [mm]; empty for a wheel with
+    spokes.
+    """
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
@@ -152,8 +155,10 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
     return found
 
 
-def _clear_of(holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float) -> EngravedText:
-    """Letters as they are if they cross no hole; else where there is room for them, the largest that find some."""
+def _label_off_holes(
+    holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
+) -> EngravedText:
+    """Move engraved text off the holes of a wheel, and reduce it to the largest size that fits."""
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
@@ -161,9 +166,7 @@ def _clear_of(holes: list[tuple[complex, float]], mark: EngravedText, inner: flo
         if max(corners) > outer or min(corners) < inner:
             return False
         seen = [((middle - at) * along.conjugate(), radius) for middle, radius in holes]
-        return all(
-            hypot(max(abs(z.real) - half, 0), max(abs(z.imag) - tall, 0)) > radius + _BESIDE for z, radius in seen
-        )
+        return all(hypot(max(abs(z.real) - half, 0), max(abs(z.imag) - tall, 0)) > radius + _GAP for z, radius in seen)
 
     if not holes or free(complex(*mark.at), 1 + 0j, mark.height):
         return mark
@@ -180,11 +183,11 @@ def _clear_of(holes: list[tuple[complex, float]], mark: EngravedText, inner: flo
 
 # -------------------------------------------------------------------------------------------------------------- plates
 
-_LETTER = 1.8  # mm: height of letters beside holes
+_LETTER = 1.8  # mm: height of letters next to holes
 
 
 def plate_sheets(work: SolidModel) -> list[Plate]:
-    """A drawing for each plate."""
+    """Return one drawing for each plate."""
     frame = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
     base = work.train.declaration.frame
     dials = [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
@@ -206,20 +209,20 @@ def _sheet(plate: FlatPlate) -> Plate:
 
 # ---------------------------------------------------------------------------------------------------------------- kerf
 
-_AROUND = 16  # chords of a quarter turn about a corner
+_AROUND = 16  # chords per quarter circle around a corner
 
 
 def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
-    """A drawing whose outer edges stand half a kerf further out and whose holes are as much narrower.
+    """Return a drawing compensated for the kerf: outer edges half a kerf larger, holes half a kerf smaller all around.
 
-    Circles stay circles; of other curves chords within the drawing's tolerance are moved.
+    Circles remain circles. Other curves are replaced by chords within the tolerance of the drawing, and then offset.
 
     Parameters
     ----------
     drawing : FlatDrawing
-        True to size.
+        Drawing of the finished size.
     kerf : float
-        Width that the cut takes away (mm), 0 or more.
+        Width of the cut [mm], 0 or more.
 
     Raises
     ------
@@ -235,7 +238,7 @@ def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
 
 
 def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) -> Contour:
-    by = -by if is_hole else by
+    by = -by if is_hole else by  # half of the cut is lost on each side, so outlines grow and holes shrink
     if contour.is_circle:
         centre = contour.points.mean(axis=0)
         radius = float(abs(contour.points[0] - centre).max()) + by
@@ -248,13 +251,13 @@ def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) ->
         raise MissingExtraError("shapely", "proof", "an outline compensated for its kerf") from None
     found = Polygon(contour.flattened(drawing.tolerance)).buffer(by, quad_segs=_AROUND)
     rings = list(_rings(found))
-    if len(rings) != 1:
+    if len(rings) != 1:  # the offset hole has vanished or has been split
         raise _too_narrow(drawing, 2 * abs(by))
     return Contour.of([(x, y, 0.0) for x, y in rings[0]])
 
 
 def _rings(shape: Polygon) -> Iterator[np.ndarray]:
-    """Outer edges of what is left, without the point that closes them, counter-clockwise."""
+    """Yield the outer edges of a shape, counter-clockwise, without the closing point."""
     for part in getattr(shape, "geoms", [shape]):
         if not part.is_empty:
             ring = np.array(part.exterior.coords)[:-1]
@@ -264,18 +267,18 @@ def _rings(shape: Polygon) -> Iterator[np.ndarray]:
 def _too_narrow(drawing: FlatDrawing, kerf: float) -> GearTrainError:
     name = drawing.title.split(":")[0]
     what = f"'{name}' has a hole or a slot narrower than the cut"
-    why = f"the cut takes away {kerf:g} mm"
+    why = f"the kerf is {kerf:g} mm wide"
     return GearTrainError(Problem(what, why, "give a larger --module or --bore, or another --process", "--process"))
 
 
 # --------------------------------------------------------------------------------------------------------------- stock
 
-_CHORD = 0.005  # mm: by how much a curve leaves its chords at most
+_CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 
 @dataclass(frozen=True, slots=True)
 class StockSheet:
-    """One sheet of stock: its file without suffix, and the names of the parts on it, one for each piece."""
+    """Sheet of stock: file name without suffix, drawing, and the names of the parts on it, one for each piece."""
 
     file: str
     drawing: FlatDrawing
@@ -283,45 +286,46 @@ class StockSheet:
 
 
 def stock_sheets(parts: Iterable[FlatPart], size: tuple[float, float], gap: float) -> tuple[StockSheet, ...]:
-    """Sheets of one size on which all parts are laid out, those of one thickness together.
+    """Lay out all parts on sheets of one size, with parts of one thickness together.
 
-    Next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808): parts are placed in rows, the tallest
-    first; a part that does not fit into the row begins the next one, a row that does not fit begins the next sheet. The
-    longer side of a part is along the width of the sheet if it fits so, else along its height.
+    The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
+    the tallest first. A part that does not fit in the row begins the next one, and a row that does not fit begins the
+    next sheet. The longer side of a part is along the width of the sheet if it fits that way, else along its height.
 
     Parameters
     ----------
     parts : iterable of FlatPart
+        Parts with the number needed of each.
     size : tuple of float
-        Width and height of a sheet (mm).
+        Width and height of a sheet [mm].
     gap : float
-        Minimum distance of parts from each other and from the edge (mm), 0 or more.
+        Minimum distance between parts, and from the edge [mm], 0 or more.
 
     Raises
     ------
     QuestionError
-        For a part that is larger than the sheet.
+        If a part is larger than the sheet.
     """
     alike: dict[float, list[FlatPart]] = {}
     for part in parts:
-        alike.setdefault(float(f"{part.thickness:g}"), []).append(part)  # as it is written in the name of the file
+        alike.setdefault(float(f"{part.thickness:g}"), []).append(part)  # rounded as in the name of the file
     found = []
     for thickness, group in sorted(alike.items()):
-        pieces = [_laid_flat(part, size, gap) for part in group for _ in range(part.count)]
+        pieces = [_fitted_to_sheet(part, size, gap) for part in group for _ in range(part.count)]
         for number, placed in enumerate(_rows(pieces, size, gap), 1):
             found.append(_stock_sheet(f"sheet-{thickness:g}mm-{number}", placed, size))
     return tuple(found)
 
 
-def _laid_flat(part: FlatPart, size: tuple[float, float], gap: float) -> FlatPart:
-    """A part turned so that it fits on a sheet, its longer side along the sheet's width if possible."""
+def _fitted_to_sheet(part: FlatPart, size: tuple[float, float], gap: float) -> FlatPart:
+    """Return a part turned so that it fits on a sheet, its longer side along the width of the sheet if possible."""
     low, high = _box(part.drawing)
     wide, tall = (high - low).tolist()
     room = [side - 2 * gap for side in size]
     ways = [turned for turned in (tall > wide, tall <= wide) if _fits((tall, wide) if turned else (wide, tall), room)]
     if not ways:
         what = f"'{part.name}' does not fit on a sheet of {size[0]:g} x {size[1]:g} mm"
-        why = f"it is {wide:.4g} x {tall:.4g} mm, and keeps its gap on all sides"
+        why = f"it measures {wide:.4g} x {tall:.4g} mm, plus a gap of {gap:g} mm on all sides"
         raise QuestionError(Problem(what, why, "give a larger --sheet, or a smaller --module", "--sheet"))
     return replace(part, drawing=_turned(part.drawing)) if ways[0] else part
 
@@ -331,7 +335,7 @@ def _fits(sides: tuple[float, float], room: list[float]) -> bool:
 
 
 def _rows(pieces: list[FlatPart], size: tuple[float, float], gap: float) -> Iterator[list[FlatPart]]:
-    """The pieces of each sheet, moved to their places."""
+    """Yield the pieces of each sheet, moved to their positions."""
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
     sheet: list[FlatPart] = []
@@ -374,7 +378,7 @@ def _shifted(drawing: FlatDrawing, by: Floats) -> FlatDrawing:
 
 
 def _turned(drawing: FlatDrawing) -> FlatDrawing:
-    """Turned by a right angle to the left about the origin."""
+    """Return the drawing turned by a right angle to the left about the origin."""
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
     cut = tuple(Contour(each.points @ turn, each.bulges) for each in drawing.cut)
     marks = tuple(replace(each, at=(-each.at[1], each.at[0]), angle=each.angle + 90) for each in drawing.marks)

@@ -1,4 +1,4 @@
-"""Which files an export is made of: one by its suffix, or a whole folder of them; tables of the train as CSV."""
+"""Files of an export: one file by its suffix, or a whole folder; tables of the train as CSV."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
-"""Kinds of files that `export_files` makes."""
+"""Kinds of files that `export_files` can write."""
 
 SUFFIXES = {
     ".glb": "glb",
@@ -40,49 +40,49 @@ SUFFIXES = {
     ".rexsj": "rexs",
     ".json": "rexs",
 }
-"""Kinds of the one file that holds a whole train, by suffix."""
+"""Suffixes of single files that contain a whole train, with their kinds."""
 
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
-"""Suffixes of the one file that holds a wheel."""
+"""Suffixes of single files that contain one wheel."""
 
-_NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}
-_WHAT = {
-    "graphml": "links and pairs as a graph",
-    "dot": "the same for Graphviz",
-    "rexs": "the gear unit as REXS 1.4",
-    "stl": "all parts, each a closed surface, mm",
-    "glb": "all parts, turning, m",
-    "step": "all parts with exact arcs, mm",
+_NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}  # kind -> (library, extra that installs it)
+_TITLES = {
+    "graphml": "graph of links and pairs",
+    "dot": "graph of links and pairs for Graphviz",
+    "rexs": "gear unit as REXS 1.4",
+    "stl": "all parts as closed surfaces, in mm",
+    "glb": "all parts in motion, in m",
+    "step": "all parts with exact arcs, in mm",
 }
 
-_DIGITS = 15
+_DIGITS = 15  # significant digits that a double always keeps
 Rows = Sequence[Sequence[object]]
 
 
 @dataclass(frozen=True, slots=True)
 class ExportFile(Shown):
-    """A file to be written.
+    """File to be written.
 
     See Also
     --------
-    export_files : gives it.
+    export_files : List the files of an export.
     """
 
     path: str
-    """In the folder, with `/`."""
+    """Path relative to the folder, with `/`."""
     title: str
-    """What it shows."""
+    """Description of its content."""
     make: Callable[[], bytes]
-    """Its content as bytes; raises `GearTrainError` if that cannot be made."""
+    """Function that returns its content as bytes, and raises `GearTrainError` if the content cannot be made."""
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
-    """Those of some kinds whose libraries are there, and what to install for the others."""
+    """Return the kinds whose libraries are installed, and problems that name what to install for the others."""
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))
         if library and not _is_there(library):
-            what = f"no {kind.upper()} is written"
+            what = f"{kind.upper()} files are not written"
             missing.append(Problem(what, f"{library} is not installed", install_command(extra)))
         else:
             found.append(kind)
@@ -97,28 +97,28 @@ def _is_there(library: str) -> bool:
 
 
 def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:
-    """The one file of some kind that holds the whole train.
+    """Return the content of a single file with the whole train.
 
     Parameters
     ----------
     work : SolidModel
         The train and its sizes.
     kind : {"stl", "glb", "step", "graphml", "dot", "rexs"}
-        What it is written as.
+        Kind of the file.
     turns : Fraction, optional
-        Turns of the lead that a GLB shows; by default its period, or ten where that is long.
+        Revolutions of the driving link in the animation of a GLB; by default one period, or ten if the period is long.
 
     Returns
     -------
     bytes
-        The content of the file.
+        Content of the file.
 
     Raises
     ------
     MissingExtraError
         If the library that writes STEP is not installed.
     GearTrainError
-        If the train cannot be shown so: the message says why.
+        If the train cannot be represented in this format; the message gives the reason.
 
     Examples
     --------
@@ -147,26 +147,26 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
 
 
 def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
-    """One wheel to cut or to print.
+    """Return the content of a file with one wheel to cut or to print.
 
     Parameters
     ----------
     work : SolidModel
         The train and its sizes.
     wheel : str
-        Its name.
+        Name of the wheel.
     suffix : {".svg", ".dxf", ".stl"}
-        What it is written as.
+        Suffix that selects the format.
 
     Returns
     -------
     bytes
-        The content of the file; drawings are 1:1 in mm.
+        Content of the file; drawings are 1:1 in mm.
 
     Raises
     ------
     QuestionError
-        If there is no such wheel, or it has no flat shape.
+        If the wheel does not exist, or has no flat shape.
     MissingExtraError
         If the library that writes DXF is not installed.
 
@@ -180,7 +180,7 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     """
     known = work.train.declaration.wheels
     if wheel not in known:
-        raise QuestionError(Problem(f"there is no wheel '{wheel}'", "it is not declared", suggest(wheel, known)))
+        raise QuestionError(Problem(f"the train has no wheel '{wheel}'", "", suggest(wheel, known)))
     blank = work.blanks.wheels.get(wheel)
     if blank is None:
         raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
@@ -195,29 +195,29 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 def export_files(
     work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
 ) -> list[ExportFile]:
-    """All files of some kinds, small ones first, a README that lists them last.
+    """List all files of some kinds, small ones first, and last a README that lists them.
 
     Parameters
     ----------
     work : SolidModel
         The train and its sizes.
     kinds : sequence of str
-        Some of svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
+        Kinds of files: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
     turns : Fraction, optional
-        Turns of the lead that a GLB shows; by default its period, or ten where that is long.
+        Revolutions of the driving link in the animation of a GLB; by default one period, or ten if the period is long.
     proof : TrainProof, optional
-        What was proved of the train, for the README; by default it is proved when that is made, where the extra `proof`
+        Proof of the train, for the README. By default the train is proved when the README is made, if the extra `proof`
         is installed.
 
     Returns
     -------
     list of ExportFile
-        Each is made when its `make` is called.
+        Files whose content is computed when `make` is called.
 
     Raises
     ------
     QuestionError
-        If there is no such kind, or the sizes asked for go against the declaration.
+        If a kind does not exist, or the requested sizes contradict the declaration.
 
     Examples
     --------
@@ -230,19 +230,19 @@ def export_files(
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         raise QuestionError(
-            Problem(f"there is no export '{unknown[0]}'", "", f"use some of {', '.join(KINDS)}", "--as")
+            Problem(f"'{unknown[0]}' is not a kind of export", "", f"use some of {', '.join(KINDS)}", "--as")
         )
     files = [*_sheets(work, kinds), *_pictures(work, kinds), *_tables(work, kinds)]
     named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
     named |= {kind: f"assembly.{kind}" for kind in ("stl", "glb", "step")}
     for kind, name in named.items():
         if kind in kinds:
-            files.append(ExportFile(name, _WHAT[kind], _whole(work, kind, turns)))
+            files.append(ExportFile(name, _TITLES[kind], _whole(work, kind, turns)))
     if parts_wanted(kinds):
         files.append(
             ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
         )
-    return [*files, ExportFile("README.md", "what is here", lambda: _readme(work, files, kinds, proof))]
+    return [*files, ExportFile("README.md", "description of the files", lambda: _readme(work, files, kinds, proof))]
 
 
 def _listed(work: SolidModel) -> bytes:
@@ -257,7 +257,7 @@ def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str],
 
 
 def parts_wanted(kinds: Sequence[str]) -> bool:
-    """True if some of the files show parts to make."""
+    """Return whether some of the kinds of files show parts to make."""
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
@@ -294,19 +294,19 @@ def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """What the files of some kinds cannot show, each once.
+    """Return the problems of parts that the files of some kinds cannot show, each once.
 
     Parameters
     ----------
     work : SolidModel
         The train and its sizes.
     kinds : sequence of str
-        Some of svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
+        Kinds of files: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
 
     Returns
     -------
     list of Problem
-        What, why and what to do.
+        Problems with their causes and remedies.
 
     Examples
     --------
@@ -318,7 +318,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     found: list[Problem] = list(work.layout.notices)
     if work.frame is not None and parts_wanted(kinds):
         found += [*work.frame.plan.notices, *work.frame.problems()]
-        found += (told for cup in work.frame.plan.stack.cups for told in cup.told())
+        found += (problem for cup in work.frame.plan.stack.cups for problem in cup.told())
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
     if {"svg", "dxf"} & set(kinds):
@@ -327,6 +327,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
         from geartrain.workshop.export.step_file import left_out
 
         found += left_out(work)
+    # the same problem can come from several sources
     once: dict[str, Problem] = {}
     for problem in found:
         once.setdefault(problem.text, problem)
@@ -334,19 +335,19 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
 
 def kind_of(name: str) -> str:
-    """The kind of a whole train's file by its name. Raises `GearTrainError` for others."""
+    """Return the kind of a file with the whole train by its name; raise `GearTrainError` for an unknown suffix."""
     suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
-    fix = f"use {', '.join(SUFFIXES)}, .fmu; wheels, plates and tables are many files: --to FOLDER"
-    raise GearTrainError(Problem(f"no train is written as '{suffix or name}'", "", fix, "-o"))
+    fix = f"use {', '.join(SUFFIXES)} or .fmu; for wheels, plates and tables, give --to FOLDER"
+    raise GearTrainError(Problem(f"a train cannot be written as '{suffix or name}'", "", fix, "-o"))
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
 
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
-    """CSV by the name of its table: wheels, links, pairs, circuits, couplings, axes, outputs."""
+    """Return the tables of a train as CSV by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
     made = {
         "wheels": _wheels,
         "links": _links,
@@ -361,7 +362,7 @@ def to_tables(work: SolidModel) -> Mapping[str, str]:
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """The exact text and the decimal."""
+    """Return a number as exact text and as decimal text."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 

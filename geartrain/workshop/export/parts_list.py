@@ -1,4 +1,4 @@
-"""The list of parts of an export: how often, of what, how large, how heavy, with which fits; and as CSV."""
+"""List of parts of an export: count, material, size, mass and fits of each part; also as CSV."""
 
 from __future__ import annotations
 
@@ -19,45 +19,46 @@ if TYPE_CHECKING:
 
 _STEEL = ("arbor", "stud", "pin", "eccentric", "cock", "rod")
 _STOCK = {"laser": "acrylic", "fdm": "PLA"}  # of flat parts; brass for any other process
-_SAME = 4  # decimals of a mm to which parts are alike
+_SAME = 4  # decimals of a mm to which sizes are rounded and compared
 
 
 @dataclass(frozen=True, slots=True)
 class ListedPart(Shown):
-    """A row of the list: parts of one shape.
+    """Row of the list: parts of one shape.
 
     See Also
     --------
-    parts_list : gives these.
+    parts_list : List the parts of a train.
     """
 
     names: tuple[str, ...]
-    """Of all of them."""
+    """Names of these parts."""
     kind: str
-    """Wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock, pin, rod, bob
-    or weight."""
+    """Kind of part: wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock,
+    pin, rod, bob or weight.
+    """
     material: str
-    """What its mass is reckoned with."""
+    """Material used for its mass."""
     size: str
     """Diameter and length of turned parts, thickness of flat ones [mm]."""
     mass: float
-    """Of one [g]."""
+    """Mass of one part [g]."""
     fits: str
-    """Holes or seats, and how they are joined."""
+    """Holes or seats, and the method of joining."""
 
     @property
     def count(self) -> int:
-        """How many are needed."""
+        """Number of parts needed."""
         return len(self.names)
 
 
 def parts_list(work: SolidModel) -> list[ListedPart]:
-    """All parts of a train, those of one shape together.
+    """List all parts of a train, with parts of one shape in one row.
 
     Parameters
     ----------
     work : SolidModel
-        The train at the sizes at which it is made.
+        The train with its manufacturing sizes.
 
     Returns
     -------
@@ -75,7 +76,7 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
     alike: dict[tuple[object, ...], ListedPart] = {}
     for part in work.parts:
         row = ListedPart((part.name,), part.kind, _material(work, part), _size(part), 0.0, "; ".join(_fits(work, part)))
-        # two-decimal volumes tell shapes of one size apart, and not the rounding of mirrored ones
+        # volumes to two decimals separate shapes of equal size, but not mirrored shapes that differ by rounding
         volume = _volume(part)
         key = (row.kind, row.size, row.fits, round(volume, 2))
         row = replace(row, mass=volume * _density(work, part, row.material) / 1e6)
@@ -105,7 +106,7 @@ def _wheel(work: SolidModel, part: SolidPart) -> Wheel | None:
 
 
 def _density(work: SolidModel, part: SolidPart, material: str) -> float:
-    """In kg/m3; 0 of a material of the train's own that declares none."""
+    """Return the density of a part [kg/m3]; 0 if the train declares its own material without a density."""
     wheel, declared = _wheel(work, part), work.train.declaration
     own = None if wheel is None else wheel.density or declared.density
     found = own or material_named(declared, material).density
@@ -113,7 +114,7 @@ def _density(work: SolidModel, part: SolidPart, material: str) -> float:
 
 
 def _volume(part: SolidPart) -> float:
-    """In mm3: of turned and flat parts exactly, of others by their triangles."""
+    """Return the volume of a part [mm3], exact for turned and flat parts, otherwise from its triangles."""
     if part.turned is not None:
         return part.turned.volume
     if part.contours:
@@ -131,7 +132,7 @@ def _size(part: SolidPart) -> str:
         return f"diameter {round(part.turned.diameter, _SAME):g}, length {round(high - low, _SAME):g}{inside}"
     if part.contours:
         return f"thickness {round(part.height, _SAME):g}"
-    return "likeness: not to be cut"
+    return "illustration only, not to be cut"
 
 
 def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
@@ -141,20 +142,20 @@ def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
         if one_piece:
             yield "one piece with its arbor"
         elif blank.bore:
-            yield f"bore {round(blank.bore, _SAME):g}, {_turns_on(work, part.name) or work.process.joint}"
+            yield f"bore {round(blank.bore, _SAME):g}, {_eccentric_of(work, part.name) or work.process.joint}"
     if part.turned is not None and part.turned.joint:
         yield part.turned.joint
 
 
-def _turns_on(work: SolidModel, wheel: str) -> str:
-    """What a wheel turns on that is fixed on no arbor."""
+def _eccentric_of(work: SolidModel, wheel: str) -> str:
+    """Return a phrase with the eccentric on which a wheel turns or by which it is bent; empty if there is none."""
     own = () if work.frame is None else work.frame.plan.stack.eccentrics
     on = next((each for each in own if wheel in each.wheels), None)
     return "" if on is None else f"{'turns on' if on.wave is None else 'bent by'} {on.name}"
 
 
 def to_csv(rows: Iterable[ListedPart]) -> str:
-    """The list as CSV, a row a shape."""
+    """Format the list as CSV, with one row for each shape."""
     head = ("part", "count", "kind", "material", "size_mm", "mass_g", "fits")
     return csv_text(
         head,

@@ -1,4 +1,5 @@
-"""A gear unit as REXS JSON (FVA's Reusable Engineering Exchange Standard, version 1.4): what of a train it can carry.
+"""Gear unit as REXS JSON (FVA's Reusable Engineering Exchange Standard, version 1.4), as far as it can represent a
+train.
 
 Component types, attributes and units are those of the REXS 1.4 database; see www.rexs.info.
 """
@@ -21,12 +22,12 @@ if TYPE_CHECKING:
     from geartrain.train import GearPair, Wheel
 
 VERSION = "1.4"
-_ANGLE = 20.0  # deg, where no form is declared
-_EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # the same train is the same file
+_ANGLE = 20.0  # deg, if no tooth form is declared
+_EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # a fixed date, so that the same train gives the same file
 
 
 def to_rexs(work: SolidModel, date: datetime = _EPOCH) -> str:
-    """The gear unit as text."""
+    """Return the gear unit as REXS JSON text."""
     return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -66,14 +67,14 @@ class _Unit:
         return number
 
     def relate(self, kind: str, **roles: int) -> None:
-        """A relation; each of its members with its role, and its type as a hint."""
+        """Add a relation; each member has its role, and its component type as a hint."""
         refs = [
             {"id": number, "role": role, "hint": self.components[number - 1]["type"]} for role, number in roles.items()
         ]
         self.relations.append({"id": len(self.relations) + 1, "type": kind, "refs": refs})
 
     def shaft(self, link: str, unit: int) -> None:
-        """A shaft for each link that turns, or has wheels; its axis is u."""
+        """Add a shaft for a link that turns or has wheels; its axis is u."""
         wheels = self.declared.links[link].wheels
         label = self.work.train.kinematics.tree.axis(link)
         if link == self.declared.frame and not wheels:
@@ -103,13 +104,13 @@ class _Unit:
         self.relate("assembly", assembly=shaft, part=number)
 
     def angle(self, name: str) -> float:
-        """Pressure angle (deg) of a wheel's first pair with involutes; 20 of others."""
+        """Return the pressure angle [deg] in the first involute pair of a wheel; 20 if there is none."""
         forms = (self.declared.form_of(gear) for gear in self.declared.gears if name in gear.pair)
         angles = (form.rack_angle for form in forms if form is not None)
         return next((degrees(angle) for angle in angles if angle is not None), _ANGLE)
 
     def stage(self, gear: GearPair, unit: int) -> None:
-        """The pair as a stage of its kind; a ring is its second gear."""
+        """Add a pair as a stage of its kind; an internal wheel is its second gear."""
         first, second = gear.pair
         if self.declared.wheels[first][1].internal:
             first, second = second, first
@@ -128,7 +129,7 @@ class _Unit:
         self.relate("stage", stage=number, **roles)
 
     def running(self) -> list[dict[str, Any]]:
-        """Speeds of shafts, where they are so many in a minute."""
+        """Return the speeds of shafts that can be given in revolutions per minute."""
         found = []
         for (kind, link), number in self.numbers.items():
             speed = as_float(self.speeds[link]) if kind == "link" and link in self.speeds else None
@@ -139,7 +140,9 @@ class _Unit:
 
 
 def _per_minute(work: SolidModel) -> Mapping[str, Fraction]:
-    """Speeds in turns a minute; plain numbers, and turns in a length, are taken for these."""
+    """Return the speeds in turns per minute; dimensionless speeds and turns per length are taken as turns
+    per minute.
+    """
     answer = work.train.solve(work.scene.state, method="exact")
     declared = work.train.declaration
     factor = Fraction(1) if declared.unit_speed is None else 60 * declared.unit_speed
@@ -174,7 +177,7 @@ def _mm(name: str, value: float) -> dict[str, Any]:
 def _frame(
     point: tuple[float, float, float], along: tuple[float, float, float], reference: int
 ) -> Iterator[dict[str, Any]]:
-    """Where a component stands: u along its axis, w across it."""
+    """Yield the attributes of the position of a component: u along its axis, w across it."""
     right, _ = basis(along)
     for name, vector in (("u_axis_vector", along), ("support_vector", point), ("w_axis_vector", right)):
         yield {"id": name, "unit": "mm", "floating_point_array": [float(each) for each in vector]}

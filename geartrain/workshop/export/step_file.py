@@ -1,4 +1,4 @@
-"""The assembly as STEP: wheels and plates raised from their outlines, arcs kept, each with its name and place."""
+"""Assembly as STEP: wheels and plates extruded from their outlines, with exact arcs, names and positions."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_part import SolidPart
     from geartrain.teeth.outlines.contour import Contour
 
-FINE = 0.005  # mm, how far chords, or the curves through them, may leave a flank
-_CORNER = 0.35  # rad: where a line turns by more it has a corner
-_CURVED = 4  # points from which a run without corners is one curve
-_STRAIGHT = 1e-9
-_POINT = 1e-5  # mm: an edge shorter than this is none
-_DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # the same train is the same file
+FINE = 0.005  # mm: maximum deviation of chords or curves from a flank
+_CORNER = 0.35  # rad: a larger change of direction is a corner
+_CURVED = 4  # minimum number of points of a run that becomes one curve
+_STRAIGHT = 1e-9  # bulge below which an edge is straight
+_POINT = 1e-5  # mm: shorter edges are dropped, because OCP rejects degenerate edges
+_DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # replaced, so that the same train gives the same file
 
 
 def to_step(work: SolidModel) -> bytes:
-    """The assembly in the zero pose, in mm, but for what is `left_out`. Raises `MissingExtraError`."""
+    """Encode the assembly in the zero pose, in mm, without the parts in `left_out`; raises `MissingExtraError`."""
     try:
         import OCP.STEPCAFControl  # noqa: F401
     except ImportError:
         raise MissingExtraError("OCP (cadquery-ocp-novtk)", "step", "a model as STEP") from None
-    return _written(work.train.name, [part for part in work.parts if _is_exact(part)])
+    return _write(work.train.name, [part for part in work.parts if _is_exact(part)])
 
 
 def left_out(work: SolidModel) -> tuple[Problem, ...]:
-    """The parts without an exact form."""
-    why = "it is a likeness in triangles, not an exact form"
+    """Return a problem for each part without an exact form."""
+    why = "its shape is approximated by triangles, and STEP needs an exact shape"
     return tuple(
-        Problem(f"'{part.name}' is left out of the STEP file", why, "take the GLB or the STL")
+        Problem(f"'{part.name}' is not included in the STEP file", why, "use the GLB or STL file")
         for part in work.parts
         if not _is_exact(part)
     )
@@ -53,7 +53,7 @@ def _is_exact(part: SolidPart) -> bool:
     return bool(part.contours) or part.turned is not None
 
 
-def _written(name: str, parts: Sequence[SolidPart]) -> bytes:
+def _write(name: str, parts: Sequence[SolidPart]) -> bytes:
     from OCP.Interface import Interface_Static
     from OCP.Message import Message, Message_PrinterOStream
     from OCP.STEPCAFControl import STEPCAFControl_Writer
@@ -61,46 +61,46 @@ def _written(name: str, parts: Sequence[SolidPart]) -> bytes:
     from OCP.TCollection import TCollection_ExtendedString
     from OCP.TDocStd import TDocStd_Document
 
-    Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())  # it talks
+    Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())  # it prints to stdout
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     _assemble(document, name, parts)
     writer = STEPCAFControl_Writer()
     Interface_Static.SetCVal_s("write.step.unit", "MM")
     Interface_Static.SetIVal_s("write.step.assembly", 1)
-    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)  # edges in space say all: half the file
+    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)  # 3D curves suffice, and halve the file
     writer.SetNameMode(True)
     writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
-    with TemporaryDirectory() as folder:  # the library knows files only
+    with TemporaryDirectory() as folder:  # the library writes only to files
         path = Path(folder) / "assembly.step"
         writer.Write(str(path))
         return _DATE.sub(b"'2000-01-01T00:00:00'", path.read_bytes(), count=1)
 
 
 def _assemble(document: Any, name: str, parts: Sequence[SolidPart]) -> None:
-    """A shape for each part that is unlike the others, and a component for each part."""
+    """Add one shape for each group of equal parts, and one component for each part."""
     from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
     tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     whole = tool.NewShape()
-    _name(whole, name)
+    _set_name(whole, name)
     shapes: dict[object, Any] = {}
     for part in parts:
-        key = _key(part)
+        key = _shape_key(part)
         if key not in shapes:
             shapes[key] = tool.AddShape(_shape(part), False)
-            _name(shapes[key], part.name)
-        _name(tool.AddComponent(whole, shapes[key], _location(part)), part.name)
+            _set_name(shapes[key], part.name)
+        _set_name(tool.AddComponent(whole, shapes[key], _location(part)), part.name)
     tool.UpdateAssemblies()
 
 
-def _name(label: Any, name: str) -> None:
+def _set_name(label: Any, name: str) -> None:
     from OCP.TCollection import TCollection_ExtendedString
     from OCP.TDataStd import TDataStd_Name
 
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
 
 
-def _key(part: SolidPart) -> object:
+def _shape_key(part: SolidPart) -> object:
     if part.turned is not None:
         return part.kind, part.turned.bands
     return part.height, *(contour.points.round(6).tobytes() for contour in part.contours)
@@ -128,13 +128,13 @@ def _shape(part: SolidPart) -> Any:
     outer, *holes = (_wire(contour, low) for contour in part.contours)
     face = BRepBuilderAPI_MakeFace(plane, outer, True)
     for hole in holes:
-        hole.Reverse()
+        hole.Reverse()  # a hole is oriented against the outer wire
         face.Add(hole)
     return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, part.height)).Shape()
 
 
 def _revolved(part: TurnedPart) -> Any:
-    """Half a section turned about z; several pieces of one part as a compound."""
+    """Make a solid by revolving half a section about the z axis; several pieces of one part become a compound."""
     from OCP.BRep import BRep_Builder
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
@@ -159,7 +159,7 @@ def _revolved(part: TurnedPart) -> Any:
 
 
 def _wire(contour: Contour, height: float) -> Any:
-    """Counter-clockwise, as all contours are; edges share their vertices."""
+    """Make a counter-clockwise wire, like all contours; edges share their vertices."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex, BRepBuilderAPI_MakeWire
     from OCP.GC import GC_MakeArcOfCircle
     from OCP.gp import gp_Pnt
@@ -181,14 +181,14 @@ def _wire(contour: Contour, height: float) -> Any:
 
 
 def _curve(line: Floats, height: float) -> Any:
-    """A curve of few poles that stays near the points of a flank."""
+    """Fit a B-spline with few poles to the points of a flank."""
     from OCP.GeomAbs import GeomAbs_C1
     from OCP.GeomAPI import GeomAPI_PointsToBSpline
     from OCP.gp import gp_Pnt
 
     try:
         from OCP.collections import Array1_gp_Pnt as Points
-    except ImportError:  # its name before release 8
+    except ImportError:  # module name before release 8
         from OCP.TColgp import TColgp_Array1OfPnt as Points
     points = Points(1, len(line))
     for at, (x, y) in enumerate(line.tolist(), 1):
@@ -197,7 +197,7 @@ def _curve(line: Floats, height: float) -> Any:
 
 
 class _Arc(NamedTuple):
-    """Start, middle and end of an arc."""
+    """Start, middle and end point of an arc."""
 
     start: Floats
     middle: Floats
@@ -205,12 +205,12 @@ class _Arc(NamedTuple):
 
 
 def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
-    """Arcs, chords (two points), and runs of points (more) that are smooth, one after the other."""
+    """Yield the edges of a contour in order: arcs, chords (two points), and smooth runs of more points."""
     apart = np.linalg.norm(np.roll(contour.points, -1, axis=0) - contour.points, axis=1) > _POINT
     points, bulges = contour.points[apart], contour.bulges[apart]
     count = len(points)
     straight = abs(bulges) < _STRAIGHT
-    # begin after an arc, so that no run of chords is cut in two
+    # begin after an arc, so that a run of chords is not split
     first = 0 if straight.all() or not straight.any() else int(np.flatnonzero(~straight)[0]) + 1
     order = [(first + k) % count for k in range(count)]
     run: list[int] = []
@@ -224,21 +224,21 @@ def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
         if at >= 0:
             start, end, bulge = points[at], points[(at + 1) % count], bulges[at]
             chord = end - start
-            # the middle of an arc is off the middle of its chord by half the bulge times the chord, to its right
+            # the middle of an arc is to the right of the middle of its chord by half the bulge times the chord
             yield _Arc(start, (start + end) / 2 + np.array([chord[1], -chord[0]]) * bulge / 2, end)
 
 
 def _smooth(line: Floats) -> Iterator[Floats]:
-    """A line parted at its corners; parts that chords would need many points for stay whole."""
+    """Yield a line split at its corners; parts that would need many chords are kept as smooth runs."""
     steps = np.diff(line, axis=0)
     turn = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
     ends = [0, *(np.flatnonzero(abs(turn) > _CORNER) + 1).tolist(), len(line) - 1]
     if len(ends) == 2 and np.allclose(line[0], line[-1]):
-        ends.insert(1, len(line) // 2)  # an edge has two ends
+        ends.insert(1, len(line) // 2)  # a closed line is split, because an edge needs two different ends
     for low, high in pairwise(ends):
         whole = line[low : high + 1]
         part = whole[simplified(whole, FINE)]
         if len(part) < _CURVED:
             yield from (part[at : at + 2] for at in range(len(part) - 1))
         else:
-            yield whole[simplified(whole, FINE / 4)]  # finer than chords: the curve may leave them by FINE / 2
+            yield whole[simplified(whole, FINE / 4)]  # finer than FINE, because the curve may deviate by FINE / 2 more

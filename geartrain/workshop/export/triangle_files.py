@@ -1,9 +1,9 @@
-"""Solids of triangles: binary STL in mm, and the moving assembly as binary glTF (GLB) in metres.
+"""Triangle meshes: binary STL in mm, and the animated assembly as binary glTF (GLB) in metres.
 
-A GLB file has a node for each body, whose rotation is animated, and below it a node for each of its parts. Vertices are
-quantised (glTF extension KHR_mesh_quantization): positions are 16-bit multiples of a step, which is the largest extent
-of a part over 65534, about the middle of its bounding box; normals are 8-bit. The node of a part holds the transform
-from steps to mm, so that parts of equal shape share one mesh.
+A GLB file has one node for each body, whose rotation is animated, and below it one node for each part of the body.
+Vertices are quantised (glTF extension KHR_mesh_quantization). Positions are 16-bit multiples of a step about the middle
+of the bounding box; the step is the largest extent of the part divided by 65534. Normals are 8-bit. The node of a part
+contains the transform from steps to mm, so that parts of equal shape share one mesh.
 """
 
 from __future__ import annotations
@@ -30,22 +30,23 @@ _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attrib
 
 
 def to_stl(solid: Solid, name: str) -> bytes:
-    """A solid as binary STL; the header holds its name."""
+    """Encode a solid as binary STL; the header contains its name."""
     corners = solid.vertices[solid.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     rows = np.zeros(len(corners), dtype=_TRIANGLE)
-    rows["normal"] = normals / np.where(length > 0, length, 1)
+    rows["normal"] = normals / np.where(length > 0, length, 1)  # the normal of a degenerate triangle remains 0
     rows["corners"] = corners
+    # the format has a header of 80 bytes
     header = f"{name}, mm".encode("ascii", "replace")[:79].ljust(80)
     return header + np.uint32(len(rows)).tobytes() + rows.tobytes()
 
 
 # ----------------------------------------------------------------------------------------------------------------- GLB
 
-_METRE = 0.001
+_METRE = 0.001  # m in a mm: glTF is in metres
 _STEPS = 65534  # along the largest extent of a part: from -32767 to 32767
-_UNIT = 127  # 8-bit length of a unit normal
+_UNIT = 127  # largest 8-bit integer: length of a unit normal
 _COLOURS: dict[str, tuple[float, float, float]] = {
     "surviving": (0.72, 0.53, 0.2),
     "reconstructed": (0.45, 0.56, 0.68),
@@ -72,7 +73,7 @@ _VIEWS: tuple[dict[str, int], ...] = (
 
 @dataclass(slots=True)
 class _GlbFile:
-    """The content of a GLB file: objects of the JSON chunk, and the bytes of each buffer view."""
+    """Content of a GLB file: objects of the JSON chunk, and the bytes of each buffer view."""
 
     nodes: list[dict[str, Any]] = field(default_factory=list)
     meshes: list[dict[str, Any]] = field(default_factory=list)
@@ -82,27 +83,27 @@ class _GlbFile:
     shared: dict[object, int] = field(default_factory=dict)  # numbers of accessors and meshes, by their content
 
     def append(self, view: int, values: np.ndarray[Any, Any]) -> int:
-        """Append an array to a buffer view, padded to a multiple of four bytes, and return where it begins."""
+        """Append an array to a buffer view, padded to a multiple of four bytes, and return its offset."""
         start, raw = len(self.views[view]), values.tobytes()
         self.views[view].extend(raw + b"\0" * (-len(raw) % 4))
         return start
 
     def accessor(self, view: int, start: int, count: int, kind: str, component: int, **more: Any) -> int:
-        """Number of a new accessor over `count` elements of a buffer view."""
+        """Add an accessor over `count` elements of a buffer view and return its number."""
         own = {"bufferView": view, "byteOffset": start, "componentType": component, "count": count, "type": kind}
         self.accessors.append(own | more)
         return len(self.accessors) - 1
 
     def node(self, **content: Any) -> int:
-        """Number of a new node."""
+        """Add a node and return its number."""
         self.nodes.append(content)
         return len(self.nodes) - 1
 
     def to_bytes(self, name: str, root: int) -> bytes:
-        """The file: a header, the JSON chunk and the binary chunk (glTF 2.0, section 4.4)."""
+        """Return the file: a header, the JSON chunk and the binary chunk (glTF 2.0, section 4.4)."""
         data, views = b"", []
         for each, more in zip(self.views, _VIEWS, strict=True):
-            own = each or bytes(4)  # no view is empty
+            own = each or bytes(4)  # glTF does not allow an empty view
             views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(own)} | more)
             data += own
         content = {
@@ -121,13 +122,13 @@ class _GlbFile:
         }
         content = {key: value for key, value in content.items() if value != []}
         text = json.dumps(content, separators=(",", ":")).encode("ascii")
-        text += b" " * (-len(text) % 4)
+        text += b" " * (-len(text) % 4)  # chunks have multiples of four bytes; JSON is padded with spaces
         chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
-    """The assembly with its motion over some turns of the driving link (by default those of `Keyframes`)."""
+    """Encode the assembly with its motion over some turns of the driving link (by default as in `Keyframes`)."""
     file, bodies = _GlbFile(), work.scene.bodies
     points = [np.array(body.point) for body in bodies]
     for body, point in zip(bodies, points, strict=True):
@@ -140,10 +141,10 @@ def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
         file.nodes[part.body]["children"].append(_part(file, part, points[part.body]))
     for node in file.nodes[: len(bodies)]:
         if not node["children"]:
-            del node["children"]  # glTF allows no empty list
+            del node["children"]  # glTF does not allow an empty list
     _animate(file, work, turns)
     roots = [at for at, body in enumerate(bodies) if body.parent is None]
-    # z is up on paper, y in glTF: the front of the train looks at the reader
+    # z points to the reader, as in drawings: the front of the train is turned to the camera
     front = [0.0, 0.0, 0.0, 1.0] if work.scene.front > 0 else [0.0, 1.0, 0.0, 0.0]
     root = file.node(name=work.train.name, scale=[_METRE] * 3, rotation=front, children=roots)
     return file.to_bytes(work.train.name, root)
@@ -169,7 +170,7 @@ def _material(part: SolidPart) -> int:
 
 
 def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
-    """The node of a part, below its body whose own point is `origin` (mm)."""
+    """Add the node of a part below its body, whose own point is `origin` [mm], and return its number."""
     solid = part.solid
     low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
     middle, step = (low + high) / 2, float((high - low).max()) / _STEPS
@@ -181,10 +182,13 @@ def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
 
 
 def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Vertices of a mesh, and their indices in its triangles. Corners of one position and one normal are one vertex."""
+    """Return the vertices of a mesh and their indices in its triangles; equal positions with equal normals
+    are merged.
+    """
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
+    # glTF requires unit normals, also for degenerate triangles
     normals = np.where(length > 0, normals / np.where(length > 0, length, 1), np.array([0.0, 0.0, 1.0]))
     short = np.repeat(np.rint(_UNIT * normals).astype(np.int64), 3, axis=0)
     # one integer for each corner: 8 bits for each component of the normal, and the index of the position
@@ -192,11 +196,12 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
     _, first, indices = np.unique(code, return_index=True, return_inverse=True)
     vertices = np.zeros(len(first), dtype=_VERTEX)
     vertices["position"], vertices["normal"] = steps[at[first]], short[first]
+    # index 65535 is reserved for primitive restart
     return vertices, indices.reshape(-1).astype("<u2" if len(first) <= 65535 else "<u4")
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Number of a mesh of these triangles, which may exist already."""
+    """Return the number of a mesh of these triangles, which is reused if it exists."""
     shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]
@@ -215,7 +220,7 @@ def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indic
 
 
 def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
-    """Add the rotation of every body that turns over its parent."""
+    """Add the rotation of every body relative to its parent."""
     turning = Keyframes.of(work, turns)
     if turning is None:
         return
@@ -233,7 +238,7 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
         half = turning.angle(at, count) / 2
         axis = np.array(body.direction)
         quaternions = np.column_stack([np.sin(half)[:, None] * axis, np.cos(half)])
-        # q and -q turn alike: neighbours of one sign are joined the shorter way by every reader
+        # q and -q are the same rotation; with equal signs every reader interpolates the shorter way
         apart = (quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0
         quaternions[1:] *= np.where(np.cumsum(apart) % 2, -1.0, 1.0)[:, None]
         output = file.accessor(_KEYS, file.append(_KEYS, quaternions.astype("<f4")), count + 1, "VEC4", _FLOAT)
@@ -246,32 +251,36 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
 
 # ----------------------------------------------------------------------------------------------------------- key frames
 
-_A_TURN = 3  # key frames: between two of them a rotation takes the shorter way, so two would be ambiguous
-_RIPPLING = 48  # of a turn, where teeth or pins add something
+_A_TURN = 3  # key frames per turn: readers interpolate the shorter way, so two would be ambiguous
+_RIPPLING = 48  # key frames per turn if teeth or pins add transmission errors
 _MINIMUM_RIPPLING = 240
-_MOST = 60_000  # key frames of one body: a longer period is not shown whole
-_USUAL = 10  # turns of the lead, where no period is
+_MOST = 60_000  # maximum key frames of one body: a longer period is not shown completely
+_USUAL = 10  # turns of the driving link, if the period is too long
 _PACE = 1.0  # seconds in which the fastest body turns once
-_LONGEST = 120.0  # seconds
+_LONGEST = 120.0  # maximum duration [s]
 
 
 @dataclass(frozen=True)
 class Keyframes:
-    """What turns, and for how long."""
+    """Motion of an animation: bodies that turn, and its duration."""
 
     work: SolidModel
     turns: Fraction
-    """Of the lead."""
+    """Revolutions of the driving link."""
     seconds: float
-    """That they take."""
+    """Duration [s]."""
     speeds: tuple[Fraction | None, ...]
-    """Of each body over its parent's, in turns of the lead, about its `direction`; None: it does not turn."""
+    """Speed of each body relative to its parent about its `direction`, divided by the speed of the driving link; None
+    if undetermined.
+    """
     ripples: bool
     _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
-        """The motion of a train over `turns`, by default its period, or ten turns where that is long; None if still."""
+        """Return the motion of a train over `turns`, by default one period, or ten turns if that is long; None if
+        nothing turns.
+        """
         scene = work.scene
         if scene.movement.kind == "still" or scene.driving_link is None:
             return None
@@ -287,14 +296,14 @@ class Keyframes:
             turns = min(turns, Fraction(_MOST) / (fastest * dense))
         elif turns <= 0 or turns * fastest * dense > _MOST:
             most = float(_MOST / (fastest * dense))
-            why = f"its fastest body would need {float(turns * fastest * dense):.4g} key frames"
-            fix = f"give more than 0 and at most {most:.4g}"
-            raise QuestionError(Problem(f"{turns} turns are no animation", why, fix, "--turns"))
+            why = f"the fastest body may have up to {_MOST:,} key frames, which is {most:.4g} turns of the driving link"
+            fix = f"give more than 0 and at most {most:.4g} turns"
+            raise QuestionError(Problem(f"{turns} turns cannot be animated", why, fix, "--turns"))
         seconds = min(max(float(turns * fastest) * _PACE, 1.0), _LONGEST)
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Steps between key frames of a body; 0 if it stands still on its parent."""
+        """Return the number of intervals between key frames of a body; 0 if it does not turn relative to its parent."""
         speed = self.speeds[body]
         turned = abs(float((speed or 0) * self.turns))
         if self.ripples and self.work.scene.bodies[body].speed is not None:
@@ -302,25 +311,27 @@ class Keyframes:
         return ceil(_A_TURN * turned)
 
     def angle(self, body: int, count: int) -> Floats:
-        """Angle (rad) over its parent at `count` + 1 even moments, about its direction."""
+        """Return the angle of a body relative to its parent [rad] at `count` + 1 equidistant moments, about its
+        direction.
+        """
         bodies = self.work.scene.bodies
         found = np.zeros(count + 1)
         for at, sign in ((body, 1), (bodies[body].parent, -1)):
             if at is not None and bodies[at].parent is not None:
                 own = bodies[at]
                 whole = read_fraction(own.speed or "0") * self.turns
-                # parts of a turn exactly, in whole numbers, so that a body that comes home is there
+                # fractions of a turn in exact integers, so that a periodic motion closes without rounding errors
                 above, below = whole.numerator, whole.denominator * count
                 parts = [above * k % below / below for k in range(count + 1)]
                 found += sign * own.sense * (own.start + 2 * pi * np.array(parts) + self._errors(count)[at])
         return found
 
     def _errors(self, count: int) -> Floats:
-        """What teeth and pins add to the angle of each body (rad), (bodies, count + 1)."""
+        """Return the transmission errors of teeth and pins in the angle of each body [rad], (bodies, count + 1)."""
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))
-        if count not in self._found:  # bodies of one count share it
+        if count not in self._found:  # shared by all bodies with this number of key frames
             links = tuple(self.work.train.declaration.links)
             motion = self.work.sized.motion(self.work.scene.state, links)
             self._found[count] = motion.at(float(self.turns) * np.arange(count + 1) / count).error

@@ -1,4 +1,4 @@
-"""`geartrain export`: files for makers and for other tools."""
+"""Command `geartrain export`: files for makers and for other tools."""
 
 from __future__ import annotations
 
@@ -35,91 +35,113 @@ if TYPE_CHECKING:
     from geartrain.workshop.export.proof import TrainProof
 
 _PATIENCE = 2.0  # seconds before a progress bar is shown
-_SHOWN = 8  # notices on the terminal; all are in the README
+_SHOWN = 8  # maximum number of notices on the terminal; all are in the README
 Size = str | None
 
 
 def run(
     file: File,
-    to: Annotated[Path | None, typer.Option("--to", help="Write all files into this folder.")] = None,
+    to: Annotated[Path | None, typer.Option("--to", help="Write all files to this folder.")] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--output-file", "-o", help="Write one file: .glb .stl .step .graphml .dot .rexsj .fmu"),
+        typer.Option("--output-file", "-o", help="Write one file: .glb, .stl, .step, .graphml, .dot, .rexsj or .fmu."),
     ] = None,
     kinds: Annotated[
-        str | None, typer.Option("--as", help="With --to: some of svg,dxf,stl,glb,step,graphml,dot,rexs,csv.")
+        str | None,
+        typer.Option(
+            "--as",
+            help="Kinds of files to write with --to, separated by commas: svg,dxf,stl,glb,step,graphml,dot,rexs,csv.",
+        ),
     ] = None,
-    wheel: Annotated[str | None, typer.Option("--wheel", help="With -o: one wheel as .svg, .dxf or .stl.")] = None,
+    wheel: Annotated[
+        str | None, typer.Option("--wheel", help="Write only this wheel with -o, as .svg, .dxf or .stl.")
+    ] = None,
     state: FirstState = None,
-    module: Annotated[Size, typer.Option("--module", help="Pitch diameter over teeth, such as 1mm.")] = None,
-    thickness: Annotated[Size, typer.Option("--thickness", help="Of wheels and plates, such as 2mm.")] = None,
+    module: Annotated[
+        Size, typer.Option("--module", help="Module: pitch diameter divided by teeth, such as 1mm.")
+    ] = None,
+    thickness: Annotated[Size, typer.Option("--thickness", help="Thickness of wheels and plates, such as 2mm.")] = None,
     bore: Annotated[
-        Size, typer.Option("--bore", help="Diameter of all arbors; 0mm: wheels without holes alone.")
+        Size, typer.Option("--bore", help="Diameter of all arbors; 0mm writes only wheels, without bores.")
     ] = None,
     backlash: Annotated[
-        Size, typer.Option("--backlash", help="Play of every pair on its pitch circles, such as 0.05mm.")
+        Size, typer.Option("--backlash", help="Backlash of every pair along its pitch circles, such as 0.05mm.")
     ] = None,
     process: Annotated[
-        str | None, typer.Option("--process", help="How it is made: laser, cnc, fdm or hand; sets kerf, fits and play.")
+        str | None,
+        typer.Option(
+            "--process", help="Manufacturing process: laser, cnc, fdm or hand; it sets kerf, fits and backlash."
+        ),
     ] = None,
     arms: Annotated[
-        int | None, typer.Option("--arms", help="Windows between so many arms of wheels that have the room.")
+        int | None, typer.Option("--arms", help="Number of spokes (crossings) of every wheel that is large enough.")
     ] = None,
     sheet: Annotated[
-        str | None, typer.Option("--sheet", help="With --to: lay all flat parts out on sheets, such as 300x200mm.")
+        str | None,
+        typer.Option("--sheet", help="With --to: lay out all flat parts on sheets of this size, such as 300x200mm."),
     ] = None,
-    turns: Annotated[str | None, typer.Option("--turns", help="Turns of the lead that the GLB shows.")] = None,
+    turns: Annotated[
+        str | None, typer.Option("--turns", help="Revolutions of the driving link in the animation of the GLB.")
+    ] = None,
     rate: Annotated[
         str | None,
-        typer.Option("--rate", help="Of an .fmu: turns a second of the input, or such as '30 rpm'; default the drive."),
+        typer.Option(
+            "--rate", help="Speed of the input of an .fmu, in turns per second or such as '30 rpm'; default: the drive."
+        ),
     ] = None,
     restitution: Annotated[
-        str | None, typer.Option("--restitution", help="Of an .fmu: of all impacts, 0 to 1; default as declared, or 0.")
+        str | None,
+        typer.Option(
+            "--restitution",
+            help="Coefficient of restitution of every impact in an .fmu, 0 to 1; default: as declared, or 0.",
+        ),
     ] = None,
     step: Annotated[
-        Size, typer.Option("--step", help="Of an .fmu: length of a step, such as 0.0001s; default by its teeth.")
+        Size,
+        typer.Option("--step", help="Time step of an .fmu, such as 0.0001s; default: from the tooth frequency."),
     ] = None,
     without: Without = None,
     force: Force = False,
 ) -> None:
-    """Write wheels and plates to cut, the assembly as a solid, the graph, REXS, an FMU and tables of a train."""
+    """Write a train as files: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables."""
     from geartrain.analysis.gear_train import load
     from geartrain.scene import SolidModel
 
     if (to is None) == (out is None):
-        what = "it is not said what to write" if to is None else "--to and -o are both given"
-        raise GearTrainError(Problem(what, "", "give --to FOLDER for all files, or -o FILE for one", "export"))
+        what = "the output is missing" if to is None else "--to and -o are both given"
+        why = "an export writes either a folder of files or a single file"
+        raise GearTrainError(Problem(what, why, "give --to FOLDER for all files, or -o FILE for one", "export"))
     of_time = {"--rate": rate, "--restitution": restitution, "--step": step, "--without": without or None}
     of_solids: dict[str, object] = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
     of_solids |= {"--backlash": backlash, "--process": process, "--arms": arms, "--sheet": sheet, "--turns": turns}
     if out is not None and out.suffix.lower() == ".fmu":
-        _refuse(of_solids, "says nothing to a unit that moves in time", "leave it out")
+        _refuse(of_solids, "does not apply to an .fmu", "omit it")
         _unit(file, state, of_time, sink(out, force))
         return
-    _refuse(of_time, "is for a unit that moves in time", "give -o FILE.fmu, or leave it out")
+    _refuse(of_time, "applies only to an .fmu", "give -o FILE.fmu, or omit it")
     train = load(file)
     if out is not None:
-        _refuse({"--sheet": sheet}, "is for a folder", "give --to FOLDER in place of -o")
+        _refuse({"--sheet": sheet}, "applies only to a folder", "give --to FOLDER instead of -o")
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
-    work = SolidModel(train, _making(lengths, process, arms, sheet), train.declaration.state_or_first(state))
+    work = SolidModel(train, _sizes(lengths, process, arms, sheet), train.declaration.state_or_first(state))
     shown = _turns(turns)
     if out is not None:
-        _one(work, out, wheel, shown, force)
+        _write_one(work, out, wheel, shown, force)
     else:
         assert to is not None
-        _all(work, to, kinds, wheel, shown, force)
+        _write_folder(work, to, kinds, wheel, shown, force)
     raise typer.Exit(GOOD if is_sound(work.sized, state) else VERDICT)
 
 
 def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:
-    """Options that do not go with what is written."""
+    """Raise `GearTrainError` if an option is given that does not apply to the requested file."""
     for option, value in given.items():
         if value is not None:
             raise GearTrainError(Problem(f"{option} {why}", "", fix, option))
 
 
 def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:
-    """A co-simulation unit."""
+    """Write a co-simulation unit (FMU) and exit."""
     from geartrain.analysis.gear_train import load
 
     simulation = wing("simulation")
@@ -137,7 +159,7 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
     raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
 
 
-def _making(given: Mapping[str, Size], process: str | None, arms: int | None, sheet: str | None) -> ManufacturingSizes:
+def _sizes(given: Mapping[str, Size], process: str | None, arms: int | None, sheet: str | None) -> ManufacturingSizes:
     from geartrain.scene import ManufacturingSizes
 
     sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
@@ -145,11 +167,11 @@ def _making(given: Mapping[str, Size], process: str | None, arms: int | None, sh
 
 
 def _sheet(text: str) -> tuple[float, float]:
-    """Width and height (mm) of what is written as 300x200mm."""
+    """Parse the width and height [mm] of a sheet, written as 300x200mm."""
     sides = text.lower().replace("×", "x").split("x")
     unit = sides[-1].strip().lstrip("0123456789.+-/ e")
     if len(sides) != 2 or not unit:
-        raise GearTrainError(Problem(f"'{text}' is no size of a sheet", "", "write it as 300x200mm", "--sheet"))
+        raise GearTrainError(Problem(f"'{text}' is not the size of a sheet", "", "write it as 300x200mm", "--sheet"))
     width, height = (side if side.strip().endswith(unit) else side + unit for side in sides)
     return 1000 * _length("sheet", width), 1000 * _length("sheet", height)
 
@@ -162,25 +184,27 @@ def _turns(text: str | None) -> Fraction | None:
     return None if text is None else read_turns("--turns", text)
 
 
-def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
+def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
     from geartrain.workshop.export.file_set import WHEEL_SUFFIXES, kind_of, train_file, wheel_file
 
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
         fix = f"use {', '.join(WHEEL_SUFFIXES)}"
-        raise GearTrainError(Problem(f"no wheel is written as '{suffix or out.name}'", "", fix, "-o"))
+        raise GearTrainError(Problem(f"a wheel cannot be written as '{suffix or out.name}'", "", fix, "-o"))
     kind = "" if wheel is not None else kind_of(out.name)
     to = sink(out, force)
     to.write(wheel_file(work, wheel, suffix) if wheel is not None else train_file(work, kind, turns))
 
 
-def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
+def _write_folder(
+    work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool
+) -> None:
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.workshop.export.assembly_guide import unproved
     from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_wanted
 
     if wheel is not None:
-        raise GearTrainError(Problem("--wheel is for one file", "", "give -o FILE in place of --to", "--wheel"))
+        raise GearTrainError(Problem("--wheel applies only to one file", "", "give -o FILE instead of --to", "--wheel"))
     wanted = [kind.strip().lower() for kind in kinds.split(",")] if kinds is not None else list(KINDS)
     missing: list[Problem] = []
     if kinds is None:
@@ -189,18 +213,18 @@ def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns
     files = export_files(work, wanted, turns, proof)
     check_folder(to, [each.path for each in files], force)
     try:
-        count = write_folder(to, _shown(((each.path, each.make()) for each in files), len(files)), force)
+        count = write_folder(to, _with_progress(((each.path, each.make()) for each in files), len(files)), force)
     except KeyboardInterrupt:
-        tell(f"stopped; nothing is written to {to}")
+        tell(f"stopped; no files were written to {to}")
         raise typer.Exit(INTERRUPTED) from None
-    _remark([*missing, *notices(work, wanted)])
+    _print_notices([*missing, *notices(work, wanted)])
     tell(f"wrote {plural(count, 'file')} to {to}")
     if parts_wanted(wanted):
         tell(unproved().replace("*", "").replace("`", "") if proof is None else proof.verdict)
 
 
 def _proof(work: SolidModel) -> TrainProof | None:
-    """What is proved of the train, with a progress bar once it takes long; None without the libraries."""
+    """Prove the train, with a progress bar if it takes long; None if the libraries are not installed."""
     from geartrain.workshop.export.proof import proof_is_installed, proof_steps, prove_train
 
     if not proof_is_installed():
@@ -209,15 +233,15 @@ def _proof(work: SolidModel) -> TrainProof | None:
         return prove_train(work, bar.advance)
 
 
-def _remark(problems: Sequence[Problem]) -> None:
+def _print_notices(problems: Sequence[Problem]) -> None:
     for problem in problems[:_SHOWN]:
         tell(f"note: {problem}")
     if len(problems) > _SHOWN:
         tell(f"note: {len(problems) - _SHOWN} more in README.md")
 
 
-def _shown(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:
-    """The same files, with a progress bar once it takes long."""
+def _with_progress(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:
+    """Yield the same files, with a progress bar if it takes long."""
     with progress("export", count, _PATIENCE) as bar:
         for each in files:
             yield each

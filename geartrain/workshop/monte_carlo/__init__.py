@@ -1,13 +1,13 @@
-"""Trials of trains cut by hand: how often they jam, how far pointers are off, and which errors matter.
+"""Monte Carlo trials of trains with cutting errors: probability of jamming, pointer errors and their causes.
 
-trial_plan            a train as its trials see it: pairs, wheels with errors, composition of errors
+trial_plan            input data of the trials: pairs, wheels with errors, composition of errors
 random_streams        independent random streams by trial, wheel and kind of error
-trial_block           wheels of a block of trials, drawn, judged and put in motion
+trial_block           one block of trials: draw the wheels, evaluate the pairs, compute the pointer errors
 trial_run             tasks of trials, their journal and their table
-trial_results         results of trials by pair and by pointer, and errors of a pointer along a turn
+trial_results         event rates of each pair, error statistics of each pointer, errors along a turn
 clearance_study       the same trials at other clearances
-sobol_indices         Sobol indices: whose errors move a pointer
-monte_carlo_result    all of these as one result
+sobol_indices         Sobol indices of a pointer error by wheel or by kind of error
+monte_carlo_result    combined result of all these studies
 monte_carlo_report, monte_carlo_plots, verb   the report, the plots, the command
-friction_trials       torque over a turn with friction drawn from its spread
+friction_trials       torque over a run with friction coefficients drawn from their distributions
 """

@@ -1,4 +1,4 @@
-"""The same wheels at other clearances, and with their errors greater or smaller: how often the train jams."""
+"""Probability of jamming with the same wheels at other clearances, and with their errors scaled."""
 
 from __future__ import annotations
 
@@ -21,52 +21,55 @@ from geartrain.workshop.monte_carlo.trial_run import check_trials, trial_tasks
 if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
 
-_MOST = 1000  # clearances
+_MOST = 1000  # clearances of a sweep: each costs as much as the trials themselves
 
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """The train at one clearance, its errors so many times as great.
+    """Event probabilities of the train at one clearance and one scale of the errors.
 
     See Also
     --------
-    jamming_map : gives it
+    jamming_map : Compute the cases.
     """
 
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 
     clearance: float | None
-    """Factor of the centre distance, or share of each pair's own window; None as declared."""
+    """Clearance factor, or fraction of the clearance window of each pair; None for the declared clearance."""
     scale: float
-    """Factor of all errors."""
+    """Scale factor of all errors."""
     events: Mapping[str, ProbabilityEstimate]
-    """Jam, clash, stops (jam or clash), standstill, disengaged -> how often in any pair."""
+    """Probability of jam, clash, stops (jam or clash), dwell and disengaged in any pair."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
-    """The same by pair."""
+    """Event probabilities of each pair."""
 
     @property
     def rates(self) -> EventRates:
-        """How often any pair does what."""
+        """Event probabilities of any pair, by name."""
         return cast("EventRates", self.events)
 
 
 def read_clearances(text: str) -> list[float]:
-    """`1.005:1.04:8`: factors, from, to, how many; `0.1:0.9:9`: shares of each pair's own window."""
+    """Parse a sweep START:END:COUNT: clearance factors (`1.005:1.04:8`) or fractions of windows (`0.1:0.9:9`)."""
     first, last, many = [*text.split(":"), "", ""][:3]
     try:
         low, high, count = float(first), float(last or first), int(many or (1 if not last else 9))
     except ValueError:
         low, high, count = -1.0, -1.0, 0
     if text.count(":") > 2 or not 0 <= low <= high < 10 or not 1 <= count <= _MOST or (low < 1 <= high):
-        why = "a sweep goes from a least to a greatest clearance, both factors (1 and above) or both shares of windows"
-        raise QuestionError(Problem(f"'{text}' is no sweep of clearance", why, "write for example 1.005:1.04:8"))
+        why = (
+            "a sweep is MINIMUM:MAXIMUM:COUNT, both clearance factors (1 to 10) or both fractions of the clearance "
+            f"window (0 to 1), with a count up to {_MOST}"
+        )
+        raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, "give --clearance 1.005:1.04:8"))
     return [float(each) for each in np.linspace(low, high, count)]
 
 
 def run_clearances(
     plan: TrialPlan, clearances: Sequence[float], trials: int, seed: int = 1, means: Execution | None = None
 ) -> list[ClearanceCase]:
-    """The train at each clearance, by the same wheels."""
+    """Run the trials with the same wheels at each clearance."""
     return jamming_map(plan, clearances, (1.0,), trials, seed, means)
 
 
@@ -78,35 +81,35 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Monte Carlo of the same wheels at every clearance and every scale of their errors: how often the train jams.
+    """Run Monte Carlo trials with the same wheels at every clearance and every scale of their errors.
 
     Parameters
     ----------
     plan : TrialPlan
         The train with its errors.
     clearances : sequence of float or None
-        From 1 on factors of the least centre distance at which teeth bottom, 0 to 1 shares of each pair's own window,
-        None as declared; it runs slowest.
+        From 1 upwards factors of the minimum centre distance, at which teeth bottom; from 0 to 1 fractions of the
+        clearance window of each pair; None for the declared clearance. It is the outer loop.
     scales : sequence of float
-        Factors of all errors, 0 or more.
+        Scale factors of all errors, 0 or more.
     trials : int
-        Of each case, 1 to 10^9.
+        Number of trials of each case, 1 to 10^9.
     seed : int
-        The same seed cuts the same wheels.
+        Seed of the random numbers. The same seed draws the same wheels.
     means : Execution, optional
-        Executor, journal of finished work, progress report; by default this process, and none of the others.
+        Executor, journal of finished work and progress report; by default this process without journal and report.
 
     Returns
     -------
     list of ClearanceCase
-        A case for each clearance and scale.
+        One case for each clearance and scale.
 
     Raises
     ------
     QuestionError
-        For a number of trials that tells nothing.
+        If the number of trials is out of range.
     RangeError
-        For a share of a window, where a pair has none.
+        If a fraction of a window is given and a pair has no clearance window.
 
     Examples
     --------
@@ -128,7 +131,7 @@ def _judged(
     parts = trial_tasks(trials, len(cases))
     results = means.run(partial(work_case, plan, seed), [[*case, *part] for case in cases for part in parts])
     for clearance, scale in cases:
-        counts = np.sum([next(results) for _ in parts], axis=0)
+        counts = np.sum([next(results) for _ in parts], axis=0)  # results come in the order of the tasks
         found = [
             {name: ProbabilityEstimate(*each) for name, each in zip(EVENTS, row.tolist(), strict=True)}
             for row in counts
@@ -139,7 +142,9 @@ def _judged(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Some trials of one case: for each pair and then the train, for each event, how many of how many."""
+    """Count the events in some trials of one case: for each pair and then the train, for each event,
+    (count, trials).
+    """
     clearance, scale, first, trials = task
     changed = plan.scaled(scale)
     changed = changed if clearance is None else changed.cleared(clearance)

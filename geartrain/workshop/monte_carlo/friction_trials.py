@@ -1,7 +1,7 @@
-"""Torque over a turn where friction is known by its spread only: trials with coefficients drawn anew.
+"""Monte Carlo trials of friction: torque over a run with friction coefficients drawn from normal distributions.
 
-A coefficient that is declared once is one in every trial: what the train declares holds for all of its pairs alike,
-what a pair or coupling declares is its own. Normal; what falls below 0 counts as 0; `static` keeps its ratio.
+A coefficient declared by the train is drawn once per trial for all its pairs. A coefficient declared by a pair or a
+coupling is drawn separately. Negative values are set to 0; the ratio of `static` to `sliding` is kept.
 """
 
 from __future__ import annotations
@@ -41,21 +41,21 @@ if TYPE_CHECKING:
 
 FIGURES = ("mean", "maximum", "starting", "efficiency")
 _TRAIN = "train"
-"""What the train itself declares is called."""
+"""Name of the coefficient that the train itself declares."""
 
-_TASKS = 32  # so many where trials are few, so that all processes have work until nearly the end
-_MOST = 8  # trials of a task: what is computed once for each task then costs less than they do
+_TASKS = 32  # minimum number of tasks, so that all processes have work until nearly the end
+_MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of its trials
 
 
 # ----------------------------------------------------------------------------------------------------- the coefficients
 
 
 class FrictionSpread(NamedTuple):
-    """A coefficient of friction with its standard deviation.
+    """Coefficient of friction with its standard deviation.
 
     See Also
     --------
-    FrictionTrials.spreads : where these stand.
+    FrictionTrials.spreads : Spreads used in trials.
     """
 
     sliding: float
@@ -66,31 +66,31 @@ class FrictionSpread(NamedTuple):
 
 @dataclass(frozen=True)
 class FrictionPlan(Shown):
-    """A train whose friction has a spread, and the run that is asked of it.
+    """Train whose friction has a spread, and the run to follow in each trial.
 
     See Also
     --------
-    find_friction_plan : gives it.
+    find_friction_plan : Make a plan from a train.
     """
 
     declared: Train
-    """The train as declared."""
+    """Train as declared."""
     state: str | None
-    """The state; None only of a train that has none."""
+    """Name of the state; None if the train declares no states."""
     turns: float
-    """Turns of the input in the run."""
+    """Number of turns of the input in the run."""
     samples: int
-    """Positions of the run."""
+    """Number of positions of the run."""
     of: str | None = None
-    """The link whose torque is asked for; None for the crank."""
+    """Link whose torque is computed; None for the crank."""
 
     def _summary(self) -> str:
         return f"{self.declared.name}: {self.turns:g} turns, {self.samples} positions"
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """What is drawn, by who declares it."""
-        return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _drawn(friction)}
+        """Coefficients to draw, by the train, pair or coupling that declares them."""
+        return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     @cached_property
     def _nominal(self) -> GearTrain:
@@ -100,23 +100,28 @@ class FrictionPlan(Shown):
 
     @cached_property
     def study(self) -> FrictionStudy | None:
-        """What trials have in common, as long as the same side drives each pair; None where they have nothing."""
+        """Computations common to all trials in which the same side drives each pair; None if they share nothing."""
         from geartrain.dynamics.turn.train_turn import study_friction
 
         return study_friction(self._nominal.mechanics, self.turns, self.samples, self.state, self.of)
 
     def follow(self, drawn: Train) -> CycleFigures:
-        """Figures of the run of one trial.
+        """Compute the figures of the run in one trial.
 
         Parameters
         ----------
         drawn : Train
             The train with the coefficients of the trial.
 
+        Returns
+        -------
+        CycleFigures
+            Mean, maximum and starting torque, and efficiency.
+
         Raises
         ------
         QuestionError
-            Where the torque is not known at all.
+            If the torque cannot be determined.
         """
         from geartrain.analysis.gear_train import GearTrain
         from geartrain.dynamics.turn.torque_cycle import CycleFigures
@@ -127,24 +132,26 @@ class FrictionPlan(Shown):
         ):
             frictions = {part.name: friction for part in parts if (friction := drawn.friction_of(part)) is not None}
             figures = study.figures(frictions)
-            if not study.certain or figures.mean is not None:  # where it locks other sides may drive
+            if not study.certain or figures.mean is not None:  # if it locks, other sides may drive
                 return figures
         found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
         if found.turns is None:
-            raise QuestionError(Problem("there is no torque to try", found.verdict.text, "declare loads or bearings"))
+            what = "the torque cannot be determined"
+            fix = "declare `loads: {LINK: -1 N m}` or the missing bearings"
+            raise QuestionError(Problem(what, found.verdict.text, fix))
         return CycleFigures(found.mean, found.maximum_torque, found.starting_torque, found.efficiency)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without what trials have in common, which each process works out for itself."""
+        """Exclude the common computations from pickling; each process repeats them."""
         return {name: value for name, value in self.__dict__.items() if name not in ("study", "_nominal")}
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
-        """What a journal knows a run by: everything on which its results depend.
+        """Return the key by which a journal identifies a run: everything on which its results depend.
 
         Parameters
         ----------
         trials, seed : int
-            How many are asked for, and what they are drawn by.
+            Number of trials, and seed of the random numbers.
         """
         made = {"geartrain": version("geartrain"), "numpy": version("numpy")}
         requested = {"state": self.state, "turns": self.turns, "samples": self.samples, "of": self.of}
@@ -155,30 +162,30 @@ class FrictionPlan(Shown):
 def find_friction_plan(
     train: GearTrain, turns: float, samples: int = 20_000, state: str | None = None, of: str | None = None
 ) -> FrictionPlan:
-    """What trials of friction need: a train that declares spreads of it, and the run to follow.
+    """Collect the data for trials of friction: a train that declares spreads of it, and the run to follow.
 
     Parameters
     ----------
     train : GearTrain
         The train.
     turns : float
-        Turns of the input, above 0.
+        Number of turns of the input, above 0.
     samples : int
-        Positions of a run, 2 or more.
+        Number of positions of a run, 2 or more.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state. Required if the train declares states.
     of : str, optional
-        The link whose torque is asked for, by default the crank.
+        Link whose torque is computed, by default the crank.
 
     Returns
     -------
     FrictionPlan
-        What `try_frictions` follows.
+        Input of `try_frictions`.
 
     Raises
     ------
     QuestionError
-        Where no friction has a spread.
+        If no friction coefficient has a spread.
 
     Examples
     --------
@@ -193,37 +200,38 @@ def find_friction_plan(
     """
     plan = FrictionPlan(train.declaration, state, turns, samples, of)
     if not plan.spreads:
-        why = "trials draw coefficients of friction from the spread that is declared of them"
-        fix = "write `friction: {sliding: 0.15, deviation: 0.05}` at the train, a pair or a coupling"
+        why = "trials draw coefficients of friction from their declared standard deviation"
+        fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
         raise QuestionError(Problem(f"'{train.name}' declares no spread of friction", why, fix))
     return plan
 
 
 def draw_friction(declared: Train, seed: int, trial: int) -> Train:
-    """A train with the coefficients of one trial."""
+    """Return the train with the friction coefficients drawn for one trial."""
     streams = RandomStreams(seed, trial // BLOCK)
     drawn: dict[str, CoulombFriction] = {}
     for name, item, friction in _declarers(declared):
-        if _drawn(friction):
+        if _is_random(friction):
+            # a whole block is drawn, so that a trial does not depend on the trials computed with it
             unit = float(streams.rng(item, FRICTION).standard_normal(BLOCK)[trial % BLOCK])
             drawn[name] = _with_coefficient(friction, unit)
-    gears = [gear.model_copy(update=_own(gear.name, drawn)) for gear in declared.gears]
-    couplings = [joint.model_copy(update=_own(joint.name, drawn)) for joint in declared.couplings]
-    return declared.model_copy(update={**_own(_TRAIN, drawn), "gears": gears, "couplings": couplings})
+    gears = [gear.model_copy(update=_friction_update(gear.name, drawn)) for gear in declared.gears]
+    couplings = [joint.model_copy(update=_friction_update(joint.name, drawn)) for joint in declared.couplings]
+    return declared.model_copy(update={**_friction_update(_TRAIN, drawn), "gears": gears, "couplings": couplings})
 
 
-def _own(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[str, CoulombFriction]:
+def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[str, CoulombFriction]:
     return {"friction": drawn[name]} if name in drawn else {}
 
 
 def _declarers(declared: Train) -> Iterator[tuple[str, int, Any]]:
-    """Who declares a friction: a name, a number of its own among them, and what is declared."""
+    """Yield the name, index and declared friction of the train and of each pair and coupling."""
     parts = [(_TRAIN, declared), *((part.name, part) for part in (*declared.gears, *declared.couplings))]
     for item, (name, part) in enumerate(parts):
         yield name, item, part.friction
 
 
-def _drawn(friction: Any) -> bool:
+def _is_random(friction: Any) -> bool:
     return isinstance(friction, CoulombFriction) and friction.deviation is not None and bool(friction.deviation.value)
 
 
@@ -233,11 +241,12 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction:
-    """The friction `unit` deviations off."""
+    """Return the friction changed by `unit` standard deviations, at least 0."""
     spread = _spread(friction)
+    # a coefficient of friction cannot be negative
     sliding = max(spread.sliding + unit * spread.deviation, 0.0)
     update: dict[str, Any] = {"sliding": Figure.parse(repr(sliding)), "deviation": None}
-    if friction.static is not None and spread.sliding:
+    if friction.static is not None and spread.sliding:  # static friction is scaled by the same factor
         update["static"] = Figure.parse(repr(sliding * float(friction.static.value) / spread.sliding))
     return friction.model_copy(update=update)
 
@@ -247,17 +256,17 @@ def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction
 
 @dataclass(frozen=True)
 class TrialFigure(Result):
-    """One figure over trials.
+    """Distribution of one figure over the trials.
 
     See Also
     --------
-    FrictionTrials : holds them.
+    FrictionTrials : All figures of the trials.
     """
 
     KEYS = ("mean", "deviation", "percentiles")
 
     values: Floats
-    """Of the trials in which there is one, in their order."""
+    """Values of the trials in which the figure exists, in their order."""
 
     @property
     def mean(self) -> IntervalEstimate:
@@ -271,17 +280,17 @@ class TrialFigure(Result):
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentiles, each with its 95 % interval; 95 % of the trials lie between the outer two."""
+        """Percentiles, each with its 95 % interval. 95 % of the trials lie between the outer two."""
         return percentiles_of(self.values)
 
 
 @dataclass(frozen=True)
 class FrictionTrials(Result):
-    """Torque over a turn in many trials of its friction.
+    """Torque over a run in trials with random friction.
 
     See Also
     --------
-    try_frictions : gives it.
+    try_frictions : Run the trials.
     """
 
     PAGE = "workshop.monte_carlo.friction_trials:trials_document"
@@ -289,25 +298,25 @@ class FrictionTrials(Result):
     KEYS = ("link", "wanted", "done", "seed", "spreads", *FIGURES, "locks")
 
     link: str
-    """The link whose torque it is."""
+    """Link whose torque is given."""
     wanted: int
     """Number of trials requested."""
     done: int
     """Number of trials computed."""
     seed: int
-    """Of all that was drawn."""
+    """Seed of the random numbers."""
     spreads: Mapping[str, FrictionSpread]
-    """By `train` and by pair or coupling, what was drawn."""
+    """Coefficients drawn, by `train` or by pair or coupling."""
     mean: TrialFigure
-    """Mean torque of the trials that have one [N m, or plain]."""
+    """Mean torque of the trials that do not lock [N m, or the unit of the loads]."""
     maximum: TrialFigure
-    """Greatest torque of the trials that have one [N m, or plain]."""
+    """Maximum torque of the trials that do not lock [N m, or the unit of the loads]."""
     starting: TrialFigure
-    """Starting torque of the trials that have one [N m, or plain]."""
+    """Starting torque of the trials that do not lock [N m, or the unit of the loads]."""
     efficiency: TrialFigure
-    """Energy out over energy in."""
+    """Efficiency of each trial: output energy divided by input energy."""
     locks: ProbabilityEstimate
-    """How often the train locks somewhere in the run."""
+    """Probability that the train locks somewhere in the run."""
 
     def _summary(self) -> str:
         cut = "" if self.done == self.wanted else f" of {self.wanted}"
@@ -315,41 +324,41 @@ class FrictionTrials(Result):
 
     @property
     def complete(self) -> bool:
-        """True if all trials that were asked for are done."""
+        """True if all requested trials are completed."""
         return self.done == self.wanted
 
 
 def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None) -> FrictionTrials:
-    """Torque over a turn, so many times, each with frictions of its own.
+    """Compute the torque over a run in many trials, each with friction coefficients drawn anew.
 
-    The same for any number of workers, however often it was interrupted and taken up. Interrupted (Ctrl-C), it returns
-    the trials that are done.
+    The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
+    (Ctrl-C), the completed trials are returned.
 
     Parameters
     ----------
     plan : FrictionPlan
         The train and the run.
     trials : int
-        1 to 10^9.
+        Number of trials, 1 to 10^9.
     seed : int
-        The same seed draws the same frictions.
+        Seed of the random numbers.
     means : Execution, optional
-        Executor, journal of finished trials, progress report; by default this process, and none of the others.
+        Executor, journal of finished trials and progress report; by default this process without journal and report.
 
     Returns
     -------
     FrictionTrials
-        Mean, greatest and starting torque and efficiency with their intervals.
+        Mean, maximum and starting torque and efficiency with their intervals.
 
     Raises
     ------
     QuestionError
-        For a number of trials that tells nothing, or where the torque is not known at all.
+        If the number of trials is out of range, or if the torque cannot be determined.
 
     Examples
     --------
-    A pin at 10 mm in a slot 8 mm off: the mean torque is 10 (1 + 0.7 f) (docs/torques.md, equation 18), and so varies
-    by 7 times what f does.
+    A pin at a radius of 10 mm in a slot with an offset of 8 mm: the mean torque is 10 (1 + 0.7 f) (docs/torques.md,
+    equation 18), so it varies by 7 times the spread of f.
 
     >>> from geartrain import load
     >>> from geartrain.workshop.monte_carlo.friction_trials import find_friction_plan
@@ -385,12 +394,12 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Some trials as plain data: the figures of each, None where the train locks."""
+    """Compute some trials as plain data: the figures of each, None if the train locks."""
     return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
 
 
 def _link(plan: FrictionPlan) -> str:
-    """The link whose torque is told; nothing of the run is followed for it."""
+    """Return the link whose torque is reported, without computing the run."""
     from geartrain.analysis.gear_train import GearTrain
 
     return plan.of or GearTrain(plan.declared).torques(plan.state).requested[0]
@@ -400,31 +409,31 @@ def _link(plan: FrictionPlan) -> str:
 
 
 def trials_document(found: FrictionTrials) -> Document:
-    """Return the trials as a document."""
+    """Return the report on trials of friction."""
     return Document("Torques", (), tuple(trial_sections(found)))
 
 
 def trial_sections(found: FrictionTrials) -> Iterator[Section]:
-    """What of the torque over the run is sure, given what is of friction."""
-    lines = [f"{found.done} trials, seed {found.seed}; estimates with the interval that holds with 95 %."]
+    """Yield the report section on the torque distribution due to uncertain friction."""
+    lines = [f"{found.done} trials, seed {found.seed}; estimates with their 95 % confidence intervals."]
     if not found.complete:
         lines.insert(0, f"PARTIAL: stopped after {found.done} of {found.wanted} trials.")
     drawn = ", ".join(f"{name} {each.sliding:g} ± {each.deviation:g}" for name, each in found.spreads.items())
-    lines.append(f"Drawn from normal distributions, what falls below 0 as 0: {drawn}.")
+    lines.append(f"Drawn from normal distributions, negative values set to 0: {drawn}.")
     if found.locks.count:
-        lines.append(f"The train locks in {share_text(found.locks)} of the trials, which have no mean torque.")
+        lines.append(f"The train locks in {share_text(found.locks)} of the trials. These are not included below.")
     yield Section("Trials of friction", lines, (_figures(found),))
 
 
 def _figures(found: FrictionTrials) -> Table:
-    told = {
+    figures = {
         f"mean torque at {found.link}": found.mean,
         "maximum": found.maximum,
         "starting": found.starting,
         "efficiency": found.efficiency,
     }
-    rows = [_row(name, figure) for name, figure in told.items() if len(figure.values)]
-    return Table(("over the trials", "mean", "deviation", "95 % lie between", "and"), rows)
+    rows = [_row(name, figure) for name, figure in figures.items() if len(figure.values)]
+    return Table(("over all trials", "mean", "standard deviation", "2.5 %", "97.5 %"), rows)
 
 
 def _row(name: str, figure: TrialFigure) -> tuple[str, ...]:

@@ -1,8 +1,7 @@
-"""Pictures of trials of a train cut by hand: errors of pointers, probabilities of a jam, and whose errors matter.
+"""Plots of Monte Carlo trials: pointer errors, probabilities of a jam, and sensitivities.
 
-`monte_carlo_figure` draws one picture of a result. Behind it are plots of plain numbers: bands and histograms of
-errors, a map of probabilities over two quantities, a tornado chart of shares of variance, and the convergence of an
-estimate.
+`monte_carlo_figure` draws one picture of a result. It uses plots of plain numbers: bands and histograms of errors, a
+map of probabilities over two quantities, a tornado chart of variance shares, and the convergence of an estimate.
 """
 
 from __future__ import annotations
@@ -59,41 +58,41 @@ MOST = 20
 LEVELS = (0.01, 0.1, 0.5)
 Interval = tuple[float, float]
 _Given = TypeVar("_Given")
-_ROW = 2.3  # inches of a panel
-_POINTERS = 12  # drawn: those that stray most
+_ROW = 2.3  # height of a panel [inch]
+_POINTERS = 12  # maximum number of pointers drawn: those with the largest spread
 _SHARES = ("every trial", "95 % of the trials", "50 %")  # of the trials in a band
-_SHADES = (0.12, 0.22, 0.26)  # opacities of the bands, which lie on each other
+_SHADES = (0.12, 0.22, 0.26)  # opacities of the bands, which are drawn over each other
 _DASHES: Any = (0, (4, 1.2))
-_STILL = 90  # letters of the names of pointers that never stray
-_BINS = (12, 60)  # fewest and most of a histogram
+_STILL = 90  # maximum characters for the names of pointers without error
+_BINS = (12, 60)  # minimum and maximum number of bins of a histogram
 _LEVEL_DASHES: tuple[Any, ...] = ((0, (1.2, 1.2)), (0, (5, 2)), "solid")
 _JAM_TICKS = (0.0, 0.1, 0.5, 1.0)
-_BOUND = 0.01  # of the bound, where its line is drawn
-_TICKS = 8  # counts of trials that are written, or a few more
+_BOUND = 0.01  # level of the bound at which its contour is drawn
+_TICKS = 8  # approximate number of tick labels: more would overlap
 
 
 def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> Figure:
-    """One picture of what trials of wheels cut by hand told.
+    """Draw one picture of Monte Carlo trials of a train with cutting errors.
 
     Parameters
     ----------
     findings : MonteCarloResult
-        Trials, with whatever the picture shows.
+        Trials, with the study that the picture shows.
     picture : {"errors", "course", "convergence", "sobol", "pairs", "map"}
-        "errors": how often each pointer is how far off, at random positions of the input. "course": bands of pointer
-        errors along one turn, of each output that was followed. "convergence": how the probability of a jam settled.
-        "sobol": whose errors move the first output, by wheel, or by kind where that alone was asked. "pairs": the same
-        by pair, from superposition. "map": how often the train jams over clearance and scale of its errors.
+        "errors": histogram of each pointer's error at random positions of the input. "course": bands of pointer errors
+        along one turn, of each output that was followed. "convergence": probability of a jam over the number of trials.
+        "sobol": Sobol indices of the first output by wheel, or by kind if only these were computed. "pairs": variance
+        shares by pair, from superposition. "map": probability of a jam over clearance and scale of the errors.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Errors in degrees, probabilities with their intervals of 95 %.
+        Figure with errors in degrees and probabilities with their 95 % intervals.
 
     Raises
     ------
     QuestionError
-        Where what it shows was not asked for.
+        If the study that the picture shows was not requested.
 
     Examples
     --------
@@ -106,7 +105,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     'probability of a jam'
     """
     if picture not in PICTURES:
-        raise QuestionError(Problem(f"there is no picture '{picture}'", "", f"use {', '.join(PICTURES)}"))
+        raise QuestionError(Problem(f"'{picture}' is not a picture", "", f"use {', '.join(PICTURES)}"))
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
 
@@ -120,48 +119,48 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     if picture == "convergence":
         return probability_convergence_figure(trials)
     if picture == "sobol":
-        _need(findings.indices, "Sobol indices were not asked for", "ask for them: --sobol")
+        _require(findings.indices, "Sobol indices were not computed", "give --sobol")
         return indices_figure(findings.indices[0])
     if picture == "pairs":
         return pair_shares_figure(trials, trials.plan.outputs[0])
     return clearances_figure(findings.cleared)
 
 
-def _need(what: Sequence[object], why: str, fix: str) -> None:
+def _require(what: Sequence[object], why: str, fix: str) -> None:
     if not what:
         raise QuestionError(Problem("there is nothing to draw", why, fix))
 
 
 def errors_figure(trials: TrialResults) -> Figure:
-    """Histograms of every pointer's error at random positions; of all trials where in hardly any the train runs."""
+    """Draw histograms of every pointer's error at random positions; of all trials if hardly any trial can turn."""
     found = {each.name: np.degrees(each.kept) for each in trials.pointers}
     jammed = any(len(each.errors) <= 1 for each in trials.pointers)
-    note = ", of a train that jams as its pushing flanks alone have it" if jammed else ""
+    note = ", given by the pushing flanks of a train that jams" if jammed else ""
     return histogram_figure(found, f"at random positions{note}")
 
 
 def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str) -> Figure:
-    """Bands of pointer errors along one turn of each pointer that was followed."""
-    _need(courses, "no pointer was followed along its way", "name the outputs to follow: --output")
+    """Draw bands of pointer errors along one turn of each pointer that was followed."""
+    _require(courses, "no pointer was followed along a turn", "name the outputs to follow: --output NAME")
     return pointer_error_figure(
         {each.name: ErrorBands.of(each.turns, np.degrees(each.errors)) for each in courses}, driving_link
     )
 
 
 def probability_convergence_figure(trials: TrialResults, event: str = "jam") -> Figure:
-    """How the probability settled that an event befalls any pair."""
-    return convergence_figure({"any pair": _settling(trials.convergence(event))}, f"probability of a {event}")
+    """Draw the probability of an event in any pair over the number of trials."""
+    return convergence_figure({"any pair": _trace_of(trials.convergence(event))}, f"probability of a {event}")
 
 
-def _settling(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> ConvergenceTrace:
-    """An estimate's steps as arrays."""
+def _trace_of(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> ConvergenceTrace:
+    """Convert the convergence steps of an estimate to arrays."""
     ends = np.array([share.interval for _, share in steps]).reshape(-1, 2)
     counts = np.array([float(count) for count, _ in steps])
     return ConvergenceTrace(counts, np.array([share.value for _, share in steps]), ends[:, 0], ends[:, 1])
 
 
 def indices_figure(indices: SobolIndices) -> Figure:
-    """Sobol indices of one output, by wheel or by kind of error."""
+    """Draw Sobol indices of one output, by wheel or by kind of error."""
     found = {
         each.name: VarianceShare(
             each.first.value, (each.first.low, each.first.high), each.total.value, (each.total.low, each.total.high)
@@ -172,7 +171,7 @@ def indices_figure(indices: SobolIndices) -> Figure:
 
 
 def pair_shares_figure(trials: TrialResults, output: str) -> Figure:
-    """Which pair's teeth move one output, by superposition; these shares sum to 1."""
+    """Draw the variance shares of one output by pair, from superposition. They add up to 1."""
     shares = trials.pointer(output).shares
     return tornado_figure(
         {name: VarianceShare(value) for name, value in shares.items()}, f"error of '{output}' by pair"
@@ -180,19 +179,19 @@ def pair_shares_figure(trials: TrialResults, output: str) -> Figure:
 
 
 def clearances_figure(cleared: Sequence[ClearanceCase], title: str = "", event: str = "jam") -> Figure:
-    """A map of how often the train jams, over its clearance and the scale of its errors.
+    """Draw a map of the probability of an event over the clearance and the scale of the errors.
 
-    Raises `QuestionError` unless there are two or more of both.
+    Raises `QuestionError` unless there are two or more values of both.
     """
     clearances = sorted({each.clearance for each in cleared if each.clearance is not None})
     scales = sorted({each.scale for each in cleared})
-    table = np.full((len(clearances), len(scales)), np.nan)
+    table = np.full((len(clearances), len(scales)), np.nan)  # missing combinations remain blank
     for each in cleared:
         if each.clearance is not None:
             table[clearances.index(each.clearance), scales.index(each.scale)] = each.events[event].value
     factors = bool(clearances) and clearances[0] >= 1
-    across = "clearance factor" if factors else "share of each pair's own window of clearance"
-    return jam_map_figure(clearances, scales, table, axis_names=(across, "errors, over those declared"), title=title)
+    across = "clearance factor" if factors else "fraction of the clearance window of each pair"
+    return jam_map_figure(clearances, scales, table, axis_names=(across, "factor of the declared errors"), title=title)
 
 
 # --------------------------------------------------------------------------------------------------- errors of pointers
@@ -200,41 +199,42 @@ def clearances_figure(cleared: Sequence[ClearanceCase], title: str = "", event: 
 
 @dataclass(frozen=True, slots=True)
 class ErrorBands:
-    """What part of the trials stays within what error, over the turns of the input: arrays (positions,)."""
+    """Range of the error that contains a given share of the trials, over turns of the input, as arrays (positions,)."""
 
     turns: Floats
-    """Of the input."""
+    """Positions of the input [turn]."""
     minimum: Floats
-    """Error of any trial (deg)."""
+    """Minimum error over the trials [deg]."""
     maximum: Floats
-    """Error of any trial (deg)."""
+    """Maximum error over the trials [deg]."""
     percentiles: Floats
-    """2.5, 25, 50, 75 and 97.5 percent of the trials are below (deg), (5, positions)."""
+    """2.5, 25, 50, 75 and 97.5 % percentiles of the error, shape (5, positions) [deg]."""
     trials: int
-    """That run; those that jam point nowhere."""
+    """Number of trials that can turn; trials that jam are excluded."""
     example: Floats | None = None
-    """Error of one trial (deg), or None."""
+    """Error of one trial [deg], or None."""
 
     @classmethod
     def of(cls, turns: ArrayLike, errors: ArrayLike) -> ErrorBands:
-        """From the errors (deg) of every trial, (trials, positions); trials with a NaN are left out.
+        """Compute the bands from the errors [deg] of every trial, shape (trials, positions); trials with NaN are
+        excluded.
 
-        Raises `QuestionError` where no trial is left, or where positions and turns are not as many.
+        Raises `QuestionError` if no trial is left, or if positions and turns differ in number.
         """
         places, table = np.asarray(turns, dtype=float), np.atleast_2d(np.asarray(errors, dtype=float))
         table = table[np.isfinite(table).all(axis=1)]
         if table.shape[1:] != places.shape or not table.size:
-            raise _nothing(f"errors of shape {table.shape} at {places.size} positions")
+            raise _no_errors(f"errors of shape {table.shape} at {places.size} positions")
         levels = np.percentile(table, PERCENTS, axis=0)
         return cls(places, table.min(axis=0), table.max(axis=0), levels, len(table), table[0])
 
 
 def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str = "the input") -> Figure:
-    """Of each pointer: median, the middle 50 and 95 percent, and the extremes of its error over the turns of `lead`.
+    """Draw the median, the middle 50 and 95 %, and the extremes of each pointer's error over turns of the driving link.
 
-    The thin dashed line is one trial. Raises `QuestionError` where there is none to draw.
+    The thin dashed line is one trial. Raises `QuestionError` without a pointer to draw.
     """
-    shown, left = _most(pointers, lambda bands: float(np.ptp(bands.percentiles)))
+    shown, left = _largest_spreads(pointers, lambda bands: float(np.ptp(bands.percentiles)))
     spans = {float(np.ptp(bands.turns)) for bands in shown.values()}
     figure, panels = _panels(shown, share=len(spans) <= 1)  # each over a turn of its own pointer
     for axes, (name, bands) in zip(panels, shown.items(), strict=True):
@@ -255,19 +255,19 @@ def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str =
 
 
 def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
-    """How often each pointer is how far off (deg), with the percentiles 2.5, 25, 50, 75 and 97.5 as lines.
+    """Draw histograms of each pointer's error [deg], with lines at the percentiles 2.5, 25, 50, 75 and 97.5.
 
-    errors   pointer -> its error in every trial; NaN, of trials that jam, is left out
-    note     stands under the last panel, such as where in the cycle the errors are
-    Raises `QuestionError` where there is nothing to draw.
+    errors   pointer -> its error in every trial; NaN, in trials that jam, is excluded
+    note     text under the last panel, such as the range of positions
+    Raises `QuestionError` if there is nothing to draw.
     """
-    shown, left = _most(errors, _spread)
+    shown, left = _largest_spreads(errors, _spread)
     figure, panels = _panels(shown)
     for axes, (name, given) in zip(panels, shown.items(), strict=True):
         values = np.asarray(given, dtype=float).ravel()
         values = values[np.isfinite(values)]
         if not values.size:
-            raise _nothing(f"'{name}' has no trial that runs")
+            raise _no_errors(f"'{name}' cannot turn in any trial")
         axes.hist(values, bins=_edges(values).tolist(), color=BLUE, alpha=0.45, edgecolor="white", linewidth=0.4)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=(1, 2, 5, 10), integer=True))
         _percentiles(axes, values)
@@ -276,19 +276,19 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
     return figure
 
 
-def _most(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
-    """The pointers that stray most, in the order given, and words on the others; none that never strays."""
+def _largest_spreads(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
+    """Select the pointers with the largest spread, in the given order, and return a note on the others."""
     straying = [name for name in what if spread(what[name]) > 0] or list(what)
     names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
     left, still = len(straying) - len(names), [name for name in what if name not in straying]
-    words = f"\n{left} pointers that stray less are left out: name them with --output" if left else ""
+    words = f"\n{left} pointers with smaller errors are not drawn: name them with --output" if left else ""
     if still:
-        words += f"\nnever astray: {shorten(', '.join(still), _STILL, placeholder=' ...')}"
+        words += f"\nno error: {shorten(', '.join(still), _STILL, placeholder=' ...')}"
     return {name: each for name, each in what.items() if name in names}, words
 
 
 def _spread(given: ArrayLike) -> float:
-    """Of the trials that run; 0 where none does."""
+    """Return the range of the finite values; 0 if there are none."""
     values = np.asarray(given, dtype=float)
     values = values[np.isfinite(values)]
     return float(np.ptp(values)) if values.size else 0.0
@@ -305,20 +305,21 @@ def _percentiles(axes: Axes, values: Floats) -> None:
 
 
 def _edges(values: Floats) -> Floats:
-    """Bins by the rule of Freedman and Diaconis, 2 IQR / n^(1/3) wide, within bounds; around a single value, some."""
+    """Return bin edges by the Freedman-Diaconis rule (width 2 IQR / n^(1/3)), with a limited number of bins."""
     low, high = float(values.min()), float(values.max())
-    if high - low <= 1e-12 * max(abs(low), abs(high)):  # bins narrower than rounding would be empty or endless
+    if high - low <= 1e-12 * max(abs(low), abs(high)):  # bins narrower than rounding errors would be meaningless
         half = max(abs(low), 1e-9) * 0.1
         return np.linspace(low - half, high + half, _BINS[0] + 1)
     middle = float(np.subtract(*np.percentile(values, (75, 25))))
     width = 2 * middle / values.size ** (1 / 3)
+    # the interquartile range is 0 if at least half of the values are equal
     bins = _BINS[1] if width <= 0 else int(np.clip((high - low) / width, *_BINS))
     return np.linspace(low, high, bins + 1)
 
 
 def _panels(what: Mapping[str, Any], share: bool = False) -> tuple[Figure, list[Axes]]:
     if not what:
-        raise _nothing("no pointer is given")
+        raise _no_errors("no pointer is given")
     return curve_panels([_ROW] * len(what), 1.3, share)
 
 
@@ -327,7 +328,7 @@ def _between(axes: Axes, x: Floats, low: Floats, high: Floats, alpha: float, lab
 
 
 def _bands_key() -> list[Patch]:
-    """Bands as they are seen: each lies on those that are wider."""
+    """Return legend patches in the visible shades: each band is drawn over the wider ones."""
     through = np.cumprod([1 - shade for shade in _SHADES])
     return [
         Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
@@ -335,8 +336,8 @@ def _bands_key() -> list[Patch]:
     ]
 
 
-def _nothing(why: str) -> QuestionError:
-    return QuestionError(Problem("there is no error to draw", why, "give trials that turn, and one pointer or more"))
+def _no_errors(why: str) -> QuestionError:
+    return QuestionError(Problem("there is nothing to draw", why, "give trials that turn, and at least one pointer"))
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities
@@ -347,17 +348,17 @@ def jam_map_figure(
     sizes: ArrayLike,
     chances: ArrayLike,
     bound: ArrayLike | None = None,
-    axis_names: tuple[str, str] = ("clearance factor", "error of place (standard deviation, % of the pitch)"),
+    axis_names: tuple[str, str] = ("clearance factor", "pitch deviation (standard deviation, % of the pitch)"),
     title: str = "",
 ) -> Figure:
-    """Probability of a jam as shade, with lines where it is 1, 10 and 50 percent.
+    """Draw the probability of a jam as a shaded map, with contour lines at 1, 10 and 50 %.
 
-    clearances  (n,), rising; `sizes` of the error (m,), rising
-    chances     of a jam, 0 to 1, (n, m); NaN where there is no pair
-    bound       that the chance cannot exceed, (n, m): drawn where it is 1 percent
-    axis_names  of clearances and sizes
+    clearances  ascending clearances, (n,); `sizes`: ascending sizes of the error, (m,)
+    chances     probabilities of a jam, 0 to 1, (n, m); NaN for missing data
+    bound       upper bound on the probability, (n, m); its 1 % contour is drawn
+    axis_names  labels of clearances and sizes
 
-    Raises `QuestionError` for arrays that are no map.
+    Raises `QuestionError` if the arrays do not form a map.
     """
     x, y, table = (np.asarray(each, dtype=float) for each in (clearances, sizes, chances))
     limit = None if bound is None else np.asarray(bound, dtype=float)
@@ -377,17 +378,18 @@ def jam_map_figure(
 
 
 def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: Any) -> Line2D:
-    # chances go from 0 to 1 in few cells: between them the arc of the root runs straighter than they do
-    contour = axes.contour(x, y, _straight(shown), levels=[_straight(level)], colors=BLACK, linewidths=2.0)
+    # probabilities rise from 0 to 1 within few cells; arcsin(sqrt(p)) is more linear there, so contours interpolate
+    # well
+    contour = axes.contour(x, y, _arcsine(shown), levels=[_arcsine(level)], colors=BLACK, linewidths=2.0)
     contour.set_linestyle([dashes])
     contour.set_gid(f"{level:.0%}")
     return Line2D([], [], color=BLACK, linestyle=dashes, linewidth=2.0, label=f"{level:.0%}")
 
 
 def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
-    """Below this line the bound alone says that a jam is rare."""
+    """Draw the contour below which the bound itself proves that jams are rare."""
     color = ORANGE
-    # a bound of 0 has no logarithm; one that is far rarer than the line is as good
+    # a bound of 0 has no logarithm, so it is clipped far below the contour
     rare = np.log10(np.clip(np.ma.masked_invalid(limit.T), 1e-9, 1.0))
     contour = axes.contour(x, y, rare, levels=[np.log10(_BOUND)], colors=color, linewidths=2.0)
     contour.set_linestyle(["dashdot"])
@@ -395,7 +397,7 @@ def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
     return Line2D([], [], color=color, linestyle="dashdot", linewidth=2.0, label=f"bound of {_BOUND:.0%}")
 
 
-def _straight(chance: Any) -> Any:
+def _arcsine(chance: Any) -> Any:
     return np.arcsin(np.sqrt(chance))
 
 
@@ -406,9 +408,9 @@ def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
     if not (rising and shaped and finite.size and finite.min() >= 0 and finite.max() <= 1):
         raise QuestionError(
             Problem(
-                f"no map to draw: clearances {x.shape}, sizes {y.shape}, chances {table.shape}",
-                "a map has two or more rising values on each side, and a chance from 0 to 1 for each two of them",
-                "give arrays (n,), (m,) and (n, m)",
+                f"the arrays do not form a map: clearances {x.shape}, sizes {y.shape}, chances {table.shape}",
+                "a map needs at least two ascending values on each axis, and a probability from 0 to 1 for each pair",
+                "give arrays of shapes (n,), (m,) and (n, m)",
             )
         )
 
@@ -418,28 +420,30 @@ def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
 
 @dataclass(frozen=True, slots=True)
 class VarianceShare:
-    """A part of the variance of a result that one cause brings."""
+    """Share of the variance of a result that is due to one cause."""
 
     own: float
-    """By itself, with its `own_within` interval or None."""
+    """First-order share: the cause by itself, with its interval `own_within` or None."""
     own_within: Interval | None = None
     whole: float | None = None
-    """Together with all it acts with, and its `whole_within`; None where causes only add."""
+    """Total share with all interactions, with its interval `whole_within`; None if causes only add."""
     whole_within: Interval | None = None
 
     @property
     def rank(self) -> float:
-        """By what the bars are sorted."""
+        """Share by which the bars are sorted."""
         return self.own if self.whole is None else self.whole
 
 
 def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: int = MOST) -> Figure:
-    """A bar for each cause, sorted: what it brings alone, and with others; whiskers are intervals.
+    """Draw a tornado chart: for each cause a bar of its first-order and total share, with intervals as whiskers.
 
-    Beyond `most` causes the least are not drawn, and a line says how many. Raises `QuestionError` where there is none.
+    Only the `most` largest causes are drawn, and the axis label gives the number of the others. Raises `QuestionError`
+    without a cause.
     """
     if not shares or most < 1:
-        raise QuestionError(Problem("no sensitivity to draw", "no cause is given", "give the share of one or more"))
+        what, why = "the list of causes is empty", "a tornado chart needs at least one cause"
+        raise QuestionError(Problem(what, why, "give the share of at least one cause, and most >= 1"))
     ranked = sorted(shares.items(), key=lambda each: -each[1].rank)
     shown, rest = ranked[:most], ranked[most:]
     figure, axes = bar_panel([name for name, _ in shown], 1.6 + 0.34 * len(shown))
@@ -452,7 +456,7 @@ def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: i
     axes.axvline(0.0, color=GREY, linewidth=0.8)
     name_axes(axes, f"share of the variance{_left_out(rest)}", title=title, parse_math=False)
     if any(share.whole is not None for _, share in shown):
-        handles = [Patch(color=BLUE, label="alone (first order)"), Patch(color=SKY, label="with others (total)")]
+        handles = [Patch(color=BLUE, label="first order"), Patch(color=SKY, label="total, with interactions")]
         axes.legend(handles=handles, loc="lower right", fontsize=SMALL, frameon=False)
     return figure
 
@@ -460,8 +464,7 @@ def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: i
 def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
     if not rest:
         return ""
-    each = "one" if len(rest) == 1 else "each"
-    return f"; {len(rest)} more, {each} {max(share.rank for _, share in rest):.2g} or less"
+    return f"; {len(rest)} more causes of at most {max(share.rank for _, share in rest):.2g} are not drawn"
 
 
 # ---------------------------------------------------------------------------------------------------------- convergence
@@ -469,26 +472,30 @@ def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ConvergenceTrace:
-    """An estimate after so many trials, and its 95 percent interval: arrays (n,)."""
+    """Estimate over the number of trials, with its 95 % interval, as arrays (n,)."""
 
     trials: Floats
-    """Rising, above 0."""
+    """Numbers of trials, ascending, above 0."""
     value: Floats
-    """The estimate, from `low` to `high`."""
+    """Estimates, with the interval from `low` to `high`."""
     low: Floats
     high: Floats
     truth: float | None = None
-    """What it should come to, where that is known."""
+    """True value, if it is known."""
 
 
 def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "probability") -> Figure:
-    """Each estimate with its interval over the number of trials, and below how wide the interval is.
+    """Draw each estimate with its interval over the number of trials, and below it the half width of the interval.
 
-    The dotted lines show what is known, and a slope of -1/2. Raises `QuestionError` where there is nothing to draw.
+    Dotted lines show known true values and a slope of -1/2. Raises `QuestionError` if there is nothing to draw.
     """
     if not estimates or any(each.trials.size == 0 or each.trials.min() <= 0 for each in estimates.values()):
         raise QuestionError(
-            Problem("no convergence to draw", "no estimate after a number of trials", "give one, after 1 trial or more")
+            Problem(
+                "the convergence cannot be drawn",
+                "each estimate needs at least one number of trials above 0",
+                "give estimates after 1 trial or more",
+            )
         )
     figure, (above, below) = curve_panels((3.6, 2.4))
     below.set_xscale("log")
@@ -508,6 +515,7 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
     if (widths > 0).any():
         below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
         below.set_yscale("log")
+    # every n-th number of trials from the last one down, so that the full number is labelled
     counts = sorted({float(count) for each in estimates.values() for count in each.trials})
     below.set_xticks(counts[-1 :: -max(len(counts) // _TICKS, 1)][::-1], minor=False)
     below.set_xticks([], minor=True)
@@ -517,7 +525,7 @@ def convergence_figure(estimates: Mapping[str, ConvergenceTrace], unit: str = "p
 
 
 def _slope(axes: Axes, estimates: list[ConvergenceTrace]) -> None:
-    """A line that falls as the root of the number of trials."""
+    """Draw a reference line proportional to the inverse square root of the number of trials."""
     trials = np.concatenate([each.trials for each in estimates])
     widths = np.concatenate([(each.high - each.low) / 2 for each in estimates])
     seen = widths > 0

@@ -1,4 +1,4 @@
-"""Trials of wheels cut by hand as a page: how often pairs jam, how far pointers stray, and which errors cause it."""
+"""Report on trials of a train with cutting errors: event rates of pairs, pointer errors and their causes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def trials_document(found: TrialResults) -> Document:
-    """Return what `geartrain montecarlo` prints for trials."""
+    """Return the report that `geartrain montecarlo` prints for trials."""
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
 
     return describe_monte_carlo(MonteCarloResult(found))
@@ -27,7 +27,7 @@ _EVENTS = ("jam", "clash", "dwell", "disengaged")
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
-    """Trials of wheels cut by hand: how often pairs jam, how far pointers stray, and what was asked beside.
+    """Build the report on trials: events of pairs, pointer errors and all further studies requested.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     Returns
     -------
     Document
-        Assumptions first; probabilities with Wilson's intervals of 95 %, errors of pointers in degrees.
+        Report that begins with the assumptions; probabilities with Wilson's 95 % intervals, pointer errors in degrees.
 
     Examples
     --------
@@ -46,10 +46,11 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     >>> errors = read_error_overrides(["pitch_deviation=2 %"])
     >>> plan = find_trial_plan(geartrain.load("moon-triangular"), errors, ("moon",))
     >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).summary[0]
-    '2 trials, seed 1; intervals hold with 95 %.'
+    '2 trials, seed 1; intervals are at the 95 % confidence level.'
     """
     trials = found.trials
-    summary = [f"{trials.done} trials, seed {trials.seed}; intervals hold with 95 %.", *found.assumptions]
+    intervals = "intervals are at the 95 % confidence level"
+    summary = [f"{trials.done} trials, seed {trials.seed}; {intervals}.", *found.assumptions]
     if not trials.complete:
         summary.insert(0, f"PARTIAL: stopped after {trials.done} of {trials.wanted} trials.")
     return Document(f"Cut by hand: {trials.plan.name}", summary, list(_sections(found)))
@@ -71,7 +72,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """`1.2 % (0.9..1.6)`."""
+    """Format a probability in percent with its interval: `1.2 % (0.9..1.6)`."""
     if not each.of:
         return "-"
     low, high = each.interval
@@ -79,19 +80,19 @@ def share_text(each: ProbabilityEstimate) -> str:
 
 
 def _percent(value: float) -> str:
-    """A share in percent: two digits, or one after the point near the ends."""
+    """Format a probability in percent with two digits, or above 10 % with one digit after the point."""
     percent = 100 * value
     return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
 
 
 def angle_text(figure: IntervalEstimate) -> str:
-    """`2.04 (1.9..2.2)` in degrees."""
+    """Format an angle in degrees with its interval: `2.04 (1.9..2.2)`."""
     value, low, high = (degrees(each) for each in (figure.value, figure.low, figure.high))
     return f"{value:.3g} ({low:.3g}..{high:.3g})"
 
 
 def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """`12.4 (11.8..13)`."""
+    """Format a number with its interval: `12.4 (11.8..13)`."""
     return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
 
 
@@ -100,16 +101,16 @@ def _verdict(found: MonteCarloResult) -> Section:
     jam, stops = train.events["jam"], train.events["stops"]
     worst = sorted(found.trials.pairs, key=lambda pair: -pair.events["jam"].value)[:3]
     names = ", ".join(f"{pair.name} ({share_text(pair.events['jam'])})" for pair in worst if pair.events["jam"].count)
-    text = f"Some pair jams in {share_text(jam)} of the trials, and jams or clashes in {share_text(stops)}."
+    text = f"At least one pair jams in {share_text(jam)} of the trials, and jams or clashes in {share_text(stops)}."
     return Section("Verdict", (text, f"Jams most often: {names}." if names else "No pair jams."))
 
 
 def _pairs(found: MonteCarloResult) -> Section:
-    rows = [_tallied(pair) for pair in (*found.trials.pairs, found.trials.train)]
-    header = ("pair", "play (pitches)", *_EVENTS, "bound on jams")
+    rows = [_pair_row(pair) for pair in (*found.trials.pairs, found.trials.train)]
+    header = ("pair", "backlash (pitches)", *_EVENTS, "bound on jams")
     text = (
-        "Over the full cycle of teeth. Play is that of even wheels, in pitches of the driven wheel; the bound, of "
-        "errors of placement alone, is 2 lcm Q(play/2 sigma)."
+        "Probability of each event over the full meshing cycle. The backlash is for perfect wheels, in pitches of the "
+        "driven wheel. The bound 2 lcm(z1, z2) Q(backlash / 2 sigma) applies to pitch deviations only."
     )
     return Section("Pairs", (text,), (Table(header, cut(rows)),))
 
@@ -119,19 +120,20 @@ def _filing(found: MonteCarloResult) -> Section:
     for each in found.trials.filings:
         work = number_text(each.strokes), number_text(each.teeth), str(each.most)
         rows.append((each.name, share_text(each.filed), *work, share_text(each.jams)))
-    header = ("pair", "jams before", "strokes", "teeth filed", "most strokes", "jams after")
-    text = "Where a pair jams, its flanks are filed until it passes. Strokes and teeth are means over all trials."
+    header = ("pair", "jams before", "strokes", "teeth filed", "maximum strokes", "jams after")
+    text = "If a pair jams, its flanks are filed until it passes. Strokes and teeth are means over all trials."
     return Section("Filing", (text,), (Table(header, cut(rows)),))
 
 
-def _tallied(pair: PairEventRates) -> tuple[str, ...]:
+def _pair_row(pair: PairEventRates) -> tuple[str, ...]:
     backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
     events = (share_text(pair.events[name]) for name in _EVENTS)
     return (pair.name, backlash, *events, bound)
 
 
 def _pointers(found: MonteCarloResult) -> Section:
-    rows, texts = [], ["At random positions of the input, in degrees. Trials that jam are counted, not averaged in."]
+    rows: list[tuple[str, ...]] = []
+    texts = ["Errors at random positions of the input, in degrees. Trials that jam are counted, but not averaged."]
     for pointer in found.trials.pointers:
         ends = pointer.percentiles
         rows.append(
@@ -147,16 +149,16 @@ def _pointers(found: MonteCarloResult) -> Section:
         )
     if any(row[0].endswith("*") for row in rows):
         texts.append(
-            "* Nearly all trials jam: given is what the pushing flanks would do in all of them, were jams let pass."
+            "* Nearly all trials jam: the errors are those given by the pushing flanks in all trials, ignoring jams."
         )
-    texts.append("First order off: what plain superposition of the pairs' errors is off from the composed motion, rms.")
-    header = ("output", "jams", "mean", "sd", "2.5 %", "97.5 %", "maximum", "first order off")
+    texts.append("Linear error: difference (rms) of the superposed errors of the pairs from the composed motion.")
+    header = ("output", "jams", "mean", "sd", "2.5 %", "97.5 %", "maximum", "linear error")
     return Section("Pointers", texts, (Table(header, cut(rows)),))
 
 
 def _course(data: dict[str, Any]) -> Section:
     rows = [(f"{percent} %", f"{each[0]:.3g}", f"{each[1]}..{each[2]}") for percent, each in _rounded(data)]
-    text = f"The greatest error either way along one turn of '{data['output']}', {data['trials']} trials (deg)."
+    text = f"Maximum absolute error along one turn of '{data['output']}' in {data['trials']} trials, in degrees."
     return Section(f"Along a turn of {data['output']}", (text,), (Table(("percentile", "error", "interval"), rows),))
 
 
@@ -171,13 +173,16 @@ def _shares(found: MonteCarloResult, pointer: PointerErrorStatistics) -> Section
         for name, each in sorted(pointer.shares.items(), key=lambda item: -abs(item[1]))
         if abs(each) > 5e-4  # three digits in percent would show 0
     ]
-    text = "Exact shares of the variance by pair, to first order; wheels that two pairs share may make one negative."
+    text = (
+        "Shares of the variance by pair, exact to first order. A share can be negative if two pairs have a wheel in "
+        "common."
+    )
     return Section(f"Variance of {pointer.name}", (text,), (Table(("pair", "share"), rows),))
 
 
 def _indices(each: SobolIndices) -> Section:
     rows = [(index.name, *map(_index, (index.first, index.total))) for index in each.indices]
-    text = f"Sobol indices by {each.by}, {each.trials} base samples: alone, and with all it takes part in."
+    text = f"Sobol indices by {each.by}, {each.trials} base samples; the total index includes all interactions."
     title = f"Sensitivity of {each.output} by {each.by}"
     return Section(title, (text,), (Table((each.by, "first order", "total"), cut(rows)),))
 
@@ -187,12 +192,12 @@ def _index(figure: IntervalEstimate) -> str:
 
 
 def _cleared(found: MonteCarloResult) -> Section:
-    text = "Any pair of the train, the same wheels at every clearance."
+    text = "Probability of each event in any pair of the train, with the same wheels at every clearance."
     return Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
 
 
 def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:
-    """Probability of each event by clearance; the train as declared is left out."""
+    """Return a table of the probability of each event by clearance; the declared clearance is left out."""
     given = (case for case in cases if case.clearance is not None)
     rows = [(f"{case.clearance:.6g}", *(share_text(case.events[event]) for event in events)) for case in given]
     return Table(("clearance", *events), rows)
@@ -204,8 +209,8 @@ def _convergence(found: MonteCarloResult) -> Section:
         (str(count), share_text(jam), share_text(stops))
         for (count, jam), (_, stops) in zip(trials.convergence("jam"), trials.convergence("stops"), strict=True)
     ]
-    tables = [Table(("trials", "some pair jams", "jams or clashes"), rows)]
+    tables = [Table(("trials", "a pair jams", "a pair jams or clashes"), rows)]
     for at, pointer in enumerate(trials.pointers[:4]):
         spread = [(str(n), f"{sd:.4g} ({low:.4g}..{high:.4g})") for n, sd, low, high in found.pointer_convergence(at)]
         tables.append(Table((f"trials of {pointer.name}", "sd (deg)"), spread))
-    return Section("Convergence", ("The same estimates from the first part of the trials.",), tuple(tables))
+    return Section("Convergence", ("The same estimates from the first trials only.",), tuple(tables))

@@ -1,4 +1,4 @@
-"""Everything that can be asked of the trials of one train, its result, and what is assumed in it."""
+"""Combined result of all studies on the trials of one train, and the assumptions it rests on."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ ErrorSizes = dict[str, dict[str, dict[str, float]]]
 
 
 class PartialTrials(NamedTuple):
-    """Trials that were done, of how many."""
+    """Number of trials completed and requested in an interrupted run."""
 
     done: int
-    """Trials computed."""
+    """Number of trials completed."""
     of: int
-    """Trials requested."""
+    """Number of trials requested."""
 
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Tabular, Pictured, Result):
-    """Trials, and what else was asked of one train: what reports and pictures are made from.
+    """Trials of one train with all further studies requested: the input of reports and plots.
 
     See Also
     --------
-    run_trials : gives what it must hold
+    run_trials : Run the trials that this result contains.
     """
 
     PAGE = "workshop.monte_carlo.monte_carlo_report:describe_monte_carlo"
@@ -68,13 +68,13 @@ class MonteCarloResult(Tabular, Pictured, Result):
     )
 
     trials: TrialResults
-    """As `run_trials` gives them."""
+    """Results of `run_trials`."""
     cleared: Sequence[ClearanceCase] = ()
-    """At other clearances, from `jamming_map`."""
+    """Results at other clearances, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Along a turn, from `run_course`."""
+    """Errors along a turn, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
-    """From `find_sobol_indices`."""
+    """Sobol indices, from `find_sobol_indices`."""
 
     def _summary(self) -> str:
         return self.trials._summary()
@@ -84,82 +84,83 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each trial, as of the trials."""
+        """Table with a row for each trial, as in `TrialResults.columns`."""
         return self.trials.columns
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """What is taken for granted, in sentences."""
+        """Assumptions of the trials, as sentences."""
         return tuple(self._assumptions())
 
     def _assumptions(self) -> Iterator[str]:
         plan = self.trials.plan
         yield (
-            "Teeth are independent of each other, and so are wheels; a wheel is one and the same in all its pairs. "
-            "Each trial cuts all wheels anew."
+            "The errors of teeth are independent of each other, and so are the errors of wheels. A wheel has the same "
+            "errors in all its pairs. Each trial cuts all wheels anew."
         )
         yield (
-            "The driven wheel drags and so stays in contact. A jam holds it fast from both sides, whatever it does; a "
-            "clash is a tooth that comes in against a tip, which a hand that leads it may pass."
+            "Friction keeps the driven wheel in contact. In a jam, teeth block it on both sides at once. In a clash, a "
+            "tooth enters the mesh against a tip; turning the driven wheel by hand within its backlash may free it."
         )
         if any("bearing" in pair.fitting for pair in plan.pairs):
             yield (
-                "Bearings move from tooth to tooth: jams are judged with the axes at their nearest, the rest at their "
-                "farthest too, which is the worst that can be."
+                "Bearing clearance lets the axes move from tooth to tooth. The worst case is taken: jams are found at "
+                "the smallest centre distance, all other events at the smallest and at the largest."
             )
         if any(wheel.displaced is not None for wheel in plan.wheels):
             yield (
-                "Flanks of teeth that are not triangular are displaced where they touch, right to first order in their "
-                "errors; tips that touch beyond the flanks are counted, roots in the way of tips are not."
+                "Flanks of teeth that are not triangular are displaced at the point of contact. This is valid to first "
+                "order in the errors. Contact at tips is included, interference of tips with roots is not."
             )
         if plan.files:
             yield (
-                "Pairs are filed to fit: where a pair jams, the flank that stands out farthest takes strokes until it "
-                "passes, and shares of jams and errors are those of the filed wheels. Each pair is filed by itself."
+                "Pairs are filed to fit: if a pair jams, its most protruding flank is filed until the pair passes. "
+                "Probabilities of jams and errors are for the filed wheels. Each pair is filed separately."
             )
         uncut = self.trials.train.uncut
         if uncut:
             yield (
-                f"{uncut} trials hold a wheel that cannot be cut, two of its teeth falling into one: they are left "
-                "out of all shares."
+                f"{uncut} trials contain a wheel that cannot be cut, because two of its teeth merge. They are excluded "
+                "from all probabilities."
             )
         yield (
-            "A pointer's error is its distance from where teeth that keep their ratio would have it; the mean lag of "
-            "even teeth, with which pointers are set, is taken off. Laws of pairs and pins are composed exactly."
+            "The error of a pointer is its deviation from the position given by a constant ratio, minus the mean error "
+            "of perfect teeth, because pointers are set with it. The transmission functions of pairs and pins are "
+            "composed exactly."
         )
 
     @property
     def block(self) -> int:
-        """Trials that are drawn from one stream of random numbers."""
+        """Number of trials drawn from one stream of random numbers."""
         return BLOCK
 
     @property
     def confidence(self) -> float:
-        """Of all intervals."""
+        """Confidence level of all intervals."""
         return CONFIDENCE
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of errors by wheel, kind and way: fractions of pitch, half angle and depth."""
+        """Sizes of the errors by wheel, kind and distribution, as fractions of pitch, half angle and depth."""
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property
     def pair_errors(self) -> ErrorSizes:
-        """Sizes of errors of fitting by pair, kind and way."""
+        """Sizes of the fitting errors by pair, kind and distribution."""
         return _sizes({pair.name: pair.fitting for pair in self.trials.plan.pairs})
 
     @property
     def partial(self) -> PartialTrials | None:
-        """What was done of a run that was interrupted."""
+        """Number of trials completed in an interrupted run; None in a complete run."""
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
     def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
-        """Trials, and the standard deviation of an output with its interval [deg].
+        """Return rows of number of trials, standard deviation of an output, and its lower and upper limit [deg].
 
         Parameters
         ----------
         at : int
-            The number of the output, from 0.
+            Index of the output, from 0.
         """
         rows = self.trials.pointer_convergence(at)
         return [(n, degrees(each.value), degrees(each.low), degrees(each.high)) for n, each in rows]
@@ -172,25 +173,25 @@ def _sizes(errors: Mapping[str, Mapping[str, Any]]) -> ErrorSizes:
 # -------------------------------------------------------------------------------------------------------------- studies
 
 
-_FEW = 4  # outputs whose course and indices are worked out at a time
-_POSITIONS, _COURSES = 120, 128  # along a turn, and trials that take them
-_SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # of windows, where no clearances are given
-_SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # of the errors declared
+_FEW = 4  # outputs whose course and indices are computed: each costs as much as the trials
+_POSITIONS, _COURSES = 120, 128  # positions along a turn, and trials of a course
+_SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # fractions of clearance windows, if no clearances are given
+_SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declared errors
 
 
 @dataclass(frozen=True)
 class TrialStudies:
-    """What is asked beside the trials themselves."""
+    """Studies requested in addition to the trials."""
 
     clearances: Sequence[float] = ()
-    """Factors, or shares of windows, at which the train is judged again."""
+    """Clearance factors, or fractions of clearance windows, at which the trials are repeated."""
     courses: bool = False
-    """Whether the first outputs are followed along a turn."""
+    """True if the first outputs are followed along a turn."""
     sobol: bool = False
-    """Whether their Sobol indices are found, by wheel and by kind."""
+    """True if Sobol indices of the first outputs are computed, by wheel and by kind."""
 
     def of(self, trials: TrialResults, means: Execution) -> MonteCarloResult:
-        """The trials with all that is asked beside them."""
+        """Run the requested studies and return them with the trials."""
         plan, seed, count = trials.plan, trials.seed, trials.wanted
         few = range(min(_FEW, len(plan.outputs)))
         by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
@@ -202,7 +203,7 @@ class TrialStudies:
         )
 
     def mapped(self, findings: MonteCarloResult, means: Execution) -> MonteCarloResult:
-        """The findings with what a map of jams needs: the clearances, or others, and errors of other sizes."""
+        """Add the jamming map to a result: trials over several clearances and scales of the errors."""
         of = findings.trials
         clearances = self.clearances or _SHARES
         return replace(findings, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))

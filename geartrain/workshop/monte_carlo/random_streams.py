@@ -1,7 +1,7 @@
-"""Errors drawn from streams of their own: they depend on the wheel's number, the block and the seed alone.
+"""Random errors of wheels from independent streams, each keyed by the seed, the block, the wheel and the kind of error.
 
-So a trial is the same in any process and whatever else is computed; errors twice as great are the same errors
-doubled; and another clearance is met by the same wheels.
+A trial therefore has the same errors in any process, whatever else is computed. Errors scaled by a factor are the same
+random numbers times that factor, and a study of clearances uses the same wheels at every clearance.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 BLOCK = 256
-"""Trials that are drawn together; results depend on it, so it never changes."""
+"""Number of trials drawn together. Results depend on it, so it must never change."""
 
 PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERROR, BEARING_CLEARANCE, POSITION = range(
     8
@@ -39,28 +39,28 @@ NUMBER = {
 }
 
 
-def _never(item: int, kind: int) -> bool:
+def _first_sample(item: int, kind: int) -> bool:
     del item, kind
     return False
 
 
 @dataclass(frozen=True, slots=True)
 class RandomStreams:
-    """The random numbers of one block of trials."""
+    """Random number generators of one block of trials."""
 
     seed: int
     block: int
-    other: Callable[[int, int], bool] = field(default=_never)
-    """Says of which items and kinds a second, independent set is drawn: for sensitivities."""
+    other: Callable[[int, int], bool] = field(default=_first_sample)
+    """Predicate (item, kind): True selects the second, independent sample, as Sobol indices need it."""
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
-        """The stream of one kind of error of one wheel, pair or position."""
+        """Return the generator for one kind of error of one wheel, pair or position."""
         key = (self.block, item, kind, int(self.other(item, kind)))
-        # PCG64 by name: what numpy takes by default may change, and trials must not
+        # PCG64 by name: numpy's default generator may change, and results must not
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
-        """Errors as fractions, one for each trial (and tooth)."""
+        """Draw errors as fractions, as an array of the given shape: (trials,) or (trials, teeth)."""
         if off.way == "value":
             return np.full(shape, off.size)
         rng = self.rng(item, NUMBER[kind])
@@ -71,12 +71,12 @@ class RandomStreams:
 def draw_wheel(
     wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
-    """Some rows of a block of wheels, arrays (trials, z) where drawn, and whether each can be cut (trials,).
+    """Draw one wheel in some trials of a block; return its arrays and a mask of the trials in which it can be cut.
 
-    Triangular ones have the tip radius 1, rings -1. Those that cannot be cut are handed back even, so that nothing
-    downstream meets teeth without tips.
+    Drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1, internal ones -1.
+    Wheels that cannot be cut are returned without errors, so that later code never meets teeth without tips.
     """
-    # always a whole block, then some rows of it: a trial is the same with whichever others it is worked out
+    # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
     zero = np.zeros(wheel.z)
 
@@ -84,23 +84,24 @@ def draw_wheel(
         found = zero + np.asarray(wheel.tables[kind]) if kind in wheel.tables else zero
         return found + streams.errors(item, kind, wheel.errors[kind], shape)[rows] if kind in wheel.errors else found
 
-    # declared errors are ahead and wider; a wheel's arrays are behind and flatter
+    # signs: declared errors are positive ahead and wider, the arrays of a wheel positive behind and flatter
     place, tip = -wheel.pitch * drawn("pitch_deviation"), wheel.depth * drawn("tip")
     flank = wheel.half_angle * drawn("aperture_deviation")
-    eccentric = _eccentric(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
+    eccentric = _draw_eccentricity(wheel, item, streams, rows) if "eccentricity" in wheel.errors else None
     if wheel.displaced is not None:
-        return _displaced(place, tip, flank, eccentric, trials)
+        return _displaced_wheel(place, tip, flank, eccentric, trials)
     cut = CutWheel(-1.0 if wheel.ring else 1.0, wheel.half_angle, place, tip, flank, flank)
     if eccentric is not None:
         cut = cut.moved(*eccentric)
     good = np.broadcast_to(cut.cuttable.all(axis=-1), (trials,))
     if good.all():
         return cut, good
+    # perfect teeth replace those that cannot be cut; these trials are flagged and not counted
     kept = [np.where(good[:, None], each, 0.0) for each in (cut.place, cut.tip, cut.leading, cut.trailing)]
     return CutWheel(cut.radius, wheel.half_angle, *kept), good
 
 
-def _displaced(
+def _displaced_wheel(
     place: Floats, tip: Floats, flank: Floats, eccentric: tuple[Floats, Floats] | None, trials: int
 ) -> tuple[DisplacedWheel, Bools]:
     zero = np.zeros(place.shape[-1])
@@ -110,7 +111,7 @@ def _displaced(
     return (found if good.all() else replace(found, place=np.where(good[:, None], place, 0.0))), good
 
 
-def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:
+def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice) -> tuple[Floats, Floats]:
     e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (BLOCK,))[rows]
     if wheel.towards is not None:
         return e, np.full(len(e), wheel.towards)
@@ -118,6 +119,8 @@ def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, rows: slic
 
 
 def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
-    """A wheel of radius 1, or a ring of -1, in the sizes of a pair, and as the pair sees it turn."""
+    """Scale a wheel of tip radius 1 (internal: -1) to the sizes of its pair, mirrored if it turns against its
+    numbering.
+    """
     found = CutWheel(radius, half_angle, wheel.place, abs(radius) * wheel.tip, wheel.leading, wheel.trailing)
     return found.mirrored() if mirrored else found

@@ -1,12 +1,12 @@
-"""Sobol indices of a pointer's error by wheel or by kind of error: Monte Carlo estimates from two independent samples.
+"""Sobol indices of a pointer error by wheel or by kind of error: Monte Carlo estimates from two independent samples.
 
-All teeth of a wheel are one input, and so is the position of the train's input. With the samples A and B, and AB(i)
-equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares
+All teeth of a wheel are one input variable, and so is the position of the train's input. With the samples A and B, and
+AB(i) equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares
 
     first order   S_i = mean(f(B) (f(AB(i)) - f(A))) / V        total   T_i = mean((f(A) - f(AB(i)))^2) / 2 V
 
-`scipy.stats.sobol_indices` has the same estimators, but takes a number of samples that is a power of 2 only, and its
-bootstrap takes no seed.
+`scipy.stats.sobol_indices` has the same estimators, but requires a number of samples that is a power of 2, and its
+bootstrap does not accept a seed.
 """
 
 from __future__ import annotations
@@ -32,18 +32,18 @@ if TYPE_CHECKING:
 
 
 By = Literal["wheel", "kind"]
-_STREAMS = 1 << 21  # blocks of these studies: streams of their own
-_RESAMPLES = 200  # for the intervals
+_STREAMS = 1 << 21  # offset of the block numbers, so that the streams differ from those of trials and courses
+_RESAMPLES = 200  # bootstrap samples: the standard error they give is exact to about 5 %
 
 
 @dataclass(frozen=True, slots=True)
 class SobolIndex(Result):
-    """First-order and total Sobol index of one input, with 95 % intervals by resampling."""
+    """First-order and total Sobol index of one input variable, with 95 % bootstrap intervals."""
 
     KEYS = (Key("of", "name"), "first", "total")
 
     name: str
-    """The input."""
+    """Name of the input variable: a wheel, pair or kind of error, or "position"."""
     first: IntervalEstimate
     """First-order index with its 95 % interval."""
     total: IntervalEstimate
@@ -52,21 +52,22 @@ class SobolIndex(Result):
 
 @dataclass(frozen=True, slots=True)
 class SobolIndices(Result):
-    """Shares of the variance of one output by wheel or by kind of error.
+    """Sobol indices of one output by wheel or by kind of error.
 
     See Also
     --------
-    find_sobol_indices : gives it
+    find_sobol_indices : Compute Sobol indices.
     """
 
     output: str
-    """Its name."""
+    """Name of the output."""
     by: By
-    """What an input is: all errors of one wheel, or one kind of error of all wheels."""
+    """Grouping of errors into input variables: all errors of one wheel, or one kind of error of all wheels."""
     trials: int
-    """Base samples in which every output was found."""
+    """Number of base samples in which every output is finite."""
     indices: tuple[SobolIndex, ...]
-    """`name`, `first` and `total` of each input, the greatest first; "position" is where the input stands."""
+    """Indices of each input variable, in descending order of the total index; "position" is the position of the input.
+    """
 
 
 def find_sobol_indices(
@@ -77,34 +78,34 @@ def find_sobol_indices(
     seed: int = 1,
     means: Execution | None = None,
 ) -> SobolIndices:
-    """Sobol indices of an output's error at random positions, by Saltelli's scheme.
+    """Estimate the Sobol indices of an output's error at random positions, by Saltelli's scheme.
 
-    Pairs that jam move the output by their pushing flanks.
+    In a pair that jams, the pushing flanks determine the position of the output.
 
     Parameters
     ----------
     plan : TrialPlan
         The train with its errors.
     output : int
-        Its number in `plan.outputs`, from 0.
+        Index of the output in `plan.outputs`, from 0.
     by : {"wheel", "kind"}
-        What an input is: all errors of one wheel, or one kind of error of all wheels.
+        Grouping of errors into input variables: all errors of one wheel, or one kind of error of all wheels.
     trials : int
-        Base samples, 1 to 10^9; each costs as many trials as there are inputs, and two.
+        Number of base samples, 1 to 10^9. Each costs two trials plus one for each input variable.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     means : Execution, optional
-        Executor and progress report; by default this process, and none. Nothing is journalled.
+        Executor and progress report; by default this process without a report. The journal is not used.
 
     Returns
     -------
     SobolIndices
-        The greatest total index first.
+        Indices in descending order of the total index.
 
     Raises
     ------
     QuestionError
-        Where nothing that is off moves the output.
+        If no wheel with errors moves the output.
 
     References
     ----------
@@ -121,13 +122,15 @@ def find_sobol_indices(
     check_trials(trials)
     means, names = means or Execution(), [name for name, _ in error_groups(plan, output, by)]
     if len(names) < 2:
-        what = f"no wheel that is off moves '{plan.outputs[output]}'"
-        raise QuestionError(Problem(what, "its error does not vary", "ask for another output"))
+        what = f"no wheel with errors moves '{plan.outputs[output]}'"
+        why = "Sobol indices are shares of a variance, and the variance of this output is 0"
+        raise QuestionError(Problem(what, why, "name another output: --output NAME"))
     rows: list[Any] = []
-    # not journalled: a journal knows its tasks by block and trials, which are those of the trials themselves
+    # no journal: its tasks are identified by block and trials, and would be confused with those of the trials
     for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
         rows += part
     values = np.array(rows, dtype=float)
+    # outputs are infinite in trials in which no teeth touch
     values = values[np.isfinite(values).all(axis=1)]
     indices = [SobolIndex(name, *both) for name, both in zip(names, saltelli_indices(values, seed), strict=True)]
     ordered = tuple(sorted(indices, key=lambda each: -each.total.value))
@@ -135,12 +138,12 @@ def find_sobol_indices(
 
 
 def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
-    """First-order and total index of each input, with bootstrap intervals; 0 where the values do not vary.
+    """Estimate the first-order and total index of each input, with bootstrap intervals; 0 if the values do not vary.
 
     values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
-    seed     of the resamples
+    seed     seed of the bootstrap resamples
     """
-    values = values - values.mean()  # the estimate of S_i is less scattered for centred values
+    values = values - values.mean()  # centred values reduce the variance of the estimate of S_i
     rng, n = np.random.default_rng(seed), len(values)
     estimates = _saltelli(values)
     resampled = np.array([_saltelli(values[rng.integers(n, size=n)]) for _ in range(_RESAMPLES)])
@@ -153,7 +156,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 
 def _saltelli(values: Floats) -> Floats:
-    """First-order and total indices, (2, d)."""
+    """Return first-order and total indices, shape (2, d)."""
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     variance = np.var(values[:, [0, -1]])
     if not variance:
@@ -163,23 +166,23 @@ def _saltelli(values: Floats) -> Floats:
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Callable[[int, int], bool]]]:
-    """Names of the inputs that can move an output, and which streams are theirs."""
+    """Return the input variables that can move an output, each with the predicate of its random streams."""
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]
     fits = [at for at in pairs if plan.pairs[at].fitting]
     found: list[tuple[str, Callable[[int, int], bool]]] = []
     if by == "wheel":
-        found += [(plan.wheels[at].name, _Item(at)) for at in off]
-        found += [(plan.pairs[at].name, _Item(len(plan.wheels) + at)) for at in fits]
+        found += [(plan.wheels[at].name, _OfItem(at)) for at in off]
+        found += [(plan.pairs[at].name, _OfItem(len(plan.wheels) + at)) for at in fits]
     else:
         errors = [plan.wheels[at].errors for at in off] + [plan.pairs[at].fitting for at in fits]
-        found += [(kind, _Kind(kind)) for kind in ERROR_KINDS if any(kind in each for each in errors)]
-    return [*found, ("position", _Item(plan.position))]
+        found += [(kind, _OfKind(kind)) for kind in ERROR_KINDS if any(kind in each for each in errors)]
+    return [*found, ("position", _OfItem(plan.position))]
 
 
 @dataclass(frozen=True, slots=True)
-class _Item:
+class _OfItem:
     item: int
 
     def __call__(self, item: int, kind: int) -> bool:
@@ -188,28 +191,31 @@ class _Item:
 
 
 @dataclass(frozen=True, slots=True)
-class _Kind:
+class _OfKind:
     kind: str
 
     def __call__(self, item: int, kind: int) -> bool:
         del item
+        # the direction of an eccentricity belongs to the same input variable as its size
         also = {TOWARDS} if NUMBER[self.kind] == ECCENTRICITY else set()
         return kind in {NUMBER[self.kind], *also}
 
 
-def _all(item: int, kind: int) -> bool:
+def _second_sample(item: int, kind: int) -> bool:
     del item, kind
     return True
 
 
-def _none(item: int, kind: int) -> bool:
+def _first_sample(item: int, kind: int) -> bool:
     del item, kind
     return False
 
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Some base samples: the errors of the output (rad), (trials, inputs + 2), first set to second set."""
+    """Task function of some base samples: errors of the output [rad], shape (trials, inputs + 2), columns
+    A, AB(i), B.
+    """
 
     plan: TrialPlan
     seed: int
@@ -217,10 +223,10 @@ class SobolBlock:
     by: By
 
     def __call__(self, task: Sequence[int]) -> list[list[float]]:
-        """The samples of a task as plain data."""
+        """Compute the samples of one task as plain data."""
         first, trials = task
         inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
-        columns = [self._errors(first, trials, choice) for choice in (_none, *inputs, _all)]
+        columns = [self._errors(first, trials, choice) for choice in (_first_sample, *inputs, _second_sample)]
         found: list[list[float]] = np.stack(columns, axis=1).tolist()
         return found
 

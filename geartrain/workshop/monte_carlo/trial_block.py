@@ -1,4 +1,6 @@
-"""One block of trials: wheels drawn, pairs judged, and where the pointers stand; the same wherever it is worked out."""
+"""One block of trials: draw the wheels, evaluate every pair and compute the pointer errors, reproducibly in any
+process.
+"""
 
 from __future__ import annotations
 
@@ -28,14 +30,16 @@ if TYPE_CHECKING:
     Marks = NDArray[np.uint8]
 
 JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
-"""Marks of a pair in a trial: a sum of these."""
+"""Event flags of a pair in one trial, combined as a bit mask."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
-"""A pair that, dragging, does not turn through its cycle; and one whose outputs are not averaged in."""
+"""Bit masks: STOPS marks a pair that cannot turn through its cycle while it drags; LOST excludes it from averages."""
 
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """The wheels of some trials: `wheels` by number, of outer radius 1; `good` where they can be cut."""
+    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of those that
+    can be cut.
+    """
 
     plan: TrialPlan
     streams: RandomStreams
@@ -45,11 +49,11 @@ class TrialWheels:
 
     @property
     def trials(self) -> int:
-        """How many trials there are."""
+        """Number of trials."""
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """One pair as it was drawn; `widest` 1 and -1 have its bearings at their farthest and nearest."""
+        """Return one pair of drawn wheels; `widest` 1 or -1 puts its bearings at their largest or smallest distance."""
         pair = self.plan.pairs[at]
         if not pair.stroke:
             return pair.cut(self.wheels, self._shift(pair, at, widest))
@@ -58,12 +62,14 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """What is filed of each pair that is fitted so, by number, its bearings at their nearest."""
+        """Result of filing, by number of the pair, for pairs that are filed to fit; bearings at their smallest
+        distance.
+        """
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """How many strokes of the file each pair takes, and on how many teeth, (trials, 2 pairs)."""
+        """Return the number of file strokes and of filed teeth of each pair, shape (trials, 2 pairs)."""
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -74,15 +80,15 @@ class TrialWheels:
             return 0.0
         shift = np.zeros(self.trials)
         for kind, off in pair.fitting.items():
-            # always a whole block, then cut: a trial is the same however many are wanted
+            # a whole block is drawn and then sliced, so that a trial does not depend on their number
             drawn = self.streams.errors(len(self.plan.wheels) + at, kind, off, (BLOCK,))[self.rows]
-            # a bearing moves from tooth to tooth: where it matters most is where it counts
+            # bearing clearance varies from tooth to tooth, so the worst case is taken
             shift = shift + (widest * np.abs(drawn) if kind == "bearing" and widest else drawn)
         return shift * pair.depth
 
 
 def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK, start: int = 0) -> TrialWheels:
-    """The wheels of some trials of a block, from number `start` of it on."""
+    """Draw the wheels of consecutive trials of a block, beginning with its trial number `start`."""
     rows = slice(start, start + trials)
     found = [draw_wheel(wheel, at, streams, rows) for at, wheel in enumerate(plan.wheels)]
     return TrialWheels(plan, streams, rows, tuple(wheel for wheel, _ in found), tuple(good for _, good in found))
@@ -92,7 +98,9 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 
 
 def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) -> tuple[Marks, Floats]:
-    """Marks, and least play in pitches of the driven wheel, of every pair in every trial (trials, pairs)."""
+    """Return event flags and minimum backlash [driven pitches] of the pairs in every trial, each of shape (trials,
+    pairs).
+    """
     wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
     marks = np.zeros((drawn.trials, len(drawn.plan.pairs)), np.uint8)
     backlash = np.full(marks.shape, inf)
@@ -103,6 +111,7 @@ def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) ->
 
 def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
     pair = drawn.plan.pairs[at]
+    # jams are found at the smallest distance of the bearings, other events at both limits
     near, far = pair.verdicts(drawn.pair(at, -1)), None
     if pair.fitting.get("bearing"):
         far = pair.verdicts(drawn.pair(at, 1))
@@ -122,34 +131,34 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
 
 
 def input_positions(drawn: TrialWheels) -> Floats:
-    """The position of the input in each trial (turns)."""
-    # a whole block, then cut, as all errors are
+    """Draw the position of the input in each trial [turn], uniform over the span of the plan, shape (trials,)."""
+    # a whole block is drawn and then sliced, as for all errors
     return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
 
 
 @dataclass(frozen=True)
 class TrialPointers:
-    """The train of some trials in motion."""
+    """Composed motion of the train with drawn wheels (`cut`) and with perfect wheels (`even`)."""
 
     cut: ErrorComposition
     even: ErrorComposition
     transmissions: dict[str, TrialTransmissionFunction]
 
     def errors(self, turns: Floats) -> Floats:
-        """How far each output is from where even teeth would have it on average (rad), (outputs, n)."""
+        """Return the deviation of each output from its mean position with perfect teeth [rad], shape (outputs, n)."""
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """The same to first order: every pair at its mean angle, every pin at its mean ratio."""
+        """Return the same errors to first order: each pair at its mean angle, each pin at its mean ratio."""
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 
 
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Outputs, by default all, with the drawn wheels; `rows` says which trial is asked at each position.
+    """Compose the motion of outputs (by default all) with the drawn wheels; `rows` gives the trial at each position.
 
-    The laws of all pairs and pins are composed exactly, for every trial at its own position.
+    The transmission functions of all pairs and pins are composed exactly, for every trial at its own position.
     """
     plan, whole = drawn.plan, drawn.plan.composition
     at = {pair.name: number for number, pair in enumerate(plan.pairs)}
@@ -160,7 +169,7 @@ def trial_pointers(
     cut, even = [], []
     for source in whole.sources:
         pair, transmission = pairs.get(source.id), transmissions.get(source.id)
-        # a cut law repeats after the whole cycle of teeth, an even one after a pitch
+        # the transmission function of cut wheels repeats after a full meshing cycle, that of perfect ones after a pitch
         cut.append(
             replace(source, transmission=transmission, cycles=source.cycles / transmission.count)
             if transmission

@@ -1,7 +1,7 @@
-"""A train as its trials see it: wheels with their errors, pairs with their sizes, and how errors reach the outputs.
+"""Input data of the trials of a train: wheels with errors, pairs with sizes, and the composition of errors.
 
-A `TrialPair` is a gear pair whose wheels are drawn, judged, filed and set in motion, whatever their teeth; a
-`TrialPlan` holds all pairs of a train and the composition of their errors.
+A `TrialPair` is a gear pair that can be drawn, evaluated, filed and set in motion, with any tooth form. A `TrialPlan`
+contains all pairs of a train and the composition of their errors at the outputs.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ if TYPE_CHECKING:
     from geartrain.workshop.cutting.meshing_cycle import MeshingVerdicts
 
 
-_SPOILT = 0.125  # of a pitch: a flank filed beyond a quarter of its tooth's thickness
-_FARTHEST = 10**6  # turns of the input within which positions are drawn, where the train takes longer to repeat
+_MAXIMUM_FILING = 0.125  # pitches: a quarter of the thickness of a tooth, beyond which a flank is useless
+_MAXIMUM_SPAN = 10**6  # turns of the input, if the train takes longer to repeat: doubles keep 1e-10 of a turn there
 
 
 # ---------------------------------------------------------------------------------------------------------------- pairs
@@ -61,105 +61,108 @@ _FARTHEST = 10**6  # turns of the input within which positions are drawn, where 
 
 @dataclass(frozen=True, slots=True)
 class TrialPair(ABC):
-    """One gear pair: `first` drives, both wheels by number; `mirrored` where a wheel turns against its own
-    numbering."""
+    """Gear pair of a plan: numbers of the driver (`first`) and driven wheel; `mirrored` marks wheels turning against
+    their numbering.
+    """
 
     name: str
     first: int
     second: int
     mirrored: tuple[bool, bool]
     even: float
-    """Mean error of the pair without cutting errors (rad of the driven wheel)."""
+    """Mean transmission error of the pair without cutting errors [rad of the driven wheel]."""
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
-    """Errors of its axes, in depths of the less deep teeth."""
+    """Errors of its axes, as fractions of the smaller tooth depth of the two wheels."""
     stroke: float = field(default=0.0, kw_only=True)
-    """What one stroke of the file takes, in the same depths; 0 where nothing is filed to fit."""
+    """Depth removed by one stroke of the file, as a fraction of the same tooth depth; 0 if the pair is not filed."""
 
     @property
     @abstractmethod
     def teeth(self) -> tuple[int, int]:
-        """Tooth numbers of the driver and of the driven wheel."""
+        """Numbers of teeth of the driver and of the driven wheel."""
 
     @property
     @abstractmethod
     def depth(self) -> float:
-        """Depth of the less deep teeth (in the unit of lengths of the wheels)."""
+        """Smaller tooth depth of the two wheels [unit of length of the wheels]."""
 
     @property
     @abstractmethod
     def backlash(self) -> float:
-        """Nominal play, in pitches of the driven wheel."""
+        """Nominal backlash [pitches of the driven wheel]."""
 
     @property
     @abstractmethod
     def question(self) -> tuple[float, ...]:
-        """Its sizes, on which results hang."""
+        """Sizes on which results depend, for the key of a journal."""
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """The pair of drawn wheels on its axles, these so much farther apart."""
+        """Return the pair of drawn wheels on its axes, with the centre distance increased by `shift`."""
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """What becomes of each trial of a cut pair."""
+        """Return the events of a cut pair in each trial: jam, clash, dwell, disengagement, and the minimum backlash."""
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """The transmission functions of a cut pair; `rows` says which trial is asked at each angle."""
+        """Return the transmission functions of a cut pair; `rows` gives the trial at each angle."""
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """A cut pair filed to fit."""
+        """Return a cut pair filed to fit, with the number of strokes and teeth."""
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """The pair at another clearance."""
+        """Return the pair at another clearance."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """A bound on the probability of a jam by normal errors of placement (of a pitch); NaN where none is known."""
+        """Return an upper bound on the probability of a jam for normal pitch deviations [pitches]; NaN if none is
+        known.
+        """
         del sigma
         return nan
 
     @property
     def pitches(self) -> tuple[float, float]:
-        """Pitches of both wheels (rad)."""
+        """Angular pitches of both wheels [rad]."""
         return 2 * pi / self.teeth[0], 2 * pi / self.teeth[1]
 
     @property
     def count(self) -> int:
-        """Couples in a full cycle of teeth."""
+        """Number of tooth pairs in one full meshing cycle."""
         return self.teeth[0] * self.teeth[1] // gcd(*self.teeth)
 
 
 @dataclass(frozen=True, slots=True)
 class TriangularTrialPair(TrialPair):
-    """Triangular teeth: exact for errors of any size."""
+    """Gear pair with triangular teeth, exact for errors of any size."""
 
     sizes: TriangularSizes
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Tooth numbers."""
+        """Numbers of teeth of the driver and of the driven wheel."""
         return self.sizes.z1, self.sizes.z2
 
     @property
     def depth(self) -> float:
-        """Depth of the less deep teeth (as the radii)."""
+        """Smaller tooth depth of the two wheels [unit of the radii]."""
         return min(self.sizes.depths)
 
     @property
     def backlash(self) -> float:
-        """Nominal play, in pitches."""
+        """Nominal backlash [pitches of the driven wheel]."""
         return nominal_backlash(self.sizes)
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Radii, half angles, distance."""
+        """Radii, half angles and excess of the centre distance, for the key of a journal."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Wheels of outer radius 1 in the sizes of the pair."""
+        """Scale drawn wheels of tip radius 1 to the sizes of the pair and return the pair."""
         sizes = self.sizes
         R1, R2 = sizes.signed_radii
         first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
@@ -167,23 +170,25 @@ class TriangularTrialPair(TrialPair):
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """One trial where all share everything."""
+        """Return the events of a cut pair in each trial; one trial if both wheels are the same in all trials."""
         first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
         return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Tooth by tooth."""
+        """Return the transmission functions of a cut pair, found tooth by tooth."""
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Those that jam are filed; the others are left as they are drawn."""
+        """Apply the file to the pairs that jam; pairs of the other trials are returned unchanged."""
         count = pair.trials[0] if pair.trials else 1
+        # only jamming pairs are filed, because finding the tightest position is expensive
         jams = np.flatnonzero(self.verdicts(pair).jams)
         strokes, teeth = np.zeros((2, count), np.int64)
         low = tuple(np.zeros((count, 2, z)) for z in self.teeth)
         if len(jams):
-            whole = FileableCutPair(_each(pair, count))
-            work = file_to_fit(whole.taken(jams), self.stroke * self.depth, _SPOILT * self.sizes.R2 * self.pitches[1])
+            whole = FileableCutPair(_with_trial_axis(pair, count))
+            limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
+            work = file_to_fit(whole.taken(jams), self.stroke * self.depth, limit)
             strokes[jams], teeth[jams] = work.strokes, work.teeth
             for own, filed in zip(low, work.low, strict=True):
                 own[jams] = filed
@@ -191,87 +196,95 @@ class TriangularTrialPair(TrialPair):
         return FilingWork(pair, strokes, teeth, (low[0], low[1]))
 
     def jamming_bound(self, sigma: float) -> float:
-        """2 lcm Q(play / 2 sigma)."""
+        """Return the bound 2 lcm(z1, z2) Q(j / 2 sigma), with the nominal backlash j and the deviation sigma in
+        pitches.
+        """
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """1 and the excess, which of an external pair is its clearance factor, or a share of the pair's own window."""
+        """Return the pair at a clearance: a clearance factor from 1 upwards, or below 1 a fraction of its clearance
+        window.
+        """
         return replace(self, sizes=self._cleared(clearance))
 
     def _cleared(self, clearance: float) -> TriangularSizes:
-        if clearance >= 1:
+        if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return self.sizes.at(clearance - 1)
         from geartrain.teeth.triangular.clearance_window import find_window
 
         window = find_window(self.sizes)
         if not window:
-            what = f"pair '{self.name}' has no window of clearance"
-            raise RangeError(Problem(what, "no clearance lets its even teeth turn", "give clearance factors above 1"))
+            what = f"pair '{self.name}' has no clearance window"
+            why = "its perfect teeth jam or lose contact at every clearance"
+            raise RangeError(Problem(what, why, "give clearance factors above 1: --clearance 1.005:1.04:8"))
         return self.sizes.at(window.at(clearance))
 
 
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Other teeth: displaced flanks along the contact of a couple, right to first order in the errors."""
+    """Gear pair of any other tooth form: flanks displaced along the path of contact, valid to first order in the
+    errors.
+    """
 
     contact: DisplacedContact
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Tooth numbers."""
+        """Numbers of teeth of the driver and of the driven wheel."""
         first, second = self.contact.wheels
         return first.z, second.z
 
     @property
     def depth(self) -> float:
-        """Depth of the less deep teeth (modules; rad on cones)."""
+        """Smaller tooth depth of the two wheels [module; rad for bevel gears]."""
         return min(each.depth for each in self.contact.wheels)
 
     @property
     def backlash(self) -> float:
-        """Nominal play, in pitches."""
+        """Nominal backlash [pitches of the driven wheel]."""
         return even_backlash(self.contact) / self.pitches[1]
 
     @property
     def question(self) -> tuple[float, ...]:
-        """What the contact is made of, by a few of its numbers."""
+        """Some numbers that identify the contact, for the key of a journal."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Wheels as they turn in this pair."""
+        """Return the pair of drawn wheels, mirrored where they turn against their numbering."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
+        # filing and verdicts need an axis of trials, even if all trials are the same
         if not np.broadcast_shapes(first.trials, second.trials, np.shape(shift)):
             first = replace(first, place=first.place[None])
         return DisplacedPair(self.contact, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """What becomes of each trial."""
+        """Return the events of a cut pair in each trial."""
         found: MeshingVerdicts = pair.verdicts()
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Of the foremost couple at each angle."""
+        """Return the transmission functions of a cut pair, given by the foremost tooth pair at each angle."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """By strokes of the length declared."""
-        return file_to_fit(pair, self.stroke * self.depth, _SPOILT * self.contact.wheels[0].pitch)
+        """Apply strokes of the file of the declared depth to a cut pair until it does not jam."""
+        return file_to_fit(pair, self.stroke * self.depth, _MAXIMUM_FILING * self.contact.wheels[0].pitch)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
-        """A factor of the centre distance (1 and above)."""
+        """Return the pair at a clearance factor of the centre distance (1 or more)."""
         if clearance < 1 or not self.contact.distance < inf:
-            what = f"pair '{self.name}' has no {'window of clearance' if clearance < 1 else 'centre distance'}"
-            why = "shares of a window are of triangular teeth, factors of a centre distance of parallel axes"
+            what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
+            why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"
             raise RangeError(
-                Problem(what, why, "leave --clearance out, or give factors above 1 where axes are parallel")
+                Problem(what, why, "omit --clearance, or give clearance factors above 1 if all axes are parallel")
             )
         return replace(self, contact=self.contact.apart_by((clearance - 1) * self.contact.distance))
 
 
-def _each(pair: CutGearPair, count: int) -> CutGearPair:
-    """The pair with an axis of trials on both wheels."""
+def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
+    """Expand both wheels of a pair to arrays with an axis of trials."""
     wheels = [
         replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
     ]
@@ -283,38 +296,38 @@ def _each(pair: CutGearPair, count: int) -> CutGearPair:
 
 @dataclass(frozen=True)
 class TrialPlan(Shown):
-    """A train as its trials see it, in one state: all that one block of trials needs.
+    """Input data of the trials of a train in one state, sufficient for a block of trials.
 
     See Also
     --------
-    find_trial_plan : makes it
+    find_trial_plan : Make a plan from a train.
     """
 
     name: str
-    """Of the train."""
+    """Name of the train."""
     wheels: tuple[WheelErrors, ...]
-    """Every wheel that is cut by hand, and how."""
+    """Wheels with cutting errors."""
     pairs: tuple[TrialPair, ...]
-    """Every pair of them, with its sizes and the errors of its axes."""
+    """Gear pairs of these wheels, with their sizes and the errors of their axes."""
     composition: ErrorComposition
-    """The motion with even teeth, whose laws the trials replace."""
+    """Composed motion with perfect teeth, whose transmission functions the trials replace."""
     outputs: tuple[str, ...]
     """Names of the outputs."""
     speeds: tuple[Fraction, ...]
-    """Of the outputs, over the input's."""
+    """Speeds of the outputs relative to the input."""
     reach: tuple[tuple[int, ...], ...]
-    """For each output the pairs that can move it, by number."""
+    """Numbers of the pairs that can move each output."""
     span: float
-    """Turns of the input within which positions are drawn [turn]."""
+    """Range of the random positions of the input [turn]."""
     driving_link: str
-    """The link that is turned."""
+    """Name of the driving link."""
 
     def _summary(self) -> str:
         return f"{self.name}: {len(self.wheels)} wheels, {len(self.pairs)} pairs, outputs {', '.join(self.outputs[:6])}"
 
     @property
     def position(self) -> int:
-        """The number of the stream from which positions are drawn; pairs come before it, and wheels before them."""
+        """Number of the random stream of positions. Wheels come first, then pairs, then this stream."""
         return len(self.wheels) + len(self.pairs)
 
     @property
@@ -323,12 +336,12 @@ class TrialPlan(Shown):
         return any(pair.stroke for pair in self.pairs)
 
     def scaled(self, factor: float) -> TrialPlan:
-        """The plan with all errors multiplied by a factor.
+        """Return the plan with all errors multiplied by a factor.
 
         Parameters
         ----------
         factor : float
-            0 or more.
+            Factor, 0 or more.
         """
 
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
@@ -339,17 +352,18 @@ class TrialPlan(Shown):
         return replace(self, wheels=wheels, pairs=pairs)
 
     def cleared(self, clearance: float) -> TrialPlan:
-        """The plan with every pair at another clearance.
+        """Return the plan with every pair at another clearance.
 
         Parameters
         ----------
         clearance : float
-            A factor of the least centre distance (1 and above), or a share of each pair's own window (below 1).
+            Factor of the minimum centre distance (1 or more), or fraction of the clearance window of each pair (below
+            1).
         """
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def question(self) -> dict[str, Any]:
-        """All on which results hang, as plain data: a journal knows its train by it."""
+        """Return everything that results depend on, as plain data; a journal identifies its train by it."""
         return {
             "train": self.name,
             "wheels": [
@@ -376,34 +390,34 @@ def find_trial_plan(
     state: str | None = None,
     without: Sequence[str] = (),
 ) -> TrialPlan:
-    """Everything that Monte Carlo trials of a train with hand-cut wheels need, in one state.
+    """Collect the data for Monte Carlo trials of a train with cutting errors, in one state.
 
     Parameters
     ----------
     train : GearTrain
-        With triangular or conjugate teeth, and `cutting` or `fitting` errors unless they are set here.
+        Train with triangular or conjugate teeth, and `cutting` or `fitting` errors unless `settings` gives them.
     settings : sequence of ErrorOverride
-        Errors in place of what is declared; `read_error_overrides` reads them.
+        Errors that replace the declared ones; `read_error_overrides` reads them from text.
     outputs : sequence of str
-        By default all.
+        Names of outputs or links, by default all outputs.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state. Required if the train declares states.
     without : sequence of str
-        Pairs left out, so that real teeth do not contradict each other around a loop.
+        Names of pairs to leave out, so that teeth do not overconstrain a loop.
 
     Returns
     -------
     TrialPlan
-        To be handed to `run_trials`, `jamming_map`, `find_sobol_indices` and `run_course`.
+        Input of `run_trials`, `jamming_map`, `find_sobol_indices` and `run_course`.
 
     Raises
     ------
     QuestionError
-        For trains without such teeth or without errors.
+        If the train has no such teeth or no errors.
     RangeError
-        For errors greater than the tooth.
+        If errors are larger than the tooth.
     GearTrainError
-        For loops of real teeth.
+        If pairs with tooth forms close a loop.
 
     Examples
     --------
@@ -415,6 +429,7 @@ def find_trial_plan(
     """
     motion = train.motion(state, outputs, without)
     meshes = _cut_meshes(train, motion)
+    # a wheel in several pairs is drawn once, with the teeth of its first pair
     even: dict[str, WheelErrors] = {}
     for mesh in meshes:
         for wheel in _even_wheels(train, mesh):
@@ -422,13 +437,13 @@ def find_trial_plan(
     names = tuple(even)
     check_names(settings, names, [mesh.name for mesh in meshes])
     wheels = tuple(wheel_errors(train.declaration, each, settings) for each in even.values())
-    senses = _Senses(motion)
+    senses = _RotationSenses(motion)
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
     composition = motion._with_sources([pair.name for pair in pairs])
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
-        why = "wheels cut true neither jam nor stray"
-        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set placement='2 %'"
+        why = "perfect wheels are the same in every trial"
+        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set pitch_deviation='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
@@ -446,18 +461,18 @@ def find_trial_plan(
 
 
 def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
-    """The pairs whose teeth can be cut with errors. Raises `QuestionError` where there is none."""
+    """Return the pairs whose teeth can have cutting errors; raise `QuestionError` if there are none."""
     found = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not found:
-        what = f"'{train.name}' has no triangular teeth, nor others whose errors are reckoned"
-        why = "cutting errors are reckoned tooth by tooth for triangular teeth and for all whose contact is known"
-        fix = "declare `tooth_form: {form: involute}` or another such form on the train or on its pairs"
+        what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
+        why = "cutting errors are computed for triangular teeth and for forms with a known path of contact"
+        fix = "declare `tooth_form: {form: involute}` or another such form for the train or for its pairs"
         raise QuestionError(Problem(what, why, fix))
     return found
 
 
 def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:
-    """The driver and the driven wheel of a pair without errors, as this pair has their teeth."""
+    """Return the driver and the driven wheel of a pair without errors, with the teeth that this pair gives them."""
     counts = [train.declaration.wheels[name][1].count or 0 for name in (mesh.driver, mesh.driven)]
     contact = mesh.displaced_contact
     if contact is None:
@@ -472,13 +487,14 @@ def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelEr
 
 
 def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
-    """Turns of the input after which the same teeth meet everywhere, no more than a million."""
+    """Return the turns of the input after which the same teeth meet in every pair, at most one million."""
     counts = {pair.name: pair.count for pair in pairs}
     cycles = [source.cycles / counts.get(source.id, 1) for source in composition.used if source.cycles]
     if not cycles:
         return 1.0
+    # least common multiple of the periods, which are the inverses of the cycles per turn
     whole = Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
-    return float(min(whole, Fraction(_FARTHEST)))
+    return float(min(whole, Fraction(_MAXIMUM_SPAN)))
 
 
 def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> tuple[int, ...]:
@@ -487,8 +503,10 @@ def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> 
     return tuple(at for at, name in enumerate(names) if name in used)
 
 
-class _Senses:
-    """Which way each wheel turns in each of its pairs: teeth are numbered as they pass in the first of them."""
+class _RotationSenses:
+    """Sense of rotation of each wheel in each of its pairs; teeth are numbered in the order they pass in the first
+    pair.
+    """
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
@@ -496,7 +514,7 @@ class _Senses:
         self.first: dict[str, int] = {}
 
     def mirrored(self, pair: str, wheel: str) -> bool:
-        """True if the wheel turns the other way in this pair than in its first."""
+        """Return whether the wheel turns the other way in this pair than in its first pair."""
         circuit = self.circuits[pair]
         link = circuit.i if wheel == circuit.wheels[0] else circuit.j
         sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1
@@ -504,7 +522,7 @@ class _Senses:
 
 
 def _pair(
-    train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _Senses, settings: Sequence[ErrorOverride]
+    train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _RotationSenses, settings: Sequence[ErrorOverride]
 ) -> TrialPair:
     wheels, contact = _even_wheels(train, mesh), mesh.displaced_contact
     lesser = min(wheels, key=lambda wheel: wheel.depth) if contact is not None else _less_deep(mesh, wheels)
@@ -516,12 +534,13 @@ def _pair(
     if contact is None:
         sizes, even = mesh.cut_sizes, mesh.transmission.error_moments()[0]
         return TriangularTrialPair(mesh.name, *numbers, mirrored, even, sizes, fitting=fitting, stroke=stroke)
-    # that of the first-order law itself, lest its own error at another distance be taken for one of cutting
+    # the mean of the first-order transmission function itself, so that its model error at another centre distance is
+    # not counted as a cutting error
     even = -mean_lag(contact)
     return DisplacedTrialPair(mesh.name, *numbers, mirrored, even, contact, fitting=fitting, stroke=stroke)
 
 
 def _less_deep(mesh: GearMesh, wheels: tuple[WheelErrors, WheelErrors]) -> WheelErrors:
-    """The wheel with the less deep triangular teeth, the driver of two alike."""
+    """Return the wheel with the smaller depth of triangular teeth; the driver if both are equal."""
     depths = mesh.cut_sizes.depths
     return wheels[0] if depths[0] <= depths[1] else wheels[1]

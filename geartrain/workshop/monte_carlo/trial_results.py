@@ -1,4 +1,4 @@
-"""The results of many trials: how often pairs jam, and how far pointers are off, at random places and along a turn."""
+"""Results of trials: event rates of pairs and errors of pointers, at random positions and along a turn."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ if TYPE_CHECKING:
 
 
 FEWEST = 30
-"""Trials that must run for a pointer to be judged by them alone."""
+"""Minimum number of trials without a jam for the statistics of a pointer to use only these."""
 
 EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "dwell": DWELL, "disengaged": DISENGAGED}
 
 
 @dataclass(frozen=True)
 class TrialResults(Tabular):
-    """All trials that were done, in their order.
+    """Results of all completed trials, in their order.
 
     See Also
     --------
-    run_trials : gives it
+    run_trials : Run the trials.
     """
 
     PAGE = "workshop.monte_carlo.monte_carlo_report:trials_document"
@@ -54,34 +54,35 @@ class TrialResults(Tabular):
     }
 
     plan: TrialPlan
-    """What was asked, and the `seed` of its random numbers."""
+    """Input data of the trials."""
     seed: int
-    """Seed of all random drawing."""
+    """Seed of the random numbers."""
     wanted: int
-    """Number of trials requested: more than `done` in an interrupted run."""
+    """Number of trials requested. It is larger than `done` in an interrupted run."""
     marks: Marks
-    """What each pair does, (trials, pairs): a sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut."""
+    """Event flags of each pair, shape (trials, pairs): a bit mask of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not
+    cuttable.
+    """
     turns: Floats
-    """Where the input stands in each trial, (trials,) [turn]."""
+    """Position of the input in each trial, shape (trials,) [turn]."""
     errors: Floats
-    """Of each output, (trials, outputs); infinite where nothing touches [rad]."""
+    """Error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
     first: Sequence[tuple[float, float, int]]
-    """By output: sums of squares of what superposition is off, and of the errors there, and of how many trials."""
+    """Sums by output: squared error of superposition, squared pointer error, and number of trials compared."""
     sums: Sequence[Mapping[str, tuple[float, ...]]]
-    """By output: the sums over trials of which variance shares are made."""
+    """Sums over trials by output and pair, from which the variance shares are computed."""
     bounds: Mapping[str, float] = field(default_factory=dict)
-    """Pair -> bound on the probability of a jam, where one is known."""
+    """Upper bound on the probability of a jam, for each pair where one is known."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Along a turn, where asked for."""
+    """Errors along a turn, where requested."""
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
-    """Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); empty where nothing is filed to
-    fit."""
+    """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs); empty if no pair is filed to fit."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each trial: turns of the input, errors of outputs [deg], and what it did to each pair.
+        """Table with a row for each trial: turns of the input, errors of outputs [deg], and event flags of each pair.
 
-        A sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 not to be cut.
+        The flags are a bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.
         """
         errors = zip(self.plan.outputs, self.errors.T, strict=True)
         events = zip(self.plan.pairs, self.marks.T, strict=True)
@@ -100,17 +101,17 @@ class TrialResults(Tabular):
 
     @property
     def done(self) -> int:
-        """Trials done: fewer than wanted in a run that was interrupted."""
+        """Number of trials completed. It is smaller than `wanted` in an interrupted run."""
         return len(self.turns)
 
     @property
     def complete(self) -> bool:
-        """True if no trial is missing."""
+        """True if all requested trials are completed."""
         return self.done == self.wanted
 
     @cached_property
     def pairs(self) -> tuple[PairEventRates, ...]:
-        """Each pair."""
+        """Event rates of each pair."""
         return tuple(
             _tally(pair.name, self.marks[:, at], pair.backlash, self.bounds.get(pair.name, nan))
             for at, pair in enumerate(self.plan.pairs)
@@ -118,13 +119,14 @@ class TrialResults(Tabular):
 
     @cached_property
     def train(self) -> PairEventRates:
-        """Any pair of the train."""
+        """Event rates of the train: an event counts if any pair shows it."""
+        # the probability of any jam is at most the sum of the probabilities (Boole's inequality)
         bound = min(1.0, sum(self.bounds.values())) if len(self.bounds) == len(self.plan.pairs) else nan
         return _tally("the train", np.bitwise_or.reduce(self.marks, axis=1), nan, bound)
 
     @cached_property
     def filings(self) -> tuple[FilingStatistics, ...]:
-        """Each pair that is filed to fit, and the train; none where nothing is."""
+        """Filing statistics of each pair that is filed to fit, and of the train; empty if no pair is filed."""
         if not self.plan.files:
             return ()
         found = [
@@ -143,16 +145,16 @@ class TrialResults(Tabular):
 
     @cached_property
     def pointers(self) -> tuple[PointerErrorStatistics, ...]:
-        """Each output."""
+        """Error statistics of each output."""
         return tuple(self._pointer(at) for at in range(len(self.plan.outputs)))
 
     def pointer(self, name: str) -> PointerErrorStatistics:
-        """One output.
+        """Return the error statistics of one output.
 
         Parameters
         ----------
         name : str
-            Of the output.
+            Name of the output.
         """
         return self.pointers[self.plan.outputs.index(name)]
 
@@ -172,33 +174,35 @@ class TrialResults(Tabular):
 
     @property
     def jams(self) -> list[ConvergenceStep]:
-        """How often some pair jams, in ever more trials."""
+        """Probability that any pair jams, for increasing numbers of trials."""
         return [ConvergenceStep(*each) for each in self.convergence("jam")]
 
     @property
     def stops(self) -> list[ConvergenceStep]:
-        """How often some pair jams or clashes, in ever more trials."""
+        """Probability that any pair jams or clashes, for increasing numbers of trials."""
         return [ConvergenceStep(*each) for each in self.convergence("stops")]
 
     def convergence(self, event: str = "jam") -> list[tuple[int, ProbabilityEstimate]]:
-        """The share of trials in which any pair does this, after 1/16, 1/8, ... and all of them.
+        """Return the probability of an event in any pair after 1/16, 1/8, ... and all of the trials.
 
         Parameters
         ----------
         event : str
-            Jam, clash, stops, standstill or disengaged.
+            Name of the event: jam, clash, stops, dwell or disengaged.
         """
         mark, whole = EVENTS[event], np.bitwise_or.reduce(self.marks, axis=1)
+        # successive halving, because intervals narrow with the square root of the number of trials
         counts = sorted({max(1, self.done >> half) for half in range(5)}) if self.done else []
         return [(count, _share(whole[:count], mark)) for count in counts]
 
     def pointer_convergence(self, at: int) -> list[tuple[int, IntervalEstimate]]:
-        """The standard deviation of an output after 1/16, 1/8, ... and all trials that run [rad].
+        """Return the standard deviation of an output [rad] after 1/16, 1/8, ... and all of the trials that count for
+        it.
 
         Parameters
         ----------
         at : int
-            The number of the output, from 0.
+            Index of the output, from 0.
         """
         kept = self.pointers[at].kept
         counts = sorted({len(kept) >> half for half in range(5)} - {0})
@@ -206,13 +210,15 @@ class TrialResults(Tabular):
 
 
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
-    """The trials in which none of some pairs jams, is lost or cannot be cut (trials,); a clash may be led past."""
+    """Return a mask (trials,) of the trials in which no given pair jams, disengages or is uncuttable; clashes are
+    allowed.
+    """
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
 
 
 def _share(marks: Marks, mark: int) -> ProbabilityEstimate:
-    cut = marks[(marks & UNCUT) == 0]
+    cut = marks[(marks & UNCUT) == 0]  # trials with wheels that cannot be cut do not count
     return ProbabilityEstimate(int(np.count_nonzero(cut & mark)), len(cut))
 
 
@@ -222,9 +228,10 @@ def _tally(name: str, marks: Marks, backlash: float, bound: float) -> PairEventR
 
 
 def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
-    """Covariance of each pair's part with the whole, over the variance of the whole."""
+    """Return the covariance of each pair's part with the total, divided by the variance of the total."""
     found = {}
     for name, (count, part, whole, product) in sums.items():
+        # sum of products about the means; the common factor cancels in the ratio
         found[name] = product - part * whole / count if count else 0.0
     total = sum(found.values())
     return {name: each / total for name, each in found.items()} if total else {}
@@ -234,7 +241,7 @@ def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
 
 
 class EventRates(TypedDict):
-    """How often wheels do what beside turning."""
+    """Probability of each event."""
 
     jam: ProbabilityEstimate
     clash: ProbabilityEstimate
@@ -245,88 +252,89 @@ class EventRates(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class PairEventRates(Result):
-    """How often one pair, or any pair of the train, does what over its full cycle of teeth.
+    """Event probabilities over the full meshing cycle, of one pair or of any pair of the train.
 
     See Also
     --------
-    TrialResults : holds them
+    TrialResults : Results of all trials, with the rates of every pair.
     """
 
     KEYS = (Key("pair", "name"), "uncut", Key("backlash", to=finite), Key("bound", to=finite), Key("", "rates"))
 
     name: str
-    """Of the pair, or "the train"."""
+    """Name of the pair, or "the train"."""
     events: Mapping[str, ProbabilityEstimate]
-    """Jam, clash, stops (jam or clash), standstill, disengaged -> how often, of the trials whose wheels can be cut."""
+    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, over the trials with cuttable wheels."""
     uncut: int
-    """Trials that hold a wheel that cannot be cut."""
+    """Number of trials with a wheel that cannot be cut."""
     backlash: float = nan
-    """Nominal play of even wheels [pitch of the driven wheel]; NaN for the train."""
+    """Nominal backlash of perfect wheels [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
-    """Bound on the probability of a jam by pitch errors alone; NaN where other errors take part."""
+    """Upper bound on the probability of a jam by pitch deviations; NaN if there are other errors."""
 
     @property
     def rates(self) -> EventRates:
-        """The events, by name."""
+        """Event probabilities by name."""
         return cast("EventRates", self.events)
 
 
 @dataclass(frozen=True, slots=True)
 class FilingStatistics(Result):
-    """How much one pair, or the whole train, was filed until it passed.
+    """Amount of filing after which one pair, or the whole train, passes.
 
     See Also
     --------
-    TrialResults : holds them
+    TrialResults : Results of all trials, with the filing of every pair.
     """
 
     KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
 
     name: str
-    """Of the pair, or "the train"."""
+    """Name of the pair, or "the train"."""
     filed: ProbabilityEstimate
-    """How often it jams before it is filed."""
+    """Probability of a jam before filing."""
     strokes: IntervalEstimate
     """Mean number of strokes over all trials."""
     teeth: IntervalEstimate
     """Mean number of teeth filed over all trials."""
     most: int
-    """Strokes of the trial that took most."""
+    """Maximum number of strokes in a trial."""
     jams: ProbabilityEstimate
-    """How often it jams after, a flank being spoilt first."""
+    """Probability of a jam after filing. A pair still jams if a flank reached its limit."""
 
 
 @dataclass(frozen=True)
 class ConvergenceStep:
-    """A probability from the first so many trials."""
+    """Probability estimated from the first trials of a run."""
 
     KEYS = ("trials", Key("", "share"))
 
     trials: int
     """Number of trials counted, from the first on."""
     share: ProbabilityEstimate
-    """The probability from these trials."""
+    """Probability estimated from these trials."""
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers
 
 
 class FirstOrderError(NamedTuple):
-    """Root mean square (rad) of what superposition to first order is off, and of the errors there."""
+    """Error of first-order superposition compared with the pointer error, as root mean squares [rad]."""
 
     off: float
-    """Root mean square of the error of superposition to first order [rad]."""
+    """Root mean square of the error of first-order superposition [rad]."""
     rms: float
     """Root mean square of the pointer error itself [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorStatistics(Result):
-    """How far one output is from where even teeth would have it on average, at random positions of the input.
+    """Error statistics of one output at random positions of the input, relative to its mean position with perfect
+    teeth.
 
     See Also
     --------
-    TrialResults : holds them
+    TrialResults : Results of all trials, with the statistics of every output.
     """
 
     KEYS = (
@@ -344,65 +352,65 @@ class PointerErrorStatistics(Result):
     )
 
     name: str
-    """Of the output."""
+    """Name of the output."""
     errors: Floats
-    """Of the trials in which no pair that moves it jams or is lost, in their order [rad]."""
+    """Errors of the trials in which no pair that moves the output jams or disengages, in their order [rad]."""
     all: Floats
-    """Of all trials, as the pushing flanks alone would have it; none where nothing touches [rad]."""
+    """Errors of all trials in which teeth touch, as given by the pushing flanks even if a pair jams [rad]."""
     stopped: int
-    """Trials left out of `errors`."""
+    """Number of trials excluded from `errors`."""
     first: FirstOrderError
-    """Rms of what superposition to first order is off, and of the errors there [rad]."""
+    """Error of first-order superposition and pointer error, as root mean squares [rad]."""
     shares: Mapping[str, float]
-    """Pair -> its share of the variance, from superposition; they sum to 1."""
+    """Share of the variance due to each pair, from superposition. The shares add up to 1."""
 
     @property
     def runs(self) -> int:
-        """Trials that run."""
+        """Number of trials in which the output can turn."""
         return len(self.errors)
 
     @property
     def kept(self) -> Floats:
-        """The trials to look at: those that run, or all where too few do."""
-        return self.all if self.of_all else self.errors
+        """Errors used for the statistics [rad]: `errors`, or `all` if fewer than 30 trials can turn."""
+        return self.all if self.of_all else self.errors  # few trials give no useful statistics
 
     @property
     def of_all(self) -> bool:
-        """True if so few trials run that all are looked at, as the pushing flanks alone would have them."""
+        """True if too few trials can turn, so that the statistics use all trials."""
         return len(self.errors) < FEWEST
 
     @property
     def mean(self) -> IntervalEstimate:
-        """Mean (rad)."""
+        """Mean error [rad]."""
         return mean_of(self.kept)
 
     @property
     def deviation(self) -> IntervalEstimate:
-        """Standard deviation (rad)."""
+        """Standard deviation of the error [rad]."""
         return deviation_of(self.kept)
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation in all trials, as the pushing flanks alone would have it (rad)."""
+        """Standard deviation of the error in all trials, as given by the pushing flanks [rad]."""
         return deviation_of(self.all)
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentiles (rad)."""
+        """Percentiles of the error [rad]."""
         return percentiles_of(self.kept)
 
     @property
     def maximum(self) -> float:
-        """Greatest error either way that was seen (rad)."""
+        """Maximum absolute error observed [rad]."""
         return float(np.abs(self.kept).max(initial=0.0))
 
     def beyond(self, angle: float) -> ProbabilityEstimate:
-        """How often the error exceeds an angle, either way.
+        """Return the probability that the absolute error exceeds an angle.
 
         Parameters
         ----------
         angle : float
-            0 or more [rad].
+            Angle, 0 or more [rad].
         """
         return ProbabilityEstimate(int(np.count_nonzero(np.abs(self.kept) > angle)), len(self.kept))
 
@@ -413,7 +421,7 @@ class PointerErrorCourse(Result):
 
     See Also
     --------
-    run_course : gives it
+    run_course : Compute the errors.
     """
 
     KEYS = (
@@ -425,15 +433,15 @@ class PointerErrorCourse(Result):
     )
 
     name: str
-    """Of the output."""
+    """Name of the output."""
     turns: Floats
-    """Where the input stands, (n,) [turn]."""
+    """Positions of the input, shape (n,) [turn]."""
     errors: Floats
-    """By trial, (trials, n) [rad]."""
+    """Errors by trial, shape (trials, n) [rad]."""
 
     @property
     def maximum(self) -> Floats:
-        """Greatest error of each trial along the turn, either way (rad)."""
+        """Maximum absolute error of each trial along the turn [rad]."""
         found: Floats = np.abs(self.errors).max(axis=1)
         return found
 
@@ -444,16 +452,18 @@ class PointerErrorCourse(Result):
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentiles of the greatest errors (rad)."""
+        """Percentiles of the maximum absolute errors [rad]."""
         return percentiles_of(self.maximum)
 
     @property
     def bands_deg(self) -> Floats:
-        """The bands in degrees, (7, n)."""
+        """Minimum, percentiles and maximum at each position, as in `bands`, shape (7, n) [deg]."""
         found: Floats = np.degrees(self.bands())
         return found
 
     def bands(self) -> Floats:
-        """Least, 2.5, 25, 50, 75, 97.5 % and greatest at each position (rad), (7, n)."""
+        """Return the minimum, the 2.5, 25, 50, 75 and 97.5 % quantiles and the maximum at each position, shape (7, n)
+        [rad].
+        """
         found: Floats = np.quantile(self.errors, (0, 0.025, 0.25, 0.5, 0.75, 0.975, 1), axis=0)
         return found

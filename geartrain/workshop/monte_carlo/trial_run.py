@@ -1,4 +1,4 @@
-"""Trials by the task, here or in other processes, kept in a journal as they come; all together, and as a table."""
+"""Execution of trials in tasks, in this or other processes, with a journal; all trials as one result and as a table."""
 
 from __future__ import annotations
 
@@ -37,17 +37,17 @@ if TYPE_CHECKING:
 
 
 VERSION = 2
-"""Of the way trials are drawn and worked out: a journal of another is refused."""
-_CHECKED = 1024  # trials in which superposition is compared with composition
-_TASKS = 16  # at least, where there are trials enough: so that 8 processes end at nearly the same time
-_FEWEST = 32  # trials of a part of a block: what is computed once for each task then costs less than they do
-_COURSE = 1 << 20  # courses draw from streams of their own
-_MOST = 10**9
+"""Version of the random drawing and evaluation of trials. A journal of another version is rejected."""
+_CHECKED = 1024  # trials in which superposition is compared with exact composition
+_TASKS = 16  # minimum number of tasks if there are enough trials: 8 processes then finish at nearly the same time
+_FEWEST = 32  # minimum trials of a task: its fixed cost is then smaller than the cost of its trials
+_COURSE = 1 << 20  # block number of courses, so that their random streams differ from those of the trials
+_MOST = 10**9  # trials: more would not fit into memory
 
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """The trials of one task: number of the first, and arrays as in `TrialResults`; `backlash` in driven pitches."""
+    """Trials of one task: number of the first one, and arrays as in `TrialResults`; `backlash` in driven pitches."""
 
     first: int
     turns: Floats
@@ -57,27 +57,27 @@ class TrialRecord:
     off: Sequence[tuple[float, float, int]] = ()
     sums: Sequence[Mapping[str, tuple[float, ...]]] = field(default_factory=tuple)
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
-    """Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); none where nothing is filed."""
+    """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs); empty if no pair is filed."""
 
 
 def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
-    """What a journal knows a run by: everything on which its results depend."""
+    """Return the key by which a journal identifies a run: everything on which its results depend."""
     made = {"geartrain": version("geartrain"), "numpy": version("numpy"), "errors": VERSION}
     return {**made, "seed": seed, "trials": trials, "block": BLOCK, **plan.question(), **more}
 
 
 def check_trials(trials: int) -> None:
-    """Raise `QuestionError` for a number of trials that tells nothing, or too much."""
+    """Raise `QuestionError` unless the number of trials is from 1 to 10^9."""
     if not 1 <= trials <= _MOST:
-        what = f"{trials} trials" if trials < 1 else f"{trials:.3g} trials are more than can be done"
-        raise QuestionError(Problem(what, "shares are counted over trials", f"ask for 1 to {_MOST:.0e} of them"))
+        what = f"the number of trials is {trials if trials < 1 else f'{trials:.3g}'}"
+        raise QuestionError(Problem(what, f"it must be from 1 to {_MOST:.0e}", "give for example --trials 1000"))
 
 
 def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
-    """Tasks: the first trial and the number of trials of each.
+    """Split the trials into tasks, each given by its first trial and its number of trials.
 
-    They are blocks, or a half or a quarter of one where there are few; they depend on the trials and on the number of
-    cases for which they are repeated, not on who does them, for sums are rounded by tasks.
+    A task is a block, or a half or quarter of a block if there are few. Sums are rounded task by task, so the tasks
+    depend only on the number of trials and of cases for which they are repeated, not on the number of workers.
     """
     blocks = [range(start, min(start + BLOCK, trials)) for start in range(0, trials, BLOCK)]
     parts = min(4, -(-_TASKS // (len(blocks) * cases)))
@@ -95,45 +95,46 @@ def run_trials(
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
 ) -> TrialResults:
-    """Monte Carlo: each trial cuts all wheels anew and judges every pair over its whole cycle of teeth.
+    """Run Monte Carlo trials: each cuts all wheels anew and examines every pair over its full meshing cycle.
 
-    The same for any number of workers, however often it was interrupted and taken up. Interrupted (Ctrl-C), it returns
-    the trials that are done.
+    The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
+    (Ctrl-C), the completed trials are returned.
 
     Parameters
     ----------
     plan : TrialPlan
         The train with its errors.
     trials : int
-        1 to 10^9.
+        Number of trials, 1 to 10^9.
     seed : int
-        The same seed cuts the same wheels, whatever else is asked.
+        Seed of the random numbers. The same seed draws the same wheels, whatever else is computed.
     means : Execution, optional
-        Executor, journal of finished blocks, progress report; by default this process, and none of the others.
+        Executor, journal of finished blocks and progress report; by default this process without journal and report.
     take : callable, optional
-        Given each block of trials as it comes, a TrialRecord.
+        Callback that receives each finished task as a `TrialRecord`.
 
     Returns
     -------
     TrialResults
-        How often pairs jam, and how far pointers stray.
+        Event rates of the pairs and errors of the pointers.
 
     Raises
     ------
     MissingExtraError
-        If the kernel is asked for and numba is not installed.
+        If the compiled kernel is requested and numba is not installed.
     QuestionError
-        For a number of trials that tells nothing.
+        If the number of trials is out of range.
     RangeError
-        Where most wheels cannot be cut.
+        If wheels cannot be cut in more than half of the trials.
 
     Notes
     -----
-    Laws of cut pairs are composed exactly, docs/motion.md (3); what becomes of a pair is in docs/cut-by-hand.md, 2.
+    The transmission functions of cut pairs are composed exactly (docs/motion.md, equation 3). The events of a pair are
+    defined in docs/cut-by-hand.md, section 2.
 
     Examples
     --------
-    Teeth a thousandth of a pitch out of place do not jam; of none in 64 trials Wilson's upper end is z^2 / (64 + z^2).
+    Pitch deviations of 0.1 % cause no jam. For no event in 64 trials, Wilson's upper limit is z^2 / (64 + z^2).
 
     >>> from geartrain import load
     >>> from geartrain.workshop import (find_trial_plan, read_error_overrides)
@@ -152,15 +153,16 @@ def run_trials(
                 _check_cut(plan, rows)
             if take is not None:
                 take(rows)
+            # only the table needs the backlash, so its memory is freed
             found.append(replace(rows, backlash=np.zeros((0, 0))))
     except KeyboardInterrupt:
-        if not found:
+        if not found:  # without a complete task there is nothing to return
             raise
     return gathered(plan, seed, trials, found)
 
 
 def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
-    """Refuse errors with which most wheels have no teeth."""
+    """Raise `RangeError` if wheels cannot be cut in more than half of the trials."""
     uncut = (rows.marks & UNCUT) > 0
     if uncut.any(axis=1).mean() <= 0.5:
         return
@@ -169,8 +171,8 @@ def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
     raise RangeError(
         Problem(
             f"in {uncut.any(axis=1).mean():.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'",
-            f"errors are as great as the teeth: those of '{wheel.name}' are {360 / wheel.z:.3g} deg apart",
-            "give errors smaller than the tooth",
+            f"errors must be smaller than a tooth: the angular pitch of '{wheel.name}' is {360 / wheel.z:.3g} deg",
+            "give smaller errors: --set pitch_deviation='2 %'",
         )
     )
 
@@ -179,14 +181,14 @@ def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
 
 
 def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any]:
-    """The trials of one task as plain data."""
+    """Compute the trials of one task as plain data."""
     number, trials = task
     drawn = draw_trial_wheels(plan, RandomStreams(seed, number // BLOCK), trials, number % BLOCK)
     marks, backlash = judge_trial_pairs(drawn)
     turns = input_positions(drawn)
     found = trial_pointers(drawn, np.arange(trials))
     first = found.superposed(turns) if number < _CHECKED else None
-    errors = found.errors(turns)  # after the superposition: laws remember what they said last
+    errors = found.errors(turns)  # after the superposition, because `_sums` needs the values of this last evaluation
     runs = [turning_trials(marks, reach) & np.isfinite(row) for reach, row in zip(plan.reach, errors, strict=True)]
     off = [] if first is None else [_off(*both) for both in zip(first, errors, strict=True)]
     return {
@@ -202,7 +204,7 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
 
 def _off(first: Floats, exact: Floats) -> tuple[float, float, int]:
     with np.errstate(invalid="ignore"):
-        # inf - inf in trials where nothing touches
+        # inf - inf in trials in which no teeth touch
         good = np.isfinite(first - exact)
     first, exact = first[good], exact[good]
     return float(np.sum((first - exact) ** 2)), float(np.sum(exact**2)), len(first)
@@ -211,7 +213,7 @@ def _off(first: Floats, exact: Floats) -> tuple[float, float, int]:
 def _sums(
     plan: TrialPlan, found: TrialPointers, runs: Sequence[NDArray[np.bool_]]
 ) -> list[dict[str, tuple[float, ...]]]:
-    """By output and pair: how many trials, and sums of the pair's part, of the whole, and of their product."""
+    """Return the sums for variance shares by output and pair: trials, pair's part, total, and their product."""
     superposition = Superposition(found.cut)
     even = {pair.name: pair.even for pair in plan.pairs}
     sums: list[dict[str, tuple[float, ...]]] = []
@@ -236,7 +238,7 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecord:
-    """The trials of a task, `first` the number of the first of them, from the plain data of a worker or a journal."""
+    """Decode the trials of a task, beginning with trial `first`, from the plain data of a worker or a journal."""
 
     def array(name: str, width: int = 0) -> Any:
         found = np.frombuffer(b64decode(packed[name]), np.uint8 if name == "marks" else np.float64)
@@ -259,7 +261,7 @@ def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecor
 
 
 def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecord]) -> TrialResults:
-    """All blocks as one."""
+    """Combine the records of all tasks into one result."""
     outputs = range(len(plan.outputs))
     checked = [rows.off for rows in found if rows.off]
     first = [tuple(map(sum, zip(*(off[at] for off in checked), strict=True))) or (0.0, 0.0, 0) for at in outputs]
@@ -284,7 +286,7 @@ def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecor
 
 
 def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
-    """The bound on a jam of every pair whose two wheels have normal errors of placement, and no others."""
+    """Return the jamming bound of each pair whose wheels have only normal pitch deviations."""
     found = {}
     for pair in plan.pairs:
         wheels = plan.wheels[pair.first], plan.wheels[pair.second]
@@ -292,32 +294,32 @@ def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
         plain = plain and not pair.fitting and not pair.stroke
         normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
         if plain and normal:
-            # the bound is of one deviation for both wheels: the greater of the two
+            # the bound assumes one deviation for both wheels: the larger one is safe
             sizes = [each.errors["pitch_deviation"].size for each in wheels if each.errors]
             found[pair.name] = pair.jamming_bound(max(sizes, default=0.0))
     return {name: bound for name, bound in found.items() if not isnan(bound)}
 
 
 def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, trials: int = BLOCK) -> PointerErrorCourse:
-    """Errors of one output along one turn of it (of the input where it stands still), trial by trial.
+    """Compute the errors of one output along one turn of it (of the input if it is fixed), trial by trial.
 
     Parameters
     ----------
     plan : TrialPlan
         The train with its errors.
     output : int
-        Its number in `plan.outputs`, from 0.
+        Index of the output in `plan.outputs`, from 0.
     positions : int
-        Positions along the turn, both ends included.
+        Number of positions along the turn, both ends included.
     seed : int
-        Of the random numbers, which are others than those of `run_trials`.
+        Seed of the random numbers. They are independent of those of `run_trials`.
     trials : int
-        At most 256.
+        Number of trials, at most 256.
 
     Returns
     -------
     PointerErrorCourse
-        Errors, (trials, positions) [rad].
+        Errors, shape (trials, positions) [rad].
 
     Examples
     --------
@@ -328,10 +330,11 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     >>> course.errors.shape, course.bands().shape
     ((8, 5), (7, 5))
     """
-    trials = min(trials, BLOCK)
+    trials = min(trials, BLOCK)  # one stream of random numbers gives one block
     drawn = draw_trial_wheels(plan, RandomStreams(seed, _COURSE), trials)
     speed = abs(plan.speeds[output])
     turns = np.linspace(0.0, float(1 / speed) if speed else 1.0, positions)
+    # in chunks, because the arrays of all trials at all positions would not fit into the cache
     rows, chunk = np.repeat(np.arange(trials), positions), plan.composition.chunk
     everywhere = np.tile(turns, trials)
     parts = []
@@ -345,24 +348,24 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
 
 
 SUFFIXES = (".parquet", ".csv")
-_EVENTS = "sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 wheels cannot be cut"
+_EVENTS = "bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 wheels cannot be cut"
 
 
 @dataclass(frozen=True)
 class TrialTable:
-    """Every trial, block by block, into a file."""
+    """Table file with one row for each trial, written task by task."""
 
     plan: TrialPlan
     path: Path
-    """A .parquet or .csv."""
+    """Path of the .parquet or .csv file."""
     force: bool = False
-    """An existing file is written over."""
+    """True if an existing file is overwritten."""
     replay: bool = False
-    """The run was interrupted: its file is written anew from the journal."""
+    """True if an interrupted run is resumed: its file is rewritten from the journal."""
 
     @contextmanager
     def open(self) -> Iterator[Callable[[TrialRecord], None]]:
-        """What takes every block."""
+        """Yield a function that writes one record to the table."""
         plan = self.plan
         if self.path.suffix.lower() == ".parquet":
             about = {"train": plan.name, "events": _EVENTS}
@@ -380,13 +383,13 @@ def _names(plan: TrialPlan) -> list[str]:
         "trial",
         "turns",
         *(f"{name} error (deg)" for name in plan.outputs),
-        *(f"{pair.name} {what}" for pair in plan.pairs for what in ("play (pitches)", "events")),
+        *(f"{pair.name} {what}" for pair in plan.pairs for what in ("backlash (pitches)", "events")),
         *(f"{pair.name} {what}" for pair in plan.pairs if pair.stroke for what in ("strokes", "teeth filed")),
     ]
 
 
 def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
-    """The columns of one block, as `_names` names them."""
+    """Return the columns of one record, in the order of `_names`."""
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
     for at in range(len(plan.pairs)):
         values += [rows.backlash[:, at], rows.marks[:, at]]

@@ -1,4 +1,4 @@
-"""`geartrain montecarlo`: a train cut by hand, many times over: how often it jams, how far its pointers stray."""
+"""Command `geartrain montecarlo`: Monte Carlo trials of a train with cutting errors."""
 
 from __future__ import annotations
 
@@ -39,26 +39,31 @@ if TYPE_CHECKING:
     from geartrain.workshop.monte_carlo.trial_results import TrialResults
     from geartrain.workshop.monte_carlo.trial_run import TrialTable
 
-Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
+Plot = Annotated[Path | None, typer.Option("--plot", help="Write a plot to this file (.svg, .png or .pdf).")]
 Picture = Annotated[
-    str, typer.Option("--picture", help="What --plot draws: errors, course, convergence, sobol, pairs or map.")
+    str, typer.Option("--picture", help="Content of the plot: errors, course, convergence, sobol, pairs or map.")
 ]
 
 
 def run(
     file: File,
-    trials: Annotated[int, typer.Option("--trials", help="How many times the train is cut.")] = 1000,
+    trials: Annotated[int, typer.Option("--trials", help="Number of Monte Carlo trials.")] = 1000,
     seed: Seed = 1,
     set_: Annotated[
-        Names, typer.Option("--set", help="KIND=SIZE or NAME.KIND=SIZE in place of what is declared: 'tip=3 %'.")
+        Names, typer.Option("--set", help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'.")
     ] = None,
-    output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--output", help="Output or link to report; can be repeated.")] = None,
     state: StateName = None,
     without: Without = None,
     clearance: Annotated[
-        str | None, typer.Option("--clearance", help="Sweep: factors 1.005:1.04:8, or shares of windows 0.1:0.9:9.")
+        str | None,
+        typer.Option(
+            "--clearance", help="Sweep of clearance factors (1.005:1.04:8) or fractions of windows (0.1:0.9:9)."
+        ),
     ] = None,
-    sobol: Annotated[bool, typer.Option("--sobol", help="Sobol indices by wheel and by kind of error.")] = False,
+    sobol: Annotated[
+        bool, typer.Option("--sobol", help="Compute Sobol indices by wheel and by kind of error.")
+    ] = False,
     workers: Workers = None,
     dask: Dask = None,
     resume: Resume = False,
@@ -69,7 +74,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
+    """Estimate how often a train with cutting errors jams, and how far its pointers deviate, by Monte Carlo trials.
+
+    With -o FILE.parquet or FILE.csv, write a table of all trials.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.cutting.declared_errors import read_error_overrides
     from geartrain.workshop.monte_carlo.clearance_study import read_clearances
@@ -90,15 +98,15 @@ def run(
     with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:
         found = _trials(plan, trials, seed, given, table)
         if found.complete:
-            later = replace(given, journal=None)  # the journal is of the trials alone
+            later = replace(given, journal=None)  # the journal contains only the trials
             findings = studies.of(found, later)
             if plot is not None:
                 drawn = studies.mapped(findings, later) if picture == "map" else findings
             close_journal(given.journal, cut=False)
         else:
-            tell(f"stopped after {found.done} of {trials} trials; the figures are of those")
+            tell(f"stopped after {found.done} of {trials} trials; the results are for these trials")
             if given.journal is not None:
-                tell(f"what is done is in {given.journal.path}: give the same command with --resume")
+                tell(f"completed trials are in {given.journal.path}; repeat the command with --resume to continue")
     _answer(findings or MonteCarloResult(found), json or to.suffix == ".json", to if table is None else STANDARD)
     if table is not None and found.complete:
         tell(f"wrote {out}")
@@ -115,32 +123,32 @@ def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
 
 
 class _StoppedError(Exception):
-    """The user interrupts."""
+    """Interrupt of the trials by the user."""
 
 
 def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: TrialTable | None) -> TrialResults:
-    """The trials, kept in the journal, and handed on to a table block by block."""
+    """Run the trials with the journal, and write each record to the table."""
     from geartrain.workshop.monte_carlo.trial_run import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
         found = run_trials(plan, trials, seed, given, take)
         if not found.complete:
-            raise _StoppedError  # so that the table stays partial
+            raise _StoppedError  # leaves the table marked as partial
     return found
 
 
 def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str = "errors") -> Sink:
-    """Where a picture goes; one that there is not, or that may not be written, is refused before the work."""
+    """Return the sink of the plot; refuse an unknown picture or a file that cannot be written before the trials run."""
     if plot is not None:
         from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
 
         if picture not in ALL:
-            raise typer.BadParameter(f"'{picture}' is no picture; use {', '.join(ALL)}", param_hint="--picture")
+            raise typer.BadParameter(f"'{picture}' is not a picture; use {', '.join(ALL)}", param_hint="--picture")
     return picture_sink(plot, force, theme)
 
 
 def _draw_findings(findings: MonteCarloResult, picture: str, to: Sink) -> None:
-    """One picture of trials to a file."""
+    """Draw one picture of the trials to a file."""
     from geartrain.workshop.monte_carlo.monte_carlo_plots import monte_carlo_figure
 
     draw(monte_carlo_figure(findings, picture), to)

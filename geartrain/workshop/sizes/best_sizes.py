@@ -1,6 +1,7 @@
-"""The best sizes of a pair with triangular teeth, next to radii by rule, and judged by the contact of their outlines.
+"""Best sizes of a pair with triangular teeth, compared with rule-based radii, and verified by the contact of its
+outlines.
 
-The outlines are drawn from the sizes and know nothing of the transmission function of such teeth.
+The outlines are drawn from the sizes, independently of the transmission function of such teeth.
 """
 
 from __future__ import annotations
@@ -29,17 +30,17 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 
-_NOTHING = 1e-12  # figures below it are 0 but for rounding
-_CELLS, _NODES = 24, 4  # of each smooth stretch of the outlines' law, and the nodes of Gauss in each
+_NOTHING = 1e-12  # smaller figures are rounding errors
+_CELLS, _NODES = 24, 4  # cells of each smooth interval, and Gauss nodes in each; many cells reduce the effect of kinks
 
 
 @dataclass(frozen=True)
 class BestToothSizes(Tabular, Pictured, Result):
-    """The best sizes of a pair with triangular teeth, and what they are better than.
+    """Best sizes of a pair with triangular teeth, and designs for comparison.
 
     See Also
     --------
-    find_tooth_sizes : an example.
+    find_tooth_sizes : Find the best sizes, with an example.
     """
 
     ROW = "ToothSizes"
@@ -60,27 +61,27 @@ class BestToothSizes(Tabular, Pictured, Result):
     )
 
     aims: tuple[str, ...]
-    """What was asked for: one of `loss`, `error`, `impact`, `jam`, or two for a front between them."""
+    """Objectives: one of `loss`, `error`, `impact`, `jam`, or two for a Pareto front."""
     free: Mapping[str, Range]
     """Bounds of the free parameters; angles in rad."""
     limits: tuple[SizeLimit, ...]
-    """What had to be kept."""
+    """Limits on the designs."""
     best: ToothSizes
-    """The best in the first aim."""
+    """Best design for the first objective."""
     outlines: OutlineAgreement
-    """What the contact of the drawn outlines says of it."""
+    """Comparison of the best design with the contact of its drawn outlines."""
     equal_depth: ToothSizes | None
-    """The pair with radii of equal depth, and the window and half angles of `start`; None where it does not turn."""
+    """Pair with radii of equal depth, and the window and half angles of `start`; None if it does not turn."""
     pitch_true: ToothSizes | None
-    """The pair with pitch-true radii, and the window and half angles of `start`; None where it does not turn."""
+    """Pair with pitch-true radii, and the window and half angles of `start`; None if it does not turn."""
     front: tuple[ToothSizes, ...]
-    """With two aims, the designs that none is better than in both, from the best in the first to that in the second."""
+    """Pareto front of two objectives, from the best design in the first to the best in the second; else empty."""
     evaluations: int
-    """Designs that were looked at."""
+    """Number of designs evaluated."""
     stops: float | None
-    """The chance that the best stops, where that was limited."""
+    """Probability that the best design stops, if it was limited."""
     tried: tuple[ToothSizes, ...]
-    """Those of them that turn and keep the limits."""
+    """Evaluated designs that turn and satisfy the limits."""
 
     def _summary(self) -> str:
         aim = self.aims[0]
@@ -90,7 +91,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for the best, those by rule that turn, and those of a front: sizes and figures; angles in rad."""
+        """Table with rows for the best design, the rule-based designs that turn, and the front; angles in rad."""
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -98,12 +99,12 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Of the first and the second wheel."""
+        """Numbers of teeth of the first and the second wheel."""
         return self.best.teeth
 
     @property
     def driver(self) -> int:
-        """Which wheel drives, 1 or 2."""
+        """Number of the driving wheel, 1 or 2."""
         return self.best.driver
 
     @property
@@ -120,37 +121,37 @@ def find_tooth_sizes(
     chance: ChanceLimit | None = None,
     on_design: Callable[[], None] = lambda: None,
 ) -> BestToothSizes:
-    """The radii, the clearance and the half angle with which a pair with triangular teeth is best.
+    """Find the radii, clearance and half angle that optimise a pair with triangular teeth.
 
     Parameters
     ----------
     start : ToothSizes
-        The pair; what is not free stays as it is here.
+        Initial design; parameters that are not free keep its values.
     aims : sequence of str
-        One or two of `loss`, `error`, `impact` and `jam`; with two there is a front between them.
+        One or two of the objectives `loss`, `error`, `impact` and `jam`; two give a Pareto front.
     free : mapping of str to (float, float), optional
-        Bounds of the free parameters, of `radii`, `window`, `half_angle` [rad]; None for those of `USUAL_RANGES`. By
-        default the radii are free.
+        Bounds of the free parameters `radii`, `window`, `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By
+        default only the radii are free.
     limits : sequence of SizeLimit
-        What the design has to keep.
+        Limits on the design.
     chance : ChanceLimit, optional
-        What a pair cut with errors has to keep; with one aim only.
+        Limit on the probability that the pair with cutting errors stops; only with one objective.
     on_design : callable
-        Called at each design that is looked at.
+        Callback after each design that is evaluated.
 
     Returns
     -------
     BestToothSizes
-        The best design, confirmed by the contact of its outlines.
+        Best design, verified by the contact of its outlines.
 
     Raises
     ------
     QuestionError
-        For aims, parameters or ranges that there are not, and where no design turns and keeps the limits.
+        If an objective, parameter or range is invalid, or if no design turns and satisfies the limits.
 
     Notes
     -----
-    DIRECT (Jones, Perttunen, Stuckman 1993), polished by Brent's bounded method or by that of Nelder and Mead;
+    The search uses DIRECT (Jones, Perttunen, Stuckman 1993), then Brent's bounded method or the Nelder-Mead method;
     docs/teeth.md, section on the best sizes.
 
     Examples
@@ -164,9 +165,11 @@ def find_tooth_sizes(
     search = SizeSearch(start, ranges, limits, on_design)
     rules = [start.at({"radii": radii}) for radii in (equal_depth_radii(*start.teeth, start.half_angles), 1.0)]
     equal, true = (each if each.runs else None for each in rules)
+    # the rule-based designs are starts, so that the result is never worse than they are
     best = search.minimum(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
     if chance is not None and len(aims) == 2:
-        raise QuestionError(Problem("a front has no limit on a chance", "it would cost too much", "ask for one aim"))
+        what = "a Pareto front cannot have a limit on the probability of stopping"
+        raise QuestionError(Problem(what, "trials of all its designs would take too long", "give one objective"))
     best, stops = (best, None) if chance is None else best_within(search, aims[0], chance)
     front = search.front(*aims) if len(aims) == 2 else ()
     tried = tuple(each for each in search.designs.values() if search.keeps(each))
@@ -186,13 +189,15 @@ def find_tooth_sizes(
 
 
 def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """The ranges of what is free. Raises `QuestionError`."""
+    """Return the bounds of the free parameters; raise `QuestionError` for invalid objectives or bounds."""
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
-        what = f"'{', '.join(aims)}' is nothing to be best in"
-        raise QuestionError(Problem(what, "", f"ask for one or two of {', '.join(AIMS)}"))
+        what = f"'{', '.join(aims)}' is not an objective or two different objectives"
+        raise QuestionError(Problem(what, "", f"give one or two of {', '.join(AIMS)}"))
     if "loss" in aims and not start.friction:
-        what = "without friction every tooth loses nothing"
-        raise QuestionError(Problem(what, "", "give a friction above 0, or another aim"))
+        what = "the loss cannot be minimised without friction"
+        raise QuestionError(
+            Problem(what, "the loss of any teeth is 0", "give a friction above 0, or another objective")
+        )
     return checked_ranges(free)
 
 
@@ -201,48 +206,48 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """What the contact of two drawn outlines says of a design, beside what its law says.
+    """Figures of a design from its transmission function, compared with those from the contact of its drawn outlines.
 
     See Also
     --------
-    find_tooth_sizes : confirms its answer so.
+    find_tooth_sizes : Verifies its result in this way.
     """
 
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")
 
     loss: tuple[float, float]
-    """Loss by the law, and by the outlines."""
+    """Loss from the transmission function and from the outlines."""
     error: tuple[float, float]
-    """Error by the law, and by the outlines, in the unit of `ToothSizes`."""
+    """Error from the transmission function and from the outlines, in the unit of `ToothSizes`."""
     impact: tuple[float, float]
-    """Impact by the law, and by the outlines."""
+    """Impact from the transmission function and from the outlines."""
     backlash: tuple[float, float]
-    """Play by the law, and by the outlines, in the unit of `ToothSizes`."""
+    """Backlash from the transmission function and from the outlines, in the unit of `ToothSizes`."""
     turns: bool
-    """The outlines turn without a jam and without losing contact."""
+    """True if the outlines turn without a jam and without losing contact."""
 
     @property
     def difference(self) -> float:
-        """The greatest of the `differences`."""
+        """Maximum of the `differences`."""
         return max(self.differences.values())
 
     @property
     def differences(self) -> Mapping[str, float]:
-        """By figure, the difference of the two over the greater of them."""
+        """Relative difference of the two values of each figure."""
         pairs = {"loss": self.loss, "error": self.error, "impact": self.impact, "backlash": self.backlash}
         return {name: abs(a - b) / max(abs(a), abs(b), _NOTHING) for name, (a, b) in pairs.items()}
 
 
 def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
-    """The law of the drawn outlines of a pair, its first wheel driving."""
+    """Return the transmission function of the drawn outlines of a pair, its first wheel driving."""
     first = _outline(sizes.z1, sizes.R1, sizes.beta1, sizes.flanks[0], sizes.ring == 1)
     second = _outline(sizes.z2, sizes.R2, sizes.beta2, sizes.flanks[1], sizes.ring == 2)
-    # teeth drawn about their middles: the driven angle is counted from there, and nothing is added to the play
+    # teeth are drawn about their centre lines, so neither the angle nor the backlash has an offset
     return OutlineTransmission(OutlineGears(first, second, sizes.D, 0.0, 0.0), friction)
 
 
 def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
-    """Whether the outlines of a design that turns do what its law says."""
+    """Compare the figures of a design that turns with those from the contact of its outlines."""
     transmission = outline_transmission(design.sizes, design.friction)
     low, high = transmission.error_range()
     return OutlineAgreement(
@@ -255,7 +260,7 @@ def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
 
 
 def _mean_efficiency(transmission: OutlineTransmission) -> float:
-    """Mean over the driver's angle, in cells so small that the corner at the line of centres is in one of many."""
+    """Return the mean efficiency over the driver's angle, by Gauss quadrature in cells."""
     import numpy as np
 
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
@@ -268,7 +273,9 @@ def _mean_efficiency(transmission: OutlineTransmission) -> float:
 
 
 def _outline(z: int, R: float, beta: float, length: float, ring: bool) -> GearOutline:
-    """A wheel of teeth with straight flanks from tips at R, inwards or, of a ring, outwards."""
+    """Return the outline of a wheel with straight flanks from tips at R, inwards or, for an internal wheel,
+    outwards.
+    """
     import numpy as np
 
     from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks

@@ -1,4 +1,4 @@
-"""A design of a pair with triangular teeth, and what is asked of it: loss, error, impact, margin before a jam."""
+"""Design of a pair with triangular teeth, and its figures: loss, error, impact, margin before a jam."""
 
 from __future__ import annotations
 
@@ -19,34 +19,35 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 PARAMETERS = ("radii", "window", "half_angle")
-"""What of a design can be free; `half_angle` is that of both wheels."""
+"""Parameters of a design that can be free; `half_angle` applies to both wheels."""
 AIMS = ("loss", "error", "impact", "jam")
-"""What a design can be best in; of `jam` the margin before it is wanted large, of the others the figure small."""
+"""Objectives. The margin `jam` is maximised, the others are minimised."""
 DIGITS = 6
-"""Decimals of radii and windows in a declaration: reported figures are those of the rounded sizes."""
+"""Decimals of radii and windows in a declaration. Reported figures are computed from the rounded sizes."""
 
 
 def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> float:
-    """R2/R1 over z2/z1 of teeth of equal depth, Eq. (3) of Sorge."""
+    """Return R2/R1 divided by z2/z1 for teeth of equal depth, equation (3) of Sorge."""
     R1, R2 = equal_depth(z1, z2, *half_angles)
     return R2 / R1 * z1 / z2
 
 
 def impact_of(transmission: TransmissionFunction) -> float:
-    """The sum of (tau+ - tau-)^2 over the collisions of a pitch, over the square of the mean of tau.
+    """Return the sum of (tau+ - tau-)^2 over the impacts in a pitch, divided by the square of the mean of tau.
 
-    What the inelastic collisions of one pitch dissipate, docs/motion.md (7), over the energy of the driven side.
+    This is the energy that inelastic impacts dissipate in a pitch, docs/motion.md (7), divided by the kinetic energy of
+    the driven side.
     """
     return float(sum(leap.size**2 for leap in transmission.speed_leaps() or ())) / float(transmission.ratio) ** 2
 
 
 @dataclass(frozen=True)
 class ToothSizes(Result):
-    """A pair with triangular teeth whose radii, clearance and half angles are chosen, and its figures.
+    """Design of a pair with triangular teeth: radii, clearance and half angles, and its figures.
 
     See Also
     --------
-    find_tooth_sizes : the best of them.
+    find_tooth_sizes : Find the best design.
 
     Examples
     --------
@@ -62,22 +63,22 @@ class ToothSizes(Result):
     )
 
     teeth: tuple[int, int]
-    """Teeth of the first and the second wheel."""
+    """Numbers of teeth of the first and the second wheel."""
     radii: float
-    """Outer radius of the second wheel over that of the first, over the ratio of their teeth; 1 is pitch-true [1]."""
+    """Ratio of the tip radii R2/R1 divided by the ratio of teeth z2/z1; 1 is pitch-true [1]."""
     window: float
-    """Where the clearance lies between jamming (0) and losing contact (1) [1]."""
+    """Position of the clearance in the clearance window: 0 at the jam, 1 at the loss of contact [1]."""
     half_angles: tuple[float, float]
-    """Of both wheels [rad]."""
+    """Half angles of both wheels [rad]."""
     friction: float
     """Coefficient of friction."""
     driver: int = 1
-    """Which wheel drives."""
+    """Number of the driving wheel, 1 or 2."""
     ring: Literal[0, 1, 2] = 0
-    """Which wheel has its teeth inside; 0 for an external pair."""
+    """Number of the internal wheel, 1 or 2; 0 for an external pair."""
 
     def __post_init__(self) -> None:
-        # plain numbers, whatever was given: all that follows is scalar
+        # convert NumPy scalars to plain numbers, with which scalar code is faster
         z1, z2 = self.teeth
         first, second = self.half_angles
         object.__setattr__(self, "teeth", (int(z1), int(z2)))
@@ -86,12 +87,12 @@ class ToothSizes(Result):
             object.__setattr__(self, name, float(getattr(self, name)))
 
     def at(self, parameters: Mapping[str, float]) -> ToothSizes:
-        """The design with some parameters of `PARAMETERS` replaced.
+        """Return the design with some of `PARAMETERS` replaced.
 
         Parameters
         ----------
         parameters : mapping of str to float
-            Their values by name; angles in rad.
+            Values by name; angles in rad.
         """
         angle = parameters.get("half_angle")
         return replace(
@@ -102,12 +103,12 @@ class ToothSizes(Result):
         )
 
     def parameter(self, name: str) -> float:
-        """One of `PARAMETERS`; of two half angles the first.
+        """Return the value of one of `PARAMETERS`; for `half_angle` the half angle of the first wheel.
 
         Parameters
         ----------
         name : str
-            Which of them.
+            Name of the parameter.
         """
         return self.half_angles[0] if name == "half_angle" else float(getattr(self, name))
 
@@ -118,7 +119,7 @@ class ToothSizes(Result):
 
     @cached_property
     def limits(self) -> ClearanceWindow | None:
-        """The window of clearance; None where there are no such teeth."""
+        """Clearance window; None if such teeth do not exist."""
         try:
             return find_window(self._unplaced) if self._unplaced.has_valleys else None
         except GearTrainError:
@@ -126,7 +127,7 @@ class ToothSizes(Result):
 
     @cached_property
     def transmission(self) -> TriangularTransmission | None:
-        """The transmission function; None where no clearance lets the pair turn."""
+        """Transmission function; None if the pair does not turn at any clearance."""
         if self.limits is None or not self.limits:
             return None
         sizes = self._unplaced.at(self.limits.at(self.window))
@@ -134,7 +135,7 @@ class ToothSizes(Result):
 
     @property
     def runs(self) -> bool:
-        """True for a pair that turns, and that friction does not lock."""
+        """True if the pair turns and friction does not lock it."""
         return (
             self.transmission is not None
             and bool(self.transmission.verdict)
@@ -149,62 +150,63 @@ class ToothSizes(Result):
 
     @property
     def clearance_factor(self) -> float:
-        """Centre distance over that at which a tip touches the bottom of a space [1]."""
+        """Centre distance divided by the distance at which a tip touches the bottom of a space [1]."""
         return self.sizes.clearance_factor
 
     @cached_property
     def loss(self) -> float:
-        """1 less the mean efficiency at constant driver torque, Eq. (34) of Sorge [1]."""
+        """Loss at constant driving torque: 1 minus the mean efficiency, equation (34) of Sorge [1]."""
         assert self.transmission is not None
         return 1 - self.transmission.efficiency_mean()
 
     @cached_property
     def loss_at_constant_load(self) -> float:
-        """1 less the mean efficiency at constant load torque [1]."""
+        """Loss at constant load torque: 1 minus the mean efficiency [1]."""
         assert self.transmission is not None
         return 1 - self.transmission.efficiency_at_constant_load()
 
     @cached_property
     def error(self) -> float:
-        """Transmission error, peak to peak [rad of the driven wheel]."""
+        """Peak-to-peak transmission error [rad of the driven wheel]."""
         assert self.transmission is not None
         low, high = self.transmission.error_range()
         return high - low
 
     @cached_property
     def impact(self) -> float:
-        """What collisions dissipate in a pitch, over the kinetic energy of the driven side [1]."""
+        """Energy that impacts dissipate in a pitch, divided by the kinetic energy of the driven side [1]."""
         assert self.transmission is not None
         return impact_of(self.transmission)
 
     @cached_property
     def jam(self) -> float:
-        """The margin before a jam or a loss of contact [module]: by so much the axes may come nearer or part."""
+        """Margin before a jam or a loss of contact: permissible change of the centre distance [module]."""
         assert self.limits is not None
+        # distance to the nearer end of the window: a jam on one side, loss of contact on the other
         sizes, nearest = self.sizes, min(self.window, 1 - self.window)
         module = 2 * sizes.D / sizes.pitch_sum
         return nearest * (self.limits.run - self.limits.jam) * sizes.deepest_distance / module
 
     @property
     def window_width(self) -> float:
-        """Greatest less least clearance factor at which the pair turns [1]."""
+        """Width of the clearance window: maximum minus minimum clearance factor at which the pair turns [1]."""
         assert self.limits is not None
         return self.limits.run - self.limits.jam
 
     @property
     def backlash(self) -> float:
-        """Least play of the back flanks [rad of the driven wheel]."""
+        """Minimum backlash [rad of the driven wheel]."""
         assert self.transmission is not None
         return self.transmission.verdict.backlash
 
     @property
     def phases(self) -> str:
-        """The phases of the real path."""
+        """Phases of the path of contact."""
         assert self.transmission is not None
         return phases_of(self.transmission)
 
     def merit(self, aim: str) -> float:
-        """The figure of an aim, small where the design is good; infinite for a pair that does not turn.
+        """Return the value of an objective, to be minimised; infinite for a pair that does not turn.
 
         Parameters
         ----------
@@ -216,14 +218,14 @@ class ToothSizes(Result):
         if not self.runs:
             return inf
         found = float(getattr(self, aim))
-        return inf if isnan(found) else found
+        return inf if isnan(found) else found  # NaN would break the comparisons of the optimiser
 
 
 _FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash", "window_width", "phases")
 
 
 def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
-    """A row for each design that turns: sizes and figures by name; angles and errors in rad."""
+    """Return columns with a row for each design that turns: sizes and figures by name; angles and errors in rad."""
     names = ("radii", "window", "clearance_factor", *_FIGURES)
     angles = {f"half_angle_{at + 1}": [each.half_angles[at] for each in designs] for at in (0, 1)}
     return angles | {name: [getattr(each, name) for each in designs] for name in names}
@@ -231,17 +233,17 @@ def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
 
 @dataclass(frozen=True)
 class SizeLimit(Result):
-    """What a design has to keep: `loss`, `error`, `impact` at most, `jam`, `window_width`, `backlash` at least.
+    """Limit on a design: a maximum of `loss`, `error` or `impact`, or a minimum of `jam`, `window_width` or `backlash`.
 
     See Also
     --------
-    find_tooth_sizes : takes them.
+    find_tooth_sizes : Find the best design within limits.
     """
 
     figure: str
-    """Which figure of `ToothSizes`."""
+    """Name of the limited figure of `ToothSizes`."""
     bound: float
-    """Its limit, in the unit of the figure."""
+    """Value of the limit, in the unit of the figure."""
 
     MINIMUM = ("jam", "window_width", "backlash")
     FIGURES = ("loss", "error", "impact", *MINIMUM)
@@ -250,7 +252,7 @@ class SizeLimit(Result):
         check_choice("limit", self.figure, self.FIGURES)
 
     def excess(self, sizes: ToothSizes) -> float:
-        """By how much a design that turns misses it; 0 or less where it is kept.
+        """Return the violation of the limit by a design that turns; 0 or less if the limit is satisfied.
 
         Parameters
         ----------
@@ -262,12 +264,12 @@ class SizeLimit(Result):
 
 
 def keeps(design: ToothSizes, limits: Iterable[SizeLimit]) -> bool:
-    """Whether a design turns and keeps all limits."""
+    """Return whether a design turns and satisfies all limits."""
     return design.runs and all(limit.excess(design) <= 0 for limit in limits)
 
 
 def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
-    """Sizes as a declaration says them; `exact`: with all digits of a float."""
+    """Return the sizes as data of a declaration; `exact` keeps all digits of a float."""
     angles, lengths = ("", "") if exact else (".10g", f".{DIGITS}f")
     first, second = (f"{degrees(angle):{angles}} deg" for angle in sizes.half_angles)
     return {
@@ -279,5 +281,5 @@ def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
 
 
 def rounded(sizes: ToothSizes) -> ToothSizes:
-    """With the digits that a declaration has."""
+    """Return the sizes rounded to the digits of a declaration."""
     return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})

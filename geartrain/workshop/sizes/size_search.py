@@ -1,8 +1,9 @@
-"""The best sizes of a pair with triangular teeth: least loss, error or impact, or the widest margin, within limits.
+"""Search for the best sizes of a pair with triangular teeth: minimum loss, error or impact, or maximum margin.
 
-The figures are continuous in the sizes, but have kinks wherever the structure of the real path changes, and several
-local minima: DIRECT finds the lowest of them (`minimise`). A front between two aims holds what no design is better than
-in both: the least of the one under bounds on the other (the method of epsilon constraints), and all designs on the way.
+The figures are continuous in the sizes, but they have kinks where the structure of the path of contact changes, and
+several local minima. DIRECT finds the lowest minimum (`minimise`). The Pareto front of two objectives is found by the
+epsilon-constraint method: the first objective is minimised under bounds on the second, and all designs computed on the
+way are included.
 """
 
 from __future__ import annotations
@@ -28,21 +29,21 @@ USUAL_RANGES: Mapping[str, Range] = {
     "window": (0.1, 0.9),
     "half_angle": (pi / 12, pi / 4),
 }
-"""Where a free parameter is looked for if no bounds are given."""
+"""Default bounds of the free parameters; angles in rad."""
 
-_BEYOND = 1e3  # above every figure: designs that turn but miss a limit
-_NOTHING = 1e6  # designs that do not turn
-_FRONT = 9  # bounds on the second aim
-_WORTH = 0.005  # of a front in its second aim: how far apart its designs are
-_CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance")  # as declarations may give it
+_BEYOND = 1e3  # value above every figure, for designs that turn but violate a limit
+_NOTHING = 1e6  # value of designs that do not turn
+_FRONT = 9  # number of bounds on the second objective
+_WORTH = 0.005  # minimum distance of designs on a front, as a fraction of its range in the second objective
+_CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance")  # other keys of a declared clearance
 _WIDEST = {"radii": (0.1, 10.0), "window": (0.0, 1.0), "half_angle": (0.0, pi / 2)}
-_REQUESTED = 30  # designs that a costly limit refuses before it is given up
-_NEAR = 0.02  # of a range: designs this near to a refused one are not asked
-_HALVINGS = 5  # between the best design that is let in and one that is not
+_MOST_TRIALS = 30  # maximum number of designs evaluated for a costly limit
+_NEAR = 0.02  # of a range: designs this close to a rejected one are not evaluated
+_HALVINGS = 5  # bisections between the best accepted design and a rejected one
 
 
 class SizeSearch:
-    """Designs of one pair as points of the free parameters; each is made once, whatever is asked of it."""
+    """Designs of one pair as points of the free parameters. Each design is computed once and reused."""
 
     def __init__(
         self,
@@ -56,65 +57,67 @@ class SizeSearch:
         self.designs: dict[Point, ToothSizes] = {}
 
     def design(self, at: Point) -> ToothSizes:
-        """The design at one point."""
+        """Return the design at one point."""
         if at not in self.designs:
             self.designs[at] = self.start.at(dict(zip(self.free, at, strict=True)))
             self._on_design()
         return self.designs[at]
 
     def place(self, design: ToothSizes) -> Point:
-        """The point of a design, which may lie outside the bounds."""
+        """Return the point of a design, which may be outside the bounds."""
         return tuple(map(design.parameter, self.free))
 
     @property
     def bounds(self) -> tuple[Range, ...]:
-        """Of the free parameters, in their order."""
+        """Bounds of the free parameters, in their order."""
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Whether a design turns and keeps all limits."""
+        """Return whether a design turns and satisfies all limits."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """The figure to be made small; beyond all figures where a pair does not turn or misses a limit."""
+        """Return the objective function; designs that do not turn or violate a limit have values above all others."""
 
         def figure(at: Point) -> float:
             design = self.design(at)
             if not design.runs:
                 return _NOTHING
             missed = sum(max(limit.excess(design), 0.0) for limit in (*self.limits, *more))
+            # the violation leads the search towards feasible designs
             return _BEYOND + missed if missed > 0 else min(design.merit(aim), _NOTHING)
 
         return figure
 
     def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
-        """The best design in one aim. Raises `QuestionError` where none turns and keeps the limits."""
+        """Return the best design for one objective; raise `QuestionError` if none turns and satisfies the limits."""
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
         if self.keeps(best):
             return best
         turns = any(design.runs for design in self.designs.values())
         names = ", ".join(self.free)
-        why = "every one that turns misses a limit" if turns else "none of them turns"
+        why = "every design that turns violates a limit" if turns else "no design in the ranges turns"
         z1, z2 = self.start.teeth
-        what = f"no {names} in the ranges asked for makes a pair of {z1} and {z2} teeth that turns"
-        raise QuestionError(Problem(what, why, "widen the ranges, free more, or loosen the limits"))
+        what = f"no values of {names} in the given ranges are feasible for a pair of {z1} and {z2} teeth"
+        fix = "widen the ranges (--free NAME=LOW:HIGH), free more parameters, or relax the limits (--within)"
+        raise QuestionError(Problem(what, why, fix))
 
     def front(self, first: str, second: str) -> tuple[ToothSizes, ...]:
-        """What none is better than in both aims, from the best in the first on."""
+        """Return the Pareto front of two objectives, beginning with the best design in the first."""
         ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):
             bound = _limit(second, high + (low - high) * step / (_FRONT + 1))
             known = SampledFunction(self.value(first, [bound]), self.bounds)
             inside = [at for at, each in self.designs.items() if self.keeps(each, [bound])]
-            if inside:
+            if inside:  # the best known design within the bound is the start
                 polish(known, min(inside, key=lambda at: self.designs[at].merit(first)), rounds=1)
         return _spread(undominated([each for each in self.designs.values() if self.keeps(each)], first, second), second)
 
 
 def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
-    """The Pareto front of designs in two aims, from the best in the first to the best in the second."""
+    """Return the Pareto front of designs in two objectives, from the best in the first to the best in the second."""
     found: list[ToothSizes] = []
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
         if not found or each.merit(second) < found[-1].merit(second):
@@ -123,7 +126,7 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
 
 
 def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
-    """A front without the designs that differ by nothing worth telling from the one before; both ends are kept."""
+    """Remove designs of a front that differ negligibly from the one before; both ends are kept."""
     worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
     found = [front[0]]
     for each in front[1:-1]:
@@ -137,22 +140,22 @@ def _limit(aim: str, merit: float) -> SizeLimit:
 
 
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Bounds of what is free, the usual ones where none are given. Raises `QuestionError` for what cannot be."""
+    """Return the bounds of the free parameters, by default the usual ones; raise `QuestionError` for invalid ones."""
     found = {}
     for name, given in free.items():
         if name not in PARAMETERS:
-            what = f"'{name}' is no size of triangular teeth that can be free"
-            why = "the clearance is searched as its place in the window, which moves with the radii"
-            fix = f"free some of {', '.join(PARAMETERS)}"
+            what = f"'{name}' is not a free parameter of triangular teeth"
+            why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
+            fix = f"use some of {', '.join(PARAMETERS)}"
             raise QuestionError(Problem(what, why if name in _CLEARANCES else "", fix))
         low, high = USUAL_RANGES[name] if given is None else given
         minimum, most = _WIDEST[name]
         if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
-            what = f"'{name}' cannot lie from {low:g} to {high:g}"
-            raise QuestionError(Problem(what, "", f"give two bounds within {minimum:g} to {most:g}, the lower first"))
+            what = f"the bounds {low:g} and {high:g} of '{name}' are not valid"
+            raise QuestionError(Problem(what, "", f"give two bounds from {minimum:g} to {most:g}, the lower one first"))
         found[name] = (float(low), float(high))
     if not found:
-        raise QuestionError(Problem("nothing is free", "", f"free some of {', '.join(PARAMETERS)}"))
+        raise QuestionError(Problem("no parameter is free", "", f"free some of {', '.join(PARAMETERS)}"))
     return found
 
 
@@ -161,17 +164,17 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ChanceLimit:
-    """A limit that costs too much to be asked of every design: the chance that a pair cut with errors stops.
+    """Limit on the probability that a pair with cutting errors stops. It is too expensive to evaluate for every design.
 
     See Also
     --------
-    find_tooth_sizes : asks it of few designs, the best first.
+    find_tooth_sizes : Evaluates the limit for few designs, the best first.
     """
 
     bound: float
-    """The greatest chance that is let in, 0 to 1."""
+    """Maximum probability, 0 to 1."""
     chance: Callable[[ToothSizes], float]
-    """The chance of a design, such as of `geartrain.workshop.PairTrials`."""
+    """Function that returns the probability for a design, such as `PairTrials.stops`."""
 
 
 @dataclass(frozen=True)
@@ -180,7 +183,7 @@ class PairTrials:
 
     See Also
     --------
-    run_trials : the same of a train.
+    run_trials : Trials of a whole train.
 
     Examples
     --------
@@ -193,14 +196,14 @@ class PairTrials:
     """
 
     errors: Sequence[ErrorOverride]
-    """Of cutting and fitting; `read_error_overrides` reads them."""
+    """Errors of cutting and fitting; `read_error_overrides` reads them from text."""
     trials: int = 256
-    """How many times each pair is cut."""
+    """Number of trials of each pair."""
     seed: int = 1
-    """The same for all pairs, so that they differ by their sizes alone."""
+    """Seed of the random numbers. It is the same for all pairs, so that results differ only by the sizes."""
 
     def stops(self, sizes: ToothSizes) -> float:
-        """The share of trials in which the pair jams or clashes.
+        """Return the proportion of trials in which the pair jams or clashes.
 
         Parameters
         ----------
@@ -225,25 +228,29 @@ class PairTrials:
 
 
 def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[ToothSizes, float]:
-    """The best design whose chance is let in, and that chance: asked of the best first, none near a refused one."""
+    """Return the best design within a probability limit, and its probability.
+
+    Designs are evaluated in order of the objective, except near a rejected design.
+    """
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
     for at in known:
-        if len(refused) == _REQUESTED:
+        if len(refused) == _MOST_TRIALS:
             break
         if any(distance(at, other, search.bounds) < _NEAR for other in refused):
             continue
         if (chance := limit.chance(search.design(at))) <= limit.bound:
-            return _narrowed(search, aim, limit, at, chance, refused)
+            return _bisect_to_limit(search, aim, limit, at, chance, refused)
         refused.append(at)
-    what = f"of {len(refused)} designs none stops with a chance of {limit.bound:g} or less"
-    raise QuestionError(Problem(what, "the errors are too great for such teeth", "allow more, or cut better"))
+    what = f"all of the {len(refused)} best designs stop with a probability above {limit.bound:g}"
+    why = "the cutting errors are too large for such teeth"
+    raise QuestionError(Problem(what, why, "raise the limit (--within stops=), or give smaller errors (--set)"))
 
 
-def _narrowed(
+def _bisect_to_limit(
     search: SizeSearch, aim: str, limit: ChanceLimit, at: Point, chance: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """The limit itself, between what is let in and the refused design nearest to it: by halving."""
+    """Bisect between an accepted design and the nearest rejected one, to approach the limit."""
     if not refused:
         return search.design(at), chance
     value = search.value(aim)
@@ -261,17 +268,17 @@ def _narrowed(
 Point = tuple[float, ...]
 Function = Callable[[Point], float]
 _DIVISIONS = (45, 250, 450, 700)  # samples of DIRECT for 1, 2, 3 and 4 variables
-_BASINS = 3  # lowest samples whose surroundings are searched
-_CLOSE = 0.1  # of a range: samples nearer than this lie in one basin
-_FINE = 1e-7  # of a range: values there differ by rounding only, where a minimum is smooth
-_GAIN = 1e-5  # of the value: a round that gains less is the last
+_BASINS = 3  # number of lowest samples from which local searches start
+_CLOSE = 0.1  # of a range: samples closer than this are in one basin
+_FINE = 1e-7  # of a range: near a smooth minimum, values at this distance differ only by rounding
+_GAIN = 1e-5  # relative improvement below which the rounds end
 _ROUNDS = 5
-_STEP = 0.05  # of a range: the first simplex
+_STEP = 0.05  # size of the first simplex, as a fraction of each range
 
 
 @dataclass
 class SampledFunction:
-    """A function of points in a box, worked out once at each of them; `seen` has them all."""
+    """Function of points in a box, evaluated once at each of them; `seen` contains all values."""
 
     value: Function
     bounds: Sequence[tuple[float, float]]
@@ -284,47 +291,47 @@ class SampledFunction:
         return self.seen[at]
 
     def inside(self, x: Sequence[float] | Floats) -> Point:
-        """A point drawn into the box."""
+        """Clip a point to the box."""
         return tuple(min(max(float(each), low), high) for each, (low, high) in zip(x, self.bounds, strict=True))
 
     @property
     def best(self) -> Point:
-        """The sample with the least value."""
+        """Sample with the minimum value."""
         return min(self.seen, key=lambda at: self.seen[at])
 
 
 def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) -> float:
-    """The greatest difference of two points of a box, in ranges."""
+    """Return the maximum difference of the coordinates of two points of a box, as a fraction of each range."""
     return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, bounds, strict=True))
 
 
 def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
-    """Samples of `value` in a box, the best of which is its least value as far as is found.
+    """Minimise `value` in a box and return all samples; the best of them is the minimum found.
 
-    bounds   of each variable, low < high
-    starts   points that are tried too: the result is never worse than they are
+    bounds   limits of each variable, low < high
+    starts   further points to evaluate; the result is never worse than these
     """
     sampled = SampledFunction(value, bounds)
     for start in starts:
         sampled(start)
     lows, highs = zip(*bounds, strict=True)
-    # neither volume nor side ends it: the number of samples does
+    # only the number of samples ends the search, not the volume or the side of a cell
     number = _DIVISIONS[min(len(bounds), len(_DIVISIONS)) - 1]
-    direct(_plain(sampled), Bounds(lows, highs), maxfun=number, locally_biased=False, vol_tol=0, len_tol=0)
+    direct(_for_scipy(sampled), Bounds(lows, highs), maxfun=number, locally_biased=False, vol_tol=0, len_tol=0)
     if len(bounds) == 1:
-        for end in bounds[0]:  # neither DIRECT nor Brent looks at an end
+        for end in bounds[0]:  # neither DIRECT nor Brent's method evaluates an end
             sampled((end,))
         for low, high in _brackets(sampled):
             _search_between(sampled, low, high)
     else:
-        for start in _apart(sampled):
+        for start in _separate_basins(sampled):
             polish(sampled, start, rounds=2)
         polish(sampled, sampled.best)
     return sampled
 
 
 def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> None:
-    """Search on from one point; what is found is among the samples."""
+    """Minimise locally from one point; all evaluated points are added to the samples."""
     if len(start) == 1:
         ((low, high),) = sampled.bounds
         _search_between(sampled, start[0] - _STEP * (high - low), start[0] + _STEP * (high - low))
@@ -332,18 +339,21 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
     step, here = _STEP, start
     for turn in range(rounds):
         before = sampled(here)
-        # to the other side of the last simplex: one that has collapsed along a kink is not begun anew as it was
-        corners = [here, *(_moved(sampled, here, which, step if turn % 2 else -step) for which in range(len(here)))]
+        # alternate the sides of the simplex, so that one that collapsed along a kink is not restarted unchanged
+        corners = [
+            here,
+            *(_moved_point(sampled, here, which, step if turn % 2 else -step) for which in range(len(here))),
+        ]
         options = {"initial_simplex": np.array(corners), "maxfev": 50 * len(here), "xatol": 1e-6, "fatol": 1e-10}
-        found = minimize(_plain(sampled), np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
+        found = minimize(_for_scipy(sampled), np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
         here = min((here, sampled.inside(found.x)), key=sampled)
         if before - sampled(here) <= _GAIN * abs(before):
             break
         step /= 2
 
 
-def _plain(sampled: SampledFunction) -> Callable[[Floats], float]:
-    """The function as scipy wants it."""
+def _for_scipy(sampled: SampledFunction) -> Callable[[Floats], float]:
+    """Wrap the function in the form that scipy requires."""
 
     def value(x: Floats) -> float:
         return sampled(x)
@@ -351,8 +361,8 @@ def _plain(sampled: SampledFunction) -> Callable[[Floats], float]:
     return value
 
 
-def _apart(sampled: SampledFunction) -> list[Point]:
-    """The lowest samples, none near another."""
+def _separate_basins(sampled: SampledFunction) -> list[Point]:
+    """Return the lowest samples, of which no two are close to each other."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
         if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):
@@ -363,7 +373,7 @@ def _apart(sampled: SampledFunction) -> list[Point]:
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
-    """The neighbours of the lowest local minima among the samples of one variable."""
+    """Return the neighbours of the lowest local minima among the samples of one variable."""
     places = sorted(at[0] for at in sampled.seen)
     values = [sampled.seen[at,] for at in places]
     around = [inf, *values, inf]
@@ -373,7 +383,7 @@ def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
 
 
 def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
-    """Brent's bounded method."""
+    """Minimise in an interval by Brent's bounded method."""
     first, last = sampled.bounds[0]
     low, high = max(low, first), min(high, last)
     if high > low:
@@ -381,8 +391,8 @@ def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
         minimize_scalar(lambda x: sampled((x,)), bounds=(low, high), method="bounded", options={"xatol": tolerance})
 
 
-def _moved(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
-    """A point moved along one variable by a part of its range, to the side where there is room."""
+def _moved_point(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
+    """Return a point moved along one variable by a fraction of its range, in the direction that stays in the box."""
     low, high = sampled.bounds[which]
     by = step * (high - low)
     place = at[which] + by if low <= at[which] + by <= high else at[which] - by

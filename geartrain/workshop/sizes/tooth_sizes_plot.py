@@ -1,4 +1,6 @@
-"""The best sizes of triangular teeth: of a pair among all designs looked at, of a train by what each pair gains."""
+"""Plots of the best sizes of triangular teeth: all evaluated designs of a pair, and the improvement of each pair of a
+train.
+"""
 
 from __future__ import annotations
 
@@ -35,14 +37,14 @@ _LABELS = {
     "error": "error, peak to peak (deg)",
     "impact": "impact",
     "jam": "margin (modules)",
-    "radii": "R2/R1 over z2/z1",
+    "radii": "(R2/R1) / (z2/z1)",
     "window": "window",
     "half_angle": "half angle (deg)",
 }
 _OPEN: dict[str, Any] = {"markerfacecolor": WHITE, "markeredgewidth": 1.6}
-_PAIR_MARKS: tuple[tuple[str, str, dict[str, Any]], ...] = (  # one within the other where they are at one place
+_PAIR_MARKS: tuple[tuple[str, str, dict[str, Any]], ...] = (  # of decreasing size, so that all remain visible
     ("as declared", "declared", {"marker": "s", "markersize": 12, "color": BLACK, **_OPEN}),
-    ("best by itself", "apart", {"marker": "o", "markersize": 8.5, "color": BLUE, **_OPEN}),
+    ("best separately", "apart", {"marker": "o", "markersize": 8.5, "color": BLUE, **_OPEN}),
     ("best for the train", "together", {"marker": "*", "markersize": 6, "color": RED}),
 )
 _DESIGN_MARKS: dict[str, dict[str, Any]] = {
@@ -50,23 +52,23 @@ _DESIGN_MARKS: dict[str, dict[str, Any]] = {
     "pitch-true": {"marker": "D", "markersize": 8, "color": GREEN, **_OPEN},
     "best": {"marker": "*", "markersize": 8, "color": RED},
 }
-_MARGIN = 0.08  # of what is shown
-_WORST = 4.0  # times the better of the designs by rule: worse ones are beyond the rim
+_MARGIN = 0.08  # of the range shown
+_WORST = 4.0  # multiple of the best value up to which designs are shown
 
 
 def tooth_sizes_figure(found: BestToothSizes) -> Figure:
-    """The best sizes of a pair with triangular teeth among all that were looked at.
+    """Draw the best sizes of a pair with triangular teeth among all evaluated designs.
 
     Parameters
     ----------
     found : BestToothSizes
-        What `geartrain.workshop.find_tooth_sizes` gives.
+        Result of `geartrain.workshop.find_tooth_sizes`.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Of one aim a panel for each free size; of two the Pareto front between them, alone and among all designs. Radii
-        of equal depth and pitch-true ones are marked.
+        For one objective, a panel for each free size. For two, the Pareto front, by itself and among all designs. Radii
+        of equal depth and pitch-true radii are marked.
 
     Examples
     --------
@@ -83,7 +85,7 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
 
 
 def _aim_figure(found: BestToothSizes) -> Figure:
-    """A panel for each free size."""
+    """Draw a panel for each free size."""
     names = list(found.free)
     figure, panels = curve_panels([3.2] * len(names), share=False)
     for axes, name in zip(panels, names, strict=True):
@@ -93,18 +95,18 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """What each pair of a train gains by the best sizes of its teeth, the worst as declared on top.
+    """Draw the improvement of each pair of a train by the best sizes of its teeth, the worst declared pair at the top.
 
     Parameters
     ----------
     found : BestTrainSizes
-        What `geartrain.workshop.find_train_sizes` gives.
+        Result of `geartrain.workshop.find_train_sizes`.
 
     Returns
     -------
     matplotlib.figure.Figure
-        A line for each pair from its figure as declared to the one with which the train is best; the title has the
-        train's own figure before and after.
+        Figure with a line for each pair from its declared value to the value that is best for the train; the title
+        gives the figure of the train before and after.
 
     Examples
     --------
@@ -132,15 +134,17 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """`pennestri-2002-teeth to 19: loss (%) 46.9 as declared, 15.7 at best`."""
+    """Format the figure of the train before and after: `pennestri-2002-teeth to 19: loss (%) 46.9 as declared, 15.7 at
+    best`.
+    """
     before, after = (
         "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)
     )
-    return f"{found.train} to {found.output}: {_LABELS[found.aim]} {before} as declared, {after} at best"
+    return f"{found.train} to {found.output}: {_LABELS[found.aim]} {before} as declared, {after} optimised"
 
 
 def _front_figure(found: BestToothSizes) -> Figure:
-    """The front alone, and where it stands among all designs."""
+    """Draw the front by itself, and among all designs."""
     first, second = found.aims
     figure = Figure(figsize=(WIDTH, 0.5 * WIDTH), layout="constrained")
     near, far = figure.subplots(1, 2)
@@ -159,13 +163,13 @@ def _front_figure(found: BestToothSizes) -> Figure:
 
 
 def _key(figure: Figure, axes: Axes) -> None:
-    """What the marks are, below all panels: within one there are designs everywhere."""
+    """Add the legend of the marks below all panels, because designs cover every panel."""
     handles, _ = axes.get_legend_handles_labels()
     legend_below(figure, len(handles), handles)
 
 
 def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
-    """Designs as points, the best and those by rule marked."""
+    """Draw designs as points, and mark the best and the rule-based ones."""
     plain(axes)
     order = sorted(found.tried, key=lambda each: _shown(each, across))
     x, y = ([_shown(each, name) for each in order] for name in (across, up))
@@ -183,7 +187,9 @@ def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
 
 
 def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
-    """What is shown of an aim: from its least to what is worth a look, the designs by rule included."""
+    """Return the axis limits of an objective, from its minimum to the largest relevant value, with the rule-based
+    designs.
+    """
     values = sorted(_shown(each, name) for each in found.tried)
     marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
     low, high = min(values[0], *marked), max((*marked, min(values[-1], _WORST * max(values[0], 1e-12))))
@@ -192,7 +198,7 @@ def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
 
 
 def _shown(design: ToothSizes, name: str) -> float:
-    """A size or a figure in the unit of its axis."""
+    """Return a size or a figure in the unit of its axis."""
     value = design.parameter(name) if name in ("radii", "window", "half_angle") else float(getattr(design, name))
     return _in_units(value, name)
 

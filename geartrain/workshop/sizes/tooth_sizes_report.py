@@ -1,4 +1,4 @@
-"""Pages on the best sizes of triangular teeth: of one pair, and of a train."""
+"""Reports on the best sizes of triangular teeth of a pair and of a train."""
 
 from __future__ import annotations
 
@@ -14,31 +14,32 @@ if TYPE_CHECKING:
     from geartrain.workshop.sizes.train_size_search import BestTrainSizes, PairSizes
 
 AIM_WORDS: Mapping[str, str] = {
-    "loss": "least loss",
-    "error": "least transmission error",
-    "impact": "least impact",
-    "jam": "widest margin before a jam",
+    "loss": "minimum loss",
+    "error": "minimum transmission error",
+    "impact": "minimum impact",
+    "jam": "maximum margin before a jam",
 }
 _HEADER = ("sizes", "radii", "window", "half angle (deg)", "loss", "error p-p", "impact", "margin", "phases")
 _WORDS = (
-    "Radii: R2/R1 over z2/z1. Loss: 1 less the mean efficiency at constant driver torque. Error: transmission error of "
-    "the driven wheel, peak to peak. Impact: what the collisions of a pitch dissipate, over the kinetic energy of the "
-    "driven side. Margin: by how many modules the axes may come nearer or part before the teeth jam or lose each other."
+    "Radii: R2/R1 divided by z2/z1. Loss: 1 minus the mean efficiency at constant driving torque. Error: transmission "
+    "error of the driven wheel, peak to peak. Impact: energy dissipated by impacts in a pitch, divided by the kinetic "
+    "energy of the driven side. Margin: change of the centre distance, in modules, at which the teeth jam or lose "
+    "contact."
 )
 
 
 def describe_tooth_sizes(found: BestToothSizes) -> Document:
-    """A page on the best sizes of a pair with triangular teeth.
+    """Build the report on the best sizes of a pair with triangular teeth.
 
     Parameters
     ----------
     found : BestToothSizes
-        What `geartrain.workshop.find_tooth_sizes` gives.
+        Result of `geartrain.workshop.find_tooth_sizes`.
 
     Returns
     -------
     Document
-        The best sizes beside the radii by rule, what the contact of their outlines says, and a front of two aims.
+        Report with the best sizes and rule-based ones, the comparison with the outlines, and a front of two objectives.
 
     Examples
     --------
@@ -47,14 +48,14 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
     >>> start = ToothSizes((48, 96), 1.0, 0.5, (pi / 6, pi / 6), 0.2)
     >>> page = describe_tooth_sizes(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
     >>> page.title, [section.title for section in page.sections]
-    ('Triangular teeth 48/96: least loss', ['Sizes', 'By the outlines'])
+    ('Triangular teeth 48/96: minimum loss', ['Sizes', 'Contact of the outlines'])
     """
     aims = " and ".join(AIM_WORDS[aim] for aim in found.aims)
     z1, z2 = found.teeth
     summary = [
-        f"The wheel of {found.teeth[found.driver - 1]} drives the wheel of {found.teeth[2 - found.driver]}; friction "
-        f"{found.friction:g}. Free: {free_text(found.free)}.{_limits_text(found.limits)}{_stops_text(found)} "
-        f"{found.evaluations} designs were looked at.",
+        f"The wheel of {found.teeth[found.driver - 1]} teeth drives the wheel of {found.teeth[2 - found.driver]} "
+        f"teeth; coefficient of friction {found.friction:g}. Free parameters: {free_text(found.free)}."
+        f"{_limits_text(found.limits)}{_stops_text(found)} Designs evaluated: {found.evaluations}.",
         sizes_text(found.best),
     ]
     sections = [Section("Sizes", (_WORDS,), (Table(_HEADER, list(_rows(found))),)), _agreement(found.outlines)]
@@ -64,17 +65,17 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
 
 
 def describe_train_sizes(found: BestTrainSizes) -> Document:
-    """A page on the best sizes of the triangular teeth of a train.
+    """Build the report on the best sizes of the triangular teeth of a train.
 
     Parameters
     ----------
     found : BestTrainSizes
-        What `geartrain.workshop.find_train_sizes` gives.
+        Result of `geartrain.workshop.find_train_sizes`.
 
     Returns
     -------
     Document
-        What was gained, pair by pair and together; the sizes of each pair before and after.
+        Report with the improvement, separately and together, and the sizes of each pair before and after.
 
     Examples
     --------
@@ -83,31 +84,34 @@ def describe_train_sizes(found: BestTrainSizes) -> Document:
     >>> train = geartrain.load("moon-triangular")
     >>> page = describe_train_sizes(find_train_sizes(train, "moon", "jam", {"window": (0.3, 0.7)}))
     >>> page.title, [section.title for section in page.sections]
-    ('moon-triangular: widest margin before a jam at moon', ['What is gained', 'Pairs'])
+    ('moon-triangular: maximum margin before a jam at moon', ['Improvement', 'Pairs'])
     """
     aim = found.aim
     rows = [
-        (name, "does not run" if each is None else told(aim, each), *_efficiency(aim, each))
+        (name, "does not run" if each is None else figure_text(aim, each), *_efficiency(aim, each))
         for name, each in (
             ("as declared", found.before),
-            ("pair by pair", found.apart),
-            ("together", found.together),
+            ("optimised separately", found.apart),
+            ("optimised together", found.together),
         )
     ]
     header = ("sizes", _TRAIN_FIGURES[aim], *(("efficiency",) if aim == "loss" else ()))
-    sections = [Section("What is gained", (), (Table(header, rows),)), _pairs(found)]
+    sections = [Section("Improvement", (), (Table(header, rows),)), _pairs_section(found)]
     if found.untouched:
         reasons: dict[str, list[str]] = {}
         for name, reason in found.untouched.items():
             reasons.setdefault(reason, []).append(name)
         rows = [(reason, ", ".join(names)) for reason, names in reasons.items()]
-        sections.append(Section("Left as they are", (), (Table(("why", "pairs"), rows),)))
+        sections.append(Section("Unchanged pairs", (), (Table(("reason", "pairs"), rows),)))
     shared = ""
     if "half_angle" in found.free:
-        shared = " Pairs that share a wheel have one half angle; it stays as declared where a mate is not sized."
+        shared = (
+            " Pairs with a common wheel have the same half angle. It remains as declared if one of them is not "
+            "optimised."
+        )
     summary = [
-        f"Power enters at '{found.source}'. Free: {free_text(found.free)}.{_limits_text(found.limits)} Each pair is "
-        f"sized by itself, then all together by the figure of the train.{shared}",
+        f"Power enters at '{found.source}'. Free parameters: {free_text(found.free)}.{_limits_text(found.limits)} Each "
+        f"pair is optimised separately, then all pairs together for the whole train.{shared}",
     ]
     return Document(f"{found.train}: {AIM_WORDS[aim]} at {found.output}", summary, sections)
 
@@ -116,7 +120,7 @@ _TRAIN_FIGURES = {
     "loss": "loss of the train",
     "error": "error of the output, p-p",
     "impact": "sum of impacts",
-    "jam": "least margin",
+    "jam": "minimum margin",
 }
 
 
@@ -126,15 +130,18 @@ def _efficiency(aim: str, loss: float | None) -> tuple[str, ...]:
     return ("-",) if loss is None else (f"{1 - loss:.6f}",)
 
 
-def _pairs(found: BestTrainSizes) -> Section:
-    """Each pair before and after; windows and half angles where they are free."""
+def _pairs_section(found: BestTrainSizes) -> Section:
+    """Return the section with each pair before and after; windows and half angles only if they are free."""
     sizes = [("radii", "radii"), *((name, name.replace("_", " ")) for name in found.free if name != "radii")]
     header = ["pair", "drives", "teeth"]
     for _, words in sizes:
-        header += [f"{words} as declared", "by itself", "together"]
-    header += [f"{found.aim} as declared", "by itself", "together", "by outlines"]
+        header += [f"{words} as declared", "separately", "together"]
+    header += [f"{found.aim} as declared", "separately", "together", "outline difference"]
     rows = [_pair_row(pair, [name for name, _ in sizes], found.aim) for pair in found.pairs]
-    text = f"{_WORDS} The last column: how far the contact of the drawn outlines differs from the law, relatively."
+    text = (
+        f"{_WORDS} Outline difference: relative difference between the contact of the drawn outlines and the "
+        "transmission function."
+    )
     return Section("Pairs", (text,), (Table(header, rows, True),))
 
 
@@ -143,17 +150,17 @@ def _pair_row(pair: PairSizes, sizes: Sequence[str], aim: str) -> tuple[str, ...
     cells: list[str] = []
     for name in sizes:
         cells += ["-" if each is None else _size(name, each.parameter(name)) for each in designs]
-    cells += ["-" if each is None else told(aim, getattr(each, aim)) for each in designs]
+    cells += ["-" if each is None else figure_text(aim, getattr(each, aim)) for each in designs]
     agreed = f"{pair.outlines.difference:.1g}" if pair.outlines.turns else "does not turn"
     return (pair.name, pair.driver, f"{pair.teeth[0]}/{pair.teeth[1]}", *cells, agreed)
 
 
 def _size(name: str, value: float) -> str:
-    return told(name, value) if name == "half_angle" else f"{value:.5f}"
+    return figure_text(name, value) if name == "half_angle" else f"{value:.5f}"
 
 
-def told(figure: str, value: float) -> str:
-    """A figure of a design with its unit."""
+def figure_text(figure: str, value: float) -> str:
+    """Format a figure of a design with its unit."""
     if figure == "loss":
         return f"{100 * value:.4f} %"
     if figure in ("error", "backlash", "half_angle"):
@@ -162,7 +169,7 @@ def told(figure: str, value: float) -> str:
 
 
 def sizes_text(sizes: ToothSizes) -> str:
-    """The sizes as a declaration says them."""
+    """Format the sizes as in a declaration."""
     angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(sizes.half_angles))
     angle = angles if "," not in angles else f"[{angles}]"
     return (
@@ -171,7 +178,7 @@ def sizes_text(sizes: ToothSizes) -> str:
 
 
 def free_text(free: Mapping[str, tuple[float, float]]) -> str:
-    """What is free, with its bounds."""
+    """Format the free parameters with their bounds."""
     parts = []
     for name, (low, high) in free.items():
         unit = (degrees(low), degrees(high), " deg") if name == "half_angle" else (low, high, "")
@@ -182,17 +189,17 @@ def free_text(free: Mapping[str, tuple[float, float]]) -> str:
 def _limits_text(limits: Sequence[SizeLimit]) -> str:
     if not limits:
         return ""
-    parts = [
-        f"{limit.figure} at {'least' if limit.figure in limit.MINIMUM else 'most'} {told(limit.figure, limit.bound)}"
-        for limit in limits
-    ]
-    return f" Within: {', '.join(parts)}."
+    parts = []
+    for limit in limits:
+        side = "at least" if limit.figure in limit.MINIMUM else "at most"
+        parts.append(f"{limit.figure} {side} {figure_text(limit.figure, limit.bound)}")
+    return f" Limits: {', '.join(parts)}."
 
 
 def _stops_text(found: BestToothSizes) -> str:
     if found.stops is None:
         return ""
-    return f" Cut with the errors given, the best jams or clashes in {100 * found.stops:.3g} % of the trials."
+    return f" With the given errors, the best design jams or clashes in {100 * found.stops:.3g} % of the trials."
 
 
 def _rows(found: BestToothSizes) -> Iterator[Sequence[str]]:
@@ -203,30 +210,32 @@ def _rows(found: BestToothSizes) -> Iterator[Sequence[str]]:
 
 def _row(name: str, sizes: ToothSizes) -> tuple[str, ...]:
     angles = ", ".join(f"{degrees(angle):.5g}" for angle in dict.fromkeys(sizes.half_angles))
-    figures = (told(figure, getattr(sizes, figure)) for figure in ("loss", "error", "impact", "jam"))
+    figures = (figure_text(figure, getattr(sizes, figure)) for figure in ("loss", "error", "impact", "jam"))
     return (name, f"{sizes.radii:.5f}", f"{sizes.window:.4f}", angles, *figures, sizes.phases)
 
 
 def _agreement(found: OutlineAgreement) -> Section:
     text = (
-        "The contact of the drawn outlines, which knows nothing of the law: the wheels "
-        f"{'turn' if found.turns else 'do not turn'}; the greatest relative difference is {found.difference:.2g}."
+        "Comparison with the contact of the drawn outlines, which is computed independently of the transmission "
+        f"function. The wheels {'turn' if found.turns else 'do not turn'}. The maximum relative difference is "
+        f"{found.difference:.2g}."
     )
     rows = [
-        (name, *(told(name, each) for each in getattr(found, name)), f"{off:.2g}")
+        (name, *(figure_text(name, each) for each in getattr(found, name)), f"{off:.2g}")
         for name, off in found.differences.items()
     ]
-    return Section("By the outlines", (text,), (Table(("figure", "law", "outlines", "relative difference"), rows),))
+    header = ("figure", "transmission function", "outlines", "relative difference")
+    return Section("Contact of the outlines", (text,), (Table(header, rows),))
 
 
 def _front(found: BestToothSizes) -> Section:
-    """Some ten designs of the front, spread over it."""
+    """Return the section with about ten designs distributed over the front."""
     most, front = 12, found.front
     chosen = front if len(front) <= most else [front[round(k * (len(front) - 1) / (most - 1))] for k in range(most)]
     rows = [_row(str(at + 1), each) for at, each in enumerate(chosen)]
     first, second = found.aims
     text = (
-        f"No design found is better than one of these in both {first} and {second}: {len(front)} in all, of which "
-        f"{len(rows)} are shown."
+        f"Designs that no other design found surpasses in both {first} and {second}. {len(rows)} of {len(front)} are "
+        "shown."
     )
     return Section("Pareto front", (text,), (Table(_HEADER, rows),))

@@ -1,9 +1,9 @@
-"""The best sizes of the triangular teeth of a whole train: pair by pair, then together where pairs act on each other.
+"""Optimisation of the triangular teeth of a whole train: pair by pair, then together if pairs interact.
 
-Power to an output, and the error that reaches it, pass through some pairs only, and these are given the sizes that are
-best for each by itself. What counts is the train's own figure, its loss from input to output or the error of a pointer:
-from the better of the declared sizes and those of the pairs by themselves, coordinate descent changes one size of one
-pair after the other until the figure gains nothing more, so that it is never worse than pair by pair.
+Power flows to an output through some pairs only, and the same is true of errors. These pairs first get the sizes that
+are best for each separately. The objective is a figure of the train: its loss from input to output, or the error of a
+pointer. Coordinate descent starts from the better of the declared sizes and the separate optima. It changes one size of
+one pair after the other until the improvement is negligible, so the result is never worse than the separate optima.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from geartrain.workshop.sizes.size_search import Range, SizeSearch, checked_rang
 
 OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
-"""Of the input, over which the error of a pointer is followed; its extremes do not depend on the positions."""
+"""Turns of the input and positions for the error of a pointer. Its extremes do not depend on the positions."""
 
-_REACH = 0.03  # of a range: how far one step of the descent looks
-_TRIES = 8  # figures of the train in one step of the descent
+_REACH = 0.03  # half width of one step of the descent, as a fraction of the range
+_TRIES = 8  # maximum evaluations of the train in one step of the descent
 _SWEEPS = 4
-_GAIN = 1e-3  # of the figure: a sweep that gains less is the last
-_SCAN = 7  # half angles that are tried first
-_ANGLE_TRIES, _NEAR = 8, 1e-3  # of Brent's method between the neighbours of the best of them; its tolerance (rad)
+_GAIN = 1e-3  # relative improvement below which the sweeps end
+_SCAN = 7  # number of half angles in the first scan
+_ANGLE_TRIES, _NEAR = 8, 1e-3  # iterations and tolerance (rad) of Brent's method around the best of them
 
 
 def find_train_sizes(
@@ -49,39 +49,40 @@ def find_train_sizes(
     state: str | None = None,
     on_step: OnStep = lambda: None,
 ) -> BestTrainSizes:
-    """The sizes of triangular teeth with which a train loses least on the way to an output, or errs least there.
+    """Find the sizes of triangular teeth that minimise the loss of a train up to an output, or the error there.
 
     Parameters
     ----------
     train : GearTrain
-        With triangular teeth on some pairs.
+        Train with triangular teeth on some pairs.
     output : str
-        An output or a link.
+        Name of an output or a link.
     aim : str
-        `loss` or `error` of the train at the output; `impact`, the sum over the pairs on the way, or `jam`, their least
-        margin.
+        Objective: `loss` or `error` of the train at the output; `impact`, the sum over the pairs on the way; or `jam`,
+        their minimum margin.
     free : mapping of str to (float, float), optional
-        As in `find_tooth_sizes`; pairs that share wheels have one half angle, free where all of them are sized.
+        Bounds as in `find_tooth_sizes`. Pairs with common wheels have a common half angle, which is free if all of them
+        are sized.
     limits : sequence of SizeLimit
-        What each pair has to keep.
+        Limits for each pair.
     state : str, optional
-        A declared state, by default the first.
+        Name of a declared state, by default the first.
     on_step : callable
-        Called at each figure of the train, and at each pair that is done by itself.
+        Callback after each evaluation of the train, and after each pair that is optimised separately.
 
     Returns
     -------
     BestTrainSizes
-        With a declaration that extends the train.
+        Sizes before and after, with a declaration that extends the train.
 
     Raises
     ------
     QuestionError
-        Where no pair with triangular teeth acts on the output, or no sizes turn.
+        If no pair with triangular teeth acts on the output, or no sizes turn.
 
     Notes
     -----
-    Each pair by `find_tooth_sizes`, then coordinate descent on the train's own figure; docs/teeth.md, section 12.
+    Each pair is optimised by `find_tooth_sizes`, then the train by coordinate descent; docs/teeth.md, section 12.
 
     Examples
     --------
@@ -91,12 +92,12 @@ def find_train_sizes(
     (True, [0.5, 0.5, 0.5, 0.5])
     """
     if aim not in AIMS:
-        raise QuestionError(Problem(f"'{aim}' is nothing to be best in", "", f"ask for one of {', '.join(AIMS)}"))
+        raise QuestionError(Problem(f"'{aim}' is not an objective", "", f"use one of {', '.join(AIMS)}"))
     return TrainSizeSearch(train, output, aim, free, limits, state, on_step).found()
 
 
 class TrainSizeSearch:
-    """The sizes of the pairs of one train that act on one output."""
+    """Search for the sizes of the pairs of one train that act on one output."""
 
     def __init__(
         self,
@@ -116,21 +117,21 @@ class TrainSizeSearch:
         declared = case.outputs.get(output)
         self.link = output if declared is None else declared.of or output
         check_choice("link", self.link, tuple(train.declaration.links))
-        self._done: dict[Any, ToothSizes] = {}  # the best sizes of a pair by itself, for others like it
+        self._done: dict[Any, ToothSizes] = {}  # cache, because equal pairs have equal separate optima
 
     @property
-    def _acting(self) -> bool:
-        """Whether pairs act on each other in what is asked for: what passes through one passes through the next."""
+    def _is_joint(self) -> bool:
+        """True if the objective depends on the pairs jointly, because each pair passes on what it receives."""
         return self.aim in ("loss", "error")
 
     # -------------------------------------------------------------------------------------------------- which pairs
 
     @cached_property
     def _drivers(self) -> Mapping[str, str]:
-        """The pairs that act on the output, and the wheel that drives each on the way there."""
+        """Pairs that act on the output, with the wheel that drives each of them."""
         meshes = {mesh.name: mesh for mesh in self._all_meshes}
         if self.aim == "loss":
-            # without losses: teeth that do not turn as they are declared still tell where the power goes
+            # ideal teeth are used, because declared teeth that do not turn would give no power flow
             pairs = self._ideal.driven(self.link, self.source, self.state).pairs
             return {name: pair.driver for name, pair in pairs.items() if name in meshes and pair.driver}
         moved = self._ideal.motion(self.state, (self.output,)).sensitivity[self.output]
@@ -138,8 +139,8 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """The train with every pair at the middle of its window, where it has one."""
-        return self._with({name: each for name, each in self._starts.items() if each.runs})
+        """Train with every pair in the middle of its clearance window, if it has one."""
+        return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
     def _all_meshes(self) -> tuple[GearMesh, ...]:
@@ -155,16 +156,16 @@ class TrainSizeSearch:
 
     @cached_property
     def _requested(self) -> tuple[str, ...]:
-        """The pairs whose sizes are looked for."""
+        """Pairs whose sizes are optimised."""
         found = tuple(name for name in self._meshes if name in self._drivers)
         if not found:
             what = f"no pair with triangular teeth acts on '{self.output}'"
-            raise QuestionError(
-                Problem(what, "", "ask for another output, or declare `tooth_form: {form: triangular}`")
-            )
+            why = "only pairs between the input and the output influence it, and only triangular teeth have free sizes"
+            fix = "give another --output, or declare `tooth_form: {form: triangular}`"
+            raise QuestionError(Problem(what, why, fix))
         return found
 
-    def _untouched(self) -> Iterator[tuple[str, str]]:
+    def _unchanged(self) -> Iterator[tuple[str, str]]:
         for mesh in self._all_meshes:
             if mesh.name not in self._drivers:
                 yield mesh.name, f"not on the way to '{self.output}'"
@@ -174,21 +175,25 @@ class TrainSizeSearch:
                 yield mesh.name, "declared in lengths"
 
     @cached_property
-    def _one_angle(self) -> tuple[tuple[str, ...], ...]:
-        """Pairs that share wheels, and so one half angle, where that is free and all of them are sized."""
+    def _common_angle_groups(self) -> tuple[tuple[str, ...], ...]:
+        """Groups of pairs with common wheels, hence one half angle, if it is free and all of them are sized."""
         if "half_angle" not in self.free:
             return ()
         wheels = {mesh.name: tuple(mesh.gear.pair) for mesh in self._all_meshes}
         return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """What is free of one pair by itself: not the half angle of a wheel that has another mate."""
-        return {size: each for size, each in self.free.items() if size != "half_angle" or (name,) in self._one_angle}
+        """Return the free parameters of one pair; the half angle is not free if a wheel has a second mate."""
+        return {
+            size: each
+            for size, each in self.free.items()
+            if size != "half_angle" or (name,) in self._common_angle_groups
+        }
 
     # ----------------------------------------------------------------------------------------------- what is compared
 
-    def _with(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
-        """The train with other sizes of some pairs."""
+    def _resized(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
+        """Return the train with other sizes of some pairs."""
         declared = self.train.declaration
         gears = tuple(
             gear.model_copy(update={"tooth_form": as_form(sizes[gear.name])}) if gear.name in sizes else gear
@@ -197,13 +202,13 @@ class TrainSizeSearch:
         return GearTrain(declared.model_copy(update={"gears": gears}))
 
     def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
-        """What the train is judged by, small where it is good; infinite where it does not run."""
+        """Return the objective of the train, to be minimised; infinite if it does not run."""
         self._on_step()
-        if not self._acting:
+        if not self._is_joint:
             each = [sizes[name].merit(self.aim) for name in self._requested]
             return max(each) if self.aim == "jam" else sum(each)
         try:
-            return self._loss(self._with(sizes)) if self.aim == "loss" else self._error(self._with(sizes))
+            return self._loss(self._resized(sizes)) if self.aim == "loss" else self._error(self._resized(sizes))
         except GearTrainError:
             return inf
 
@@ -220,17 +225,19 @@ class TrainSizeSearch:
     # ------------------------------------------------------------------------------------------------------ the search
 
     def found(self) -> BestTrainSizes:
-        """Pair by pair, then together."""
+        """Optimise the pairs separately, then together."""
         before = {name: self._starts[name] for name in self._requested}
         runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._requested}
-        first = self.figure({}) if all(runs.values()) and self._acting else self.figure(before)
-        apart = self._apart()
+        first = self.figure({}) if all(runs.values()) and self._is_joint else self.figure(before)
+        apart = self._separate_optima()
         alone = self.figure(apart)
-        best, together = (first, before) if first < alone and self._acting else (alone, apart)
+        # pairs that are best separately need not be best together
+        best, together = (first, before) if first < alone and self._is_joint else (alone, apart)
         if best == inf:
-            what = f"'{self.train.name}' passes nothing on to '{self.output}', whatever its teeth"
-            raise QuestionError(Problem(what, "no sizes of its pairs let it run", "see `geartrain torques` of it"))
-        if self._acting:
+            what = f"'{self.train.name}' cannot drive '{self.output}' with any sizes of its teeth"
+            why = "the train does not run with any sizes in the ranges"
+            raise QuestionError(Problem(what, why, f"see `geartrain torques {self.train.name}` for the cause"))
+        if self._is_joint:
             best, together = self._descend(best, dict(together))
         outlines = {name: confirm_by_outlines(each) for name, each in together.items()}
         pairs = tuple(
@@ -249,21 +256,21 @@ class TrainSizeSearch:
             sign * alone,
             sign * best,
             pairs,
-            dict(self._untouched()),
+            dict(self._unchanged()),
             self._declaration(together),
         )
 
-    def _apart(self) -> dict[str, ToothSizes]:
-        """The best sizes of every pair by itself; of pairs that share wheels those at their best half angle."""
-        found = {name: self._alone(name) for name in self._requested}
-        for group in self._one_angle:
+    def _separate_optima(self) -> dict[str, ToothSizes]:
+        """Return the best sizes of every pair separately; pairs with common wheels at their best common half angle."""
+        found = {name: self._separate_optimum(name) for name in self._requested}
+        for group in self._common_angle_groups:
             if len(group) > 1:
                 start, bounds = {name: found[name] for name in group}, self.free["half_angle"]
-                found |= best_shared_angle(start, self._alone, bounds, self.aim, self.limits)
+                found |= best_shared_angle(start, self._separate_optimum, bounds, self.aim, self.limits)
         return found
 
-    def _alone(self, name: str, half_angle: float | None = None) -> ToothSizes:
-        """The best sizes of one pair by itself, with the digits of a declaration."""
+    def _separate_optimum(self, name: str, half_angle: float | None = None) -> ToothSizes:
+        """Return the best sizes of one pair separately, rounded to the digits of a declaration."""
         start, free = self._starts[name], self._free_of(name)
         driver = 1 + self._meshes[name].gear.pair.index(self._drivers[name])
         start = replace(start if half_angle is None else start.at({"half_angle": half_angle}), driver=driver)
@@ -275,8 +282,8 @@ class TrainSizeSearch:
         return self._done[key]
 
     def _descend(self, best: float, sizes: dict[str, ToothSizes]) -> tuple[float, dict[str, ToothSizes]]:
-        """Coordinate descent on the figure of the train."""
-        alike = [group for group in self._one_angle if len(group) > 1]
+        """Minimise the objective of the train by coordinate descent."""
+        alike = [group for group in self._common_angle_groups if len(group) > 1]
         steps: list[tuple[tuple[str, ...], str]] = [
             ((name,), size) for name in self._requested for size in self._free_of(name)
         ]
@@ -289,13 +296,13 @@ class TrainSizeSearch:
                 sizes |= better
             if before - best <= _GAIN * before:
                 break
-            reach /= 2
+            reach /= 2  # the changes of the sizes decrease from sweep to sweep
         return best, sizes
 
     def _step(
         self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
     ) -> tuple[float, dict[str, ToothSizes]]:
-        """The best value of one size of one pair, or of pairs alike, near where it is: by Brent's bounded method."""
+        """Optimise one size of one pair, or of pairs with a common size, near its value by Brent's bounded method."""
         lowest, highest = self.free[size]
         here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
         found: tuple[float, dict[str, ToothSizes]] = best, {}
@@ -307,7 +314,7 @@ class TrainSizeSearch:
                 self.figure({**sizes, **designs}) if all(keeps(each, self.limits) for each in designs.values()) else inf
             )
             found = min(found, (figure, designs), key=lambda each: each[0])
-            return min(figure, 1e6)
+            return min(figure, 1e6)  # Brent's method needs finite values
 
         low, high = max(lowest, here - width), min(highest, here + width)
         if high > low:
@@ -317,7 +324,7 @@ class TrainSizeSearch:
     # -------------------------------------------------------------------------------------------------- the declaration
 
     def _declaration(self, sizes: Mapping[str, ToothSizes]) -> dict[str, Any]:
-        """A train that extends the one given."""
+        """Return a declaration that extends the train with these sizes."""
         gears = []
         for gear in self.train.declaration.gears:
             if gear.name in sizes:
@@ -336,48 +343,48 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """One pair of a train, its sizes as declared, best by itself, and best in the train.
+    """Sizes of one pair of a train: as declared, best separately, and best for the train.
 
     See Also
     --------
-    find_train_sizes : finds them.
+    find_train_sizes : Find these sizes.
     """
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
 
     name: str
-    """The pair."""
+    """Name of the pair."""
     driver: str
-    """The wheel that drives."""
+    """Name of the driving wheel."""
     before: ToothSizes
     """Sizes as declared."""
     apart: ToothSizes
-    """Best sizes for the pair by itself."""
+    """Best sizes for the pair separately."""
     together: ToothSizes
     """Best sizes for the train."""
     runs: bool
-    """Whether the pair turns as declared."""
+    """True if the pair turns as declared."""
     outlines: OutlineAgreement
-    """What the contact of the drawn outlines says of the last."""
+    """Comparison of the best sizes for the train with the contact of their drawn outlines."""
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Of the first and the second wheel that the pair names."""
+        """Numbers of teeth of the first and the second wheel of the pair."""
         return self.before.teeth
 
     @property
     def declared(self) -> ToothSizes | None:
-        """As declared; None where the pair does not turn so."""
+        """Sizes as declared; None if the pair does not turn with them."""
         return self.before if self.runs else None
 
 
 @dataclass(frozen=True)
 class BestTrainSizes(Tabular, Pictured, Result):
-    """The sizes of the triangular teeth with which a train is best, and what they gain.
+    """Best sizes of the triangular teeth of a train, and the improvement.
 
     See Also
     --------
-    find_train_sizes : an example.
+    find_train_sizes : Find the best sizes, with an example.
     """
 
     ROW = "ToothSizes"
@@ -399,30 +406,31 @@ class BestTrainSizes(Tabular, Pictured, Result):
     )
 
     train: str
-    """Its name."""
+    """Name of the train."""
     aim: str
-    """What was optimised."""
+    """Objective: loss, error, impact or jam."""
     output: str
-    """Link or output whose figure it is."""
+    """Link or output at which the train is evaluated."""
     source: str
     """Link at which power enters."""
     free: Mapping[str, Range]
     """Bounds of the free parameters; angles in rad."""
     limits: tuple[SizeLimit, ...]
-    """What each pair has to keep."""
+    """Limits for each pair."""
     before: float | None
-    """Figure of the train as declared; None where it does not run. A loss, an error peak to peak [rad], the sum of
-    impacts, or the least margin [module]."""
+    """Objective of the train as declared; None if it does not run. It is a loss, a peak-to-peak error [rad], the sum of
+    impacts, or the minimum margin [module].
+    """
     apart: float
-    """The same figure with each pair best by itself."""
+    """Objective of the train, as in `before`, with each pair optimised separately."""
     together: float
-    """The same figure with all pairs best together."""
+    """Objective of the train, as in `before`, with all pairs optimised together."""
     pairs: tuple[PairSizes, ...]
-    """The pairs that act on the output."""
+    """Sizes of the pairs that act on the output."""
     untouched: Mapping[str, str]
-    """Pairs with real teeth that stay as they are, and why."""
+    """Reason why each other pair with a tooth form is unchanged."""
     declaration: Mapping[str, Any]
-    """A train that extends the one given, with the sizes best together."""
+    """Declaration that extends the given train with the best sizes."""
 
     def _summary(self) -> str:
         before = "does not turn" if self.before is None else f"{self.before:.4g}"
@@ -430,30 +438,32 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """By pair, a row for its sizes as declared (if it turns so), best by itself, and best for the train."""
+        """Table with rows for each pair: sizes as declared (if it turns), best separately, and best for the train."""
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs
-            for name, sizes in (("declared", pair.declared), ("by itself", pair.apart), ("together", pair.together))
+            for name, sizes in (("declared", pair.declared), ("separately", pair.apart), ("together", pair.together))
             if sizes is not None
         ]
-        told = {"pair": [pair for pair, _, _ in rows], "design": [name for _, name, _ in rows]}
-        return {**told, **size_columns([sizes for _, _, sizes in rows])}
+        names = {"pair": [pair for pair, _, _ in rows], "design": [name for _, name, _ in rows]}
+        return {**names, **size_columns([sizes for _, _, sizes in rows])}
 
 
 def sizeable_meshes(meshes: Iterable[GearMesh]) -> dict[str, TriangularMesh]:
-    """The pairs with triangular teeth whose sizes are not declared as lengths, by name."""
+    """Return the pairs with triangular teeth whose sizes are not declared as lengths, by name."""
     found = (mesh for mesh in meshes if isinstance(mesh, TriangularMesh))
     return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
 
 
 def as_form(sizes: ToothSizes) -> Triangular:
-    """A design as the form of a pair."""
+    """Convert a design to the tooth form of a pair."""
     return Triangular.declared(form_data(sizes))
 
 
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
-    """The sizes of a pair as declared: the first wheel of the pair first; in mid window where it does not turn."""
+    """Return the sizes of a pair as declared, first wheel of the pair first; in the middle of the window if it does not
+    turn.
+    """
     sizes, window = mesh.transmission.sizes, mesh.window
     driver = 1 + mesh.gear.pair.index(mesh.driver)
     if driver == 2:
@@ -462,7 +472,7 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
     if window and mesh.verdict.kind == "runs":
         place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
     radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
-    # friction by a law of speed is searched under with its mean coefficient at the speed of the pair
+    # friction that depends on speed is replaced by its mean coefficient at the speed of the pair
     friction = mesh.losses.friction if mesh.verdict else mesh.transmission.friction
     return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver, sizes.ring)
 
@@ -471,9 +481,9 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
 
 
 def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
-    """The pairs of a train in groups that are connected by common wheels.
+    """Group the pairs of a train that are connected by common wheels.
 
-    wheels   of each pair, by its name
+    wheels   wheels of each pair, by its name
 
     >>> pairs_by_shared_wheels({"ab": ("a", "b"), "cd": ("c", "d"), "bd": ("b", "e")})
     (('ab', 'bd'), ('cd',))
@@ -481,6 +491,7 @@ def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple
     joined: DisjointSets[str] = DisjointSets()
     for first, second in wheels.values():
         joined.join(first, second)
+    # both wheels of a pair are in one set, so its first wheel identifies the group
     groups: dict[str, list[str]] = {}
     for name, (first, _) in wheels.items():
         groups.setdefault(joined.find(first), []).append(name)
@@ -494,11 +505,11 @@ def best_shared_angle(
     aim: str,
     limits: Sequence[SizeLimit],
 ) -> dict[str, ToothSizes]:
-    """Pairs at the one half angle at which their figures together are best, never worse than at the start.
+    """Return pairs at the common half angle that minimises their joint objective, never worse than at the start.
 
-    start    the pairs with the half angles that they have
-    sized    the best sizes of a pair at a half angle; raises `QuestionError` where none turns
-    limits   that each pair has to keep
+    start    pairs with their present half angles
+    sized    function that returns the best sizes of a pair at a half angle; raises `QuestionError` if none turns
+    limits   limits for each pair
     """
 
     def figure(designs: Mapping[str, ToothSizes]) -> float:
@@ -517,10 +528,11 @@ def best_shared_angle(
             return 1e6
         minimum = figure(designs)
         found = min(found, (minimum, designs), key=lambda each: each[0])
-        return min(minimum, 1e6)
+        return min(minimum, 1e6)  # Brent's method needs finite values
 
     low, high = bounds
     step = (high - low) / (_SCAN - 1)
+    # the scan finds the right basin; Brent's method then refines within it
     best = min((low + step * each for each in range(_SCAN)), key=value)
     around = max(low, best - step), min(high, best + step)
     minimize_scalar(value, bounds=around, method="bounded", options={"maxiter": _ANGLE_TRIES, "xatol": _NEAR})

@@ -1,4 +1,4 @@
-"""`geartrain optimise`, and `geartrain mesh triangular --best`: sizes of triangular teeth that are best in an aim."""
+"""Commands `geartrain optimise` and `geartrain mesh triangular --best`: optimum sizes of triangular teeth."""
 
 from __future__ import annotations
 
@@ -39,38 +39,43 @@ if TYPE_CHECKING:
 
 _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
-"""About so many designs are looked at for so many free parameters, for each aim."""
+"""Approximate number of designs evaluated per objective, by the number of free parameters."""
 
 _OTHER = ("clearance_factor", "excess", "backlash", "centre_distance")
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
-"""Of limits; others are plain numbers."""
+"""Dimensions of limits; other limits are dimensionless."""
 
 
 def run(
     file: File,
-    output: Annotated[str, typer.Option("--output", help="The output or link at which the train is judged.")],
+    output: Annotated[str, typer.Option("--output", help="Output or link whose loss or error is optimised.")],
     best: Annotated[
-        str, typer.Option("--best", help="loss, error, impact or jam: what is to be least; of jam the margin greatest.")
+        str, typer.Option("--best", help="Objective: minimise loss, error or impact, or maximise the jam margin.")
     ] = "loss",
     free: Annotated[
         list[str] | None,
         typer.Option(
             "--free",
-            help="NAME or NAME=LOW:HIGH of radii, window, half_angle (one for pairs that share wheels); default radii.",
+            help="Free parameter NAME or NAME=LOW:HIGH: radii, window or half_angle; can be repeated. Default: radii.",
         ),
     ] = None,
     within: Annotated[
         list[str] | None,
-        typer.Option("--within", help="NAME=LIMIT of each pair: loss, error, impact, jam, window_width, play."),
+        typer.Option(
+            "--within",
+            help="Limit NAME=LIMIT for each pair: loss, error, impact, jam, window_width or backlash; can be repeated.",
+        ),
     ] = None,
     state: FirstState = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw what each pair gains to this file.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Write a plot of the improvement of each pair to this file.")
+    ] = None,
     json: Json = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Sizes of triangular teeth, pair by pair and together, with which a train is best; -o x.yaml: as a declaration."""
+    """Optimise the triangular teeth of a train, pair by pair and together; -o FILE.yaml writes a declaration."""
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.sizes.tooth_sizes_report import describe_train_sizes
     from geartrain.workshop.sizes.train_size_search import find_train_sizes
@@ -94,7 +99,7 @@ def run(
 
 
 def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
-    """The train that extends the one given: by name where it is shipped, else from where it is written."""
+    """Write the train that extends the given one: by its name if it is shipped, else by its path."""
     from geartrain.train.yaml_nodes import as_yaml
 
     parent = file
@@ -108,7 +113,9 @@ def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
 
 @dataclass(frozen=True)
 class SizeQuestion:
-    """What `--best` asks for: one aim or two with a comma, what is free, limits, and errors of the wheels."""
+    """Options of `--best`: one objective or two separated by a comma, free parameters, limits, and errors of the
+    wheels.
+    """
 
     best: str | None
     free: tuple[str, ...]
@@ -116,20 +123,18 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Refuse options that need `--best`, and `--best` beside options that request something else."""
+        """Reject options that need `--best`, and options that cannot be combined with it."""
         if self.best is None:
             for option, given in (("--free", self.free), ("--within", self.within), ("--set", self.errors)):
                 if given:
-                    raise typer.BadParameter(
-                        "nothing says what sizes are to be best in: give --best", param_hint=option
-                    )
+                    raise typer.BadParameter("it needs an objective: give --best", param_hint=option)
             return
         for option, other in others.items():
             if other:
-                raise typer.BadParameter("--best asks for something else: leave one of the two out", param_hint=option)
+                raise typer.BadParameter("it cannot be combined with --best: omit one of them", param_hint=option)
 
     def answer(self, start: ToothSizes, to: Sink, picture: Sink, json: bool) -> NoReturn:
-        """The best sizes as a page, as data and as a picture; then the command ends."""
+        """Write the best sizes as report, data and plot, and exit."""
         from geartrain.workshop.sizes.best_sizes import find_tooth_sizes
         from geartrain.workshop.sizes.tooth_sizes_report import describe_tooth_sizes
 
@@ -147,12 +152,12 @@ class SizeQuestion:
         raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
 
     def _chance(self) -> ChanceLimit | None:
-        """The limit on the chance that a pair cut with errors stops."""
+        """Return the limit on the probability that a pair with cutting errors stops, if it is given."""
         from geartrain.workshop.sizes.size_search import ChanceLimit
 
         given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
         if bool(given) != bool(self.errors):
-            what = "--within stops=5% and the errors, such as --set 'pitch_deviation=1 %', go together"
+            what = "a limit --within stops=5% needs errors, such as --set 'pitch_deviation=1 %', and vice versa"
             raise typer.BadParameter(what, param_hint="--within" if given else "--set")
         if not given:
             return None
@@ -164,23 +169,23 @@ class SizeQuestion:
 
 
 def _is_chance(text: str) -> bool:
-    """True for the limit that asks for trials."""
+    """Return whether the limit requires trials."""
     return text.partition("=")[0].strip() == "stops"
 
 
 def read_start(
     teeth: tuple[int, int], own: FormOptions, friction: float, driver: int, internal: bool = False
 ) -> ToothSizes:
-    """The pair that options give; its clearance is in the middle of the window where none is given."""
+    """Return the pair given by options, with the clearance by default in the middle of the window."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     for name in _OTHER:
         if own[name] is not None:
             option = f"--{name.replace('_', '-')}"
-            why = "the window moves with the radii, and a clearance that is kept would leave it"
-            raise GearTrainError(Problem(f"{option} does not go with --best", why, "give --window", option))
+            why = "the clearance window depends on the radii, so a fixed clearance would leave it"
+            raise GearTrainError(Problem(f"{option} cannot be combined with --best", why, "give --window", option))
     window = own["window"] or "0.5"
-    # radii follow from the counts at any clearance: this one is in no window, which there need not be
+    # the radii do not depend on the clearance, so any excess will do, even if the pair has no clearance window
     shape = read_form(Triangular, {"half_angle": own["half_angle"], "radii": own["radii"], "excess": "1e-6"}, "--radii")
     placed = read_form(Triangular, {"half_angle": own["half_angle"], "window": window}, "--window")
     assert isinstance(shape, Triangular)
@@ -195,7 +200,7 @@ def read_start(
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
-    """NAME or NAME=LOW:HIGH, by name; the radii where nothing is given."""
+    """Parse NAME or NAME=LOW:HIGH to bounds by name; by default the radii are free."""
     found: dict[str, tuple[float, float] | None] = {}
     for text in given or ("radii",):
         name, equals, rest = text.partition("=")
@@ -214,7 +219,7 @@ def _bound(name: str, text: str) -> float:
 
 
 def read_limits(given: Sequence[str]) -> list[SizeLimit]:
-    """NAME=LIMIT, each on the side that is bad."""
+    """Parse NAME=LIMIT: a maximum or a minimum, depending on the figure."""
     from geartrain.workshop.sizes.size_design import SizeLimit
 
     found = []

@@ -22,7 +22,6 @@ from geartrain.report.soundness import find_soundness
 from geartrain.scene.layout.declared_geometry import Parallels, Point, read_geometry
 from geartrain.scene.layout.plan_problem import PlanProblem, plan_problem
 from geartrain.scene.layout.wheel_modules import size_geometry
-from geartrain.train.trade_words import told_words
 
 TEXT = "text"
 """What the package calls a declaration that is no file."""
@@ -54,9 +53,6 @@ def answer(text: str) -> str:
         found = _answered(train)
     except GearTrainError as error:
         found = {"problems": [_problem(each) for each in error.problems], "verdict": "cannot be read", "sound": False}
-    found["words"] = told_words(
-        "\n".join(" ".join((each["what"], each["why"], each["fix"])) for each in found["problems"])
-    )
     return json.dumps(found, default=str)
 
 

@@ -1,13 +1,13 @@
-"""Ready to cut or not: the outlines that are written, turned against each other, and the solids through their turn.
+"""Proof that a train is ready to cut: the written outlines are turned against each other, and the solids are compared.
 
-In: the train at its sizes, and the files that are written of it. Out: a `TrainProof`, with the overlap, the play, the
-clearance and the tips of every mesh, the freedom of every link by its teeth, and what is in the way. The outlines are
-read back from the written drawings; nothing here asks a tooth form how its teeth meet.
+Input: the train at its sizes, and the drawings written from it. Output: a `TrainProof` with the overlap, backlash,
+clearance and tip widths of every mesh, the freedom of every link, and all findings. The outlines are read back from the
+written drawings, independently of the equations of the tooth forms.
 
-train_proof    the proof of a train, of its solids and of wheels bent by a wave
-mesh_proof     the proof of one mesh
+train_proof    proof of a train, of its solids and of wheels bent by a wave generator
+mesh_proof     proof of one mesh
 turned_pair    two written outlines turned against each other
-link_freedom   how far each link is free by its teeth
+link_freedom   freedom of each link given by its teeth
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Each link's freedom by brute motion: between which angles the teeth, as cut and as they stand, let it turn.
+"""Freedom of each link: the range of angles that the teeth allow, as cut and assembled, found without using speeds.
 
-Of every mesh the outlines say between which lags its second wheel is free, at the angles of a pose. A lag is a sum of
-angles of links, so all meshes together say how far a link may turn while the input is held, and whether the input can
-be turned at all: linear programmes, which know tooth numbers and places of axles, and nothing of speeds. A link that
-`solve` has determined is held, and wherever the train has been turned to it stands within its play.
+For every mesh at a pose, the outlines give the limits of the lag of its second wheel. A lag is a linear combination of
+angles of links. Linear programmes over all meshes therefore give the range of each link while the input is held, and
+whether the input can be turned at all. They use tooth numbers and axis positions, but no speeds. A link whose speed
+`solve` determines must be held, and in every pose it must be within its backlash.
 """
 
 from __future__ import annotations
@@ -29,24 +29,25 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel
     from geartrain.workshop.export.proof.turned_pair import TurnedPair
 
-_POSES = (Fraction(0), Fraction(1, 7), Fraction(17, 31), Fraction(41, 13))  # turns of the lead
-_TOUCH = 2e-3  # of a pitch: how far a wheel that touches its mate may stand in it, chords and digits included
-_PARALLEL = 1e-9
+_POSES = (Fraction(0), Fraction(1, 7), Fraction(17, 31), Fraction(41, 13))  # turns of the driving link
+_TOUCH = 2e-3  # of a pitch: tolerated overlap of wheels in contact, due to chords and rounded coordinates
+_PARALLEL = 1e-9  # deviation of a cosine from 1 that counts as rounding
 
 
 @dataclass(frozen=True, slots=True)
 class LinkFreedom(Result):
-    """How far a link turns by hand while the input is held."""
+    """Angle through which a link can be turned by hand while the input is held."""
 
     link: str
-    """Its name."""
+    """Name of the link."""
     backlash: float | None
-    """From end to end, the play of all meshes up to it [rad]; None for a link that nothing holds."""
+    """Range from end to end, the total backlash of all meshes up to the link [rad]; None for a link that is not held.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class FreedomProof:
-    """The freedom of all links but the frame, and where it is not what `solve` says."""
+    """Freedom of all links except the frame, and findings where it contradicts `solve`."""
 
     links: tuple[LinkFreedom, ...]
     findings: tuple[BuildFinding, ...] = ()
@@ -55,19 +56,19 @@ class FreedomProof:
 def prove_freedom(
     work: SolidModel, pairs: Mapping[str, TurnedPair], names: Mapping[str, tuple[str, str]]
 ) -> FreedomProof:
-    """Turn a train by its teeth.
+    """Compute the freedom of all links from the teeth.
 
-    pairs   the meshes that are proved to turn, each alone; `names`, wheels 1 and 2 of each
+    pairs   meshes that were proved to turn individually; `names`, wheels 1 and 2 of each
     """
     try:
         return _Motion(work, pairs, names).prove()
-    except GearTrainError as error:  # pairs that depend on each other and do not settle
+    except GearTrainError as error:  # pairs that depend on each other and do not converge
         return FreedomProof((), tuple(BuildFinding("F1", "note", problem) for problem in error.problems))
 
 
 @dataclass(frozen=True, slots=True)
-class _Row:
-    """A mesh as a condition on angles of links: low <= weights . deviations <= high."""
+class _Constraint:
+    """Constraint of a mesh on angles of links: low <= weights . deviations <= high."""
 
     pair: str
     weights: Floats
@@ -83,50 +84,56 @@ class _Motion:
         self.case = work.sized.declaration.case(work.sized.declaration.state_or_first(work.state))
 
     def prove(self) -> FreedomProof:
-        """At several poses; what of them disagrees is told once."""
+        """Compute the freedom at several poses; each contradiction is reported once."""
         findings: dict[str, BuildFinding] = {}
         links: tuple[LinkFreedom, ...] = ()
         speeds = {body.id: body.speed for body in self.scene.bodies}
         turns = any(speed not in (None, "0") for speed in speeds.values())
         for at, pose in enumerate(_POSES if turns else _POSES[:1]):
-            rows, off = self._rows(pose)
+            rows, off = self._constraints(pose)
             for pair, mm in off.items():
                 findings.setdefault(pair, self._out_of_step(pair, mm, pose))
             if off:
                 break
             if not at:
                 links = tuple(self._links(rows))
-                findings |= {found.problem.what: found for found in self._against(links, rows, turns)}
+                findings |= {found.problem.what: found for found in self._contradictions(links, rows, turns)}
         return FreedomProof(links, tuple(findings.values()))
 
     # ------------------------------------------------------------------------------------------------------------ rows
 
-    def _rows(self, pose: Fraction) -> tuple[list[_Row], dict[str, float]]:
-        """All meshes at a pose, and those whose wheels do not stand within their play: how far (mm) they are off."""
+    def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
+        """Return the constraints of all meshes at a pose, and the distance [mm] of wheels outside their backlash, by
+        pair.
+        """
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
         for circuit in self.work.sized.circuits:
             turned = self.pairs.get(circuit.id)
-            if turned is None or self._along(circuit) is None:
-                weights = self._by_ratio(circuit)
-                rows.append(_Row(circuit.id, weights, 0.0, 0.0))
+            if turned is None or self._axis_senses(circuit) is None:
+                weights = self._ratio_constraint(circuit)
+                rows.append(_Constraint(circuit.id, weights, 0.0, 0.0))
                 continue
-            row, beyond = self._mesh(circuit, turned, angles)
+            row, beyond = self._mesh_constraint(circuit, turned, angles)
             rows.append(row)
             if beyond > _TOUCH * turned.pitches[1]:
                 off[circuit.id] = beyond * self.work.layout.wheels[self.names[circuit.id][1]].radius
         return rows, off
 
-    def _by_ratio(self, circuit: Circuit) -> Floats:
-        """What is not turned here, as pins in slots and cones, by its tooth numbers."""
+    def _ratio_constraint(self, circuit: Circuit) -> Floats:
+        """Return the constraint of a circuit that is not turned here, such as a pin and slot or a bevel pair, by its
+        ratio.
+        """
         weights = np.zeros(len(self.scene.bodies))
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
             weights[at] += count * self.scene.bodies[at].sense
         return weights / max(float(np.abs(weights).max()), 1.0)
 
-    def _along(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Senses of both wheels' bodies and of their carrier about the first one's direction; None if not parallel."""
+    def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
+        """Return the senses of both wheels and their carrier about the first axis; None if the axes are not
+        parallel.
+        """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])
@@ -134,22 +141,22 @@ class _Motion:
         for body in bodies:
             cosine = float(n @ self.scene.bodies[body].direction)
             if self.scene.bodies[body].parent is None:
-                cosine = 1.0  # the frame stands still about any axis
+                cosine = 1.0  # the frame does not turn about any axis
             if abs(abs(cosine) - 1) > _PARALLEL:
                 return None
             senses.append(1 if cosine > 0 else -1)
         return senses[0], senses[1], senses[2]
 
-    def _mesh(self, circuit: Circuit, turned: TurnedPair, angles: Floats) -> tuple[_Row, float]:
-        """A mesh as it stands, and by how much (rad) its second wheel is beyond its play."""
+    def _mesh_constraint(self, circuit: Circuit, turned: TurnedPair, angles: Floats) -> tuple[_Constraint, float]:
+        """Return the constraint of a mesh at a pose, and the angle [rad] of its second wheel beyond its backlash."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
-        senses = self._along(circuit)
+        senses = self._axis_senses(circuit)
         assert senses is not None
         s1, s2, sk = senses
         ratio = turned.counts[0] / turned.counts[1] * (1 if turned.ring else -1)
         stands = pi / turned.counts[1] + (0.0 if turned.ring else pi)
-        begin, end = self._tooth(one, one, other, turned), self._tooth(other, one, other, turned)
+        begin, end = self._tooth_angle(one, one, other, turned), self._tooth_angle(other, one, other, turned)
         t = begin + s1 * angles[first] - sk * angles[held]
         lag = end + s2 * angles[second] - sk * angles[held] - stands - ratio * t
         near, lag = _wrapped(t, turned.pitches[0]), _wrapped(lag, turned.pitches[1])
@@ -159,10 +166,12 @@ class _Motion:
         weights[second] += s2
         weights[first] -= ratio * s1
         weights[held] += sk * (ratio - 1)
-        return _Row(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
+        return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
-    def _tooth(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Angle (rad) of a wheel's first tooth in the zero pose, from where the two touch, about the first's axis."""
+    def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
+        """Return the angle [rad] of a wheel's first tooth in the zero pose, from the point of contact, about the first
+        axis.
+        """
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
         x = between - (between @ n) * n
@@ -174,8 +183,8 @@ class _Motion:
     # ----------------------------------------------------------------------------------------------------------- links
 
     @cached_property
-    def _held(self) -> Floats:
-        """Conditions of the case, as rows that are 0: what stands, what turns as one, and the inputs by hand."""
+    def _fixed_equations(self) -> Floats:
+        """Equations of the case, as rows of coefficients: fixed links and links locked together, without the inputs."""
         count = len(self.scene.bodies)
         rows = []
         frame = self.work.sized.declaration.frame
@@ -188,32 +197,34 @@ class _Motion:
             rows.append(row)
         return np.array(rows)
 
-    def _inputs(self) -> Floats:
-        """Each input held."""
+    def _input_equations(self) -> Floats:
+        """Return the equations that hold each input."""
         count = len(self.scene.bodies)
         return np.array([np.eye(count)[self.bodies[link]] for link in self.case.inputs]).reshape(-1, count)
 
-    def _links(self, rows: Sequence[_Row]) -> Iterator[LinkFreedom]:
-        """Each link's play while the inputs are held."""
-        fixed = np.concatenate([self._held, self._inputs()])
+    def _links(self, rows: Sequence[_Constraint]) -> Iterator[LinkFreedom]:
+        """Yield the freedom of each link while the inputs are held."""
+        fixed = np.concatenate([self._fixed_equations, self._input_equations()])
         still = {self.work.sized.declaration.frame}
         for body in self.scene.bodies:
             if body.id in still or body.bookkeeping:
                 continue
             if body.id in self.case.inputs:
                 continue
-            ends = [self._farthest(rows, fixed, self.bodies[body.id], way) for way in (-1, 1)]
+            ends = [self._maximum_angle(rows, fixed, self.bodies[body.id], way) for way in (-1, 1)]
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
-    def _farthest(self, rows: Sequence[_Row], fixed: Floats, at: int, way: int) -> float:
-        """How far (rad) a link can be turned one way; infinite where nothing stops it."""
+    def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
+        """Return the maximum angle [rad] of a link in one direction by linear programming; infinite if it is not
+        limited.
+        """
         from scipy.optimize import linprog
 
         cost = np.zeros(len(self.scene.bodies))
         cost[at] = -way
         weights = np.array([row.weights for row in rows]).reshape(-1, len(cost))
         low, high = (np.array([getattr(row, side) for row in rows]) for side in ("low", "high"))
-        # a wheel that touches its mate stands on the border, or a chord beyond it
+        # a wheel in contact is at the limit, or beyond it by the error of a chord
         low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
         equal = low == high
         sides = np.concatenate([weights[~equal], -weights[~equal]])
@@ -230,33 +241,35 @@ class _Motion:
         )
         return -way * float(found.fun or 0.0) if found.status == 0 else way * inf
 
-    # -------------------------------------------------------------------------------------------------------- judgement
+    # --------------------------------------------------------------------------------------------------------- findings
 
-    def _against(self, links: Sequence[LinkFreedom], rows: Sequence[_Row], turns: bool) -> Iterator[BuildFinding]:
-        """Where the teeth say otherwise than `solve`."""
+    def _contradictions(
+        self, links: Sequence[LinkFreedom], rows: Sequence[_Constraint], turns: bool
+    ) -> Iterator[BuildFinding]:
+        """Yield findings where the teeth contradict `solve`."""
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:
                 what = f"link '{link.link}' turns freely while the input is held"
-                yield _finding("error", what, "no teeth hold it, though its speed is determined", "give it a mesh")
+                why = "its speed is determined, but the teeth as cut do not hold it"
+                yield _finding("error", what, why, "declare a tooth form for its meshes, or give taller teeth")
             elif link.backlash is not None and speeds[link.link] is None:
-                what = f"link '{link.link}' is held by its teeth, and `solve` does not determine its speed"
-                yield _finding("note", what, "the proof and the solution differ", "")
+                what = f"link '{link.link}' is held by its teeth, but `solve` does not determine its speed"
+                yield _finding("note", what, "the proof and the solution contradict each other", "")
         driving_link = self.scene.driving_link
         if driving_link is None or not self.case.inputs:
             return
-        ends = [self._farthest(rows, self._held, driving_link, way) for way in (-1, 1)]
+        ends = [self._maximum_angle(rows, self._fixed_equations, driving_link, way) for way in (-1, 1)]
         if turns and np.isfinite(ends).any():
             what = f"'{self.scene.bodies[driving_link].id}' jams after {np.degrees(ends[1] - ends[0]):.3g} degrees"
-            yield _finding(
-                "error", what, "the plays of all meshes do not let it turn on", "take out a mesh of the loop"
-            )
+            why = "the backlash of all meshes together does not allow a full turn"
+            yield _finding("error", what, why, "remove one mesh of the loop")
 
     def _out_of_step(self, pair: str, mm: float, pose: Fraction) -> BuildFinding:
         where = f" after {pose} turns" if pose else ""
         what = f"pair '{pair}': its wheels overlap{where}" + ("" if mm == inf else f" by {mm:.3g} mm")
-        why = "where all links stand as solved, a tooth meets a tooth"
-        return _finding("error", what, why, "join a wheel to its arbor at another angle, or change tooth numbers")
+        why = "at the solved angles of all links, a tooth meets a tooth"
+        return _finding("error", what, why, "fix a wheel to its arbor at another angle, or change tooth numbers")
 
 
 def _finding(level: str, what: str, why: str, fix: str) -> BuildFinding:

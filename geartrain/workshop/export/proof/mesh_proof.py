@@ -1,4 +1,6 @@
-"""Every mesh of a train proved on the outlines that are written: overlap, play, room, tips, each against its rule."""
+"""Proof of every mesh of a train on the written outlines: overlap, backlash, clearance and tips, each
+against its rule.
+"""
 
 from __future__ import annotations
 
@@ -33,56 +35,54 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 ALLOWED = 1e-3
-"""By how much (mm) the play that is measured may be less than what is declared: what outlines are cut to."""
-_CLEARANCE, _TIP = 0.1, 0.2  # modules: least room under a tip, and least width of one that is cut
-_AROUND = 32  # chords of a quarter turn that the middle of a cut makes about a corner
-_BUFFER = 0.01  # of a kerf: how far off the lines are that shapely moves
-_WHOLE = 1 - 1e-9  # contact ratio below which a couple parts before the next meets
-_EASY_RATIO = 1.1  # contact ratio from which a pair hands over with something to spare
-_TOUCH = 1e-4  # mm: play that is none
-_LAND = (
-    0.05  # of a tooth's height: how deep under the tip circle the width of a tip is taken, round ones having none on it
-)
+"""Tolerance [mm] by which the measured backlash may be below the declared one: the accuracy of the outlines."""
+_CLEARANCE, _TIP = 0.1, 0.2  # modules: minimum clearance under a tip, and minimum tip width
+_AROUND = 32  # chords per quarter circle of the middle line of a cut around a corner
+_BUFFER = 0.01  # of a kerf: error of lines that shapely offsets
+_WHOLE = 1 - 1e-9  # contact ratio below which a tooth pair separates before the next one meets
+_EASY_RATIO = 1.1  # contact ratio with a margin for wear and errors of the distance
+_TOUCH = 1e-4  # mm: a smaller backlash counts as 0
+_LAND = 0.05  # tooth heights below the tip circle at which the tip width is measured: rounded tips have width 0 on it
 
 
 @dataclass(frozen=True, slots=True)
 class MeshProof(Result):
-    """A mesh as cut, its wheels turned through a pitch, or through all couples of teeth that differ."""
+    """Measured values of a mesh as cut, turned through a pitch, or through all combinations of unequal teeth."""
 
     KEYS = ("pair", "declared", "minimum", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 
     pair: str
-    """Its name."""
+    """Name of the pair."""
     declared: float
-    """Stated play along the pitch circle of the second wheel, or of the ring [mm]."""
+    """Declared backlash along the pitch circle of the second wheel, or of the internal wheel [mm]."""
     minimum: float
-    """Least play measured [mm]."""
+    """Minimum backlash measured [mm]."""
     most: float
-    """Greatest play measured [mm]."""
+    """Maximum backlash measured [mm]."""
     overlap: float
-    """Greatest common area in any position [mm2]."""
+    """Maximum common area in any position [mm2]."""
     contact_ratio: float | None
-    """Of conjugate teeth that stand as designed; None of others."""
+    """Contact ratio of conjugate teeth at the design distance; None for other teeth."""
     clearance: float
-    """Least distance of a tip from the mate's root, on the line of centres [mm]."""
+    """Minimum distance from a tip to the root of the other wheel on the line of centres [mm]."""
     tip_width: float
-    """The narrower of both wheels' tips [mm]."""
+    """Smaller tip width of the two wheels [mm]."""
     module: float
-    """Of the second wheel [mm]."""
+    """Module of the second wheel [mm]."""
     findings: tuple[BuildFinding, ...] = ()
-    """Rules it does not keep."""
+    """Findings: rules that the mesh violates."""
 
 
 @dataclass(frozen=True)
 class CutTrain:
-    """The material of every wheel, read back from what is written of it, and which drawings cannot be cut."""
+    """Material of every wheel, read back from its written drawing, and findings for drawings that cannot be cut."""
 
     materials: dict[str, Any]
     findings: tuple[BuildFinding, ...]
 
 
 def read_wheels(work: SolidModel) -> CutTrain:
-    """What the written drawings of a train leave of every wheel that is cut, half the kerf burnt off all round."""
+    """Read the material of every cut wheel from its written drawing, with half the kerf removed all around."""
     kerf = work.process.kerf
     materials: dict[str, Any] = {}
     findings = []
@@ -95,31 +95,31 @@ def read_wheels(work: SolidModel) -> CutTrain:
                 what = f"wheel {' and '.join(map(repr, sheet.parts))}: {problem.what}"
                 findings.append(BuildFinding("T0", "error", Problem(what, problem.why, problem.fix)))
             continue
-        left = _burnt(material, kerf / (2 if pins else -2)) if kerf else material
+        left = _offset(material, kerf / (2 if pins else -2)) if kerf else material
         left = _with_pins(left, work.blanks.wheels[sheet.parts[0]])
         materials |= dict.fromkeys(sheet.parts, left)
     return CutTrain(materials, tuple(findings))
 
 
 def _with_pins(ring: Any, blank: Blank) -> Any:
-    """A ring with the pins that lie in it, which are turned; any other wheel as it is."""
+    """Return an internal wheel with the turned pins placed in it; any other wheel unchanged."""
     if blank.pins is None:
         return ring
     shapely = plane_geometry()
     R, radius = blank.pins.circle * blank.module, blank.pins.radius * blank.module
     turns = 2 * np.pi * np.arange(blank.teeth) / blank.teeth
     middles = shapely.points(np.column_stack([R * np.cos(turns), R * np.sin(turns)]))
-    # corners stand outside, so that no chord leaves room which the pin takes
+    # the corners are outside the circle, so that chords do not cut off any part of the pin
     chords = ceil(np.pi / (4 * np.arccos(1 / (1 + TOLERANCE / radius))))
     return shapely.union_all([ring, *shapely.buffer(middles, radius + TOLERANCE, quad_segs=chords)])
 
 
-def _burnt(material: Any, by: float) -> Any:
+def _offset(material: Any, by: float) -> Any:
     return material.buffer(by, quad_segs=_AROUND)
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Every mesh whose two wheels are cut: its play, its wheels (a ring second), and both as they are turned."""
+    """Return every mesh of two cut wheels: its backlash, its wheels (an internal one second), and their turned pair."""
     found = {}
     for backlash in work.blanks.backlashes:
         bent = any(work.train.declaration.wheels[name][1].flexible for name in backlash.wheels)
@@ -137,7 +137,7 @@ def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBackla
 
 
 def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
-    """How far apart (mm) the axles of two wheels stand, across the axis of the first."""
+    """Return the distance of the axes of two wheels [mm], perpendicular to the axis of the first."""
     first, second = (layout.wheels[name] for name in wheels)
     between = np.subtract(second.centre, first.centre)
     along = np.array(layout.axes[first.axis].direction)
@@ -145,7 +145,7 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
 
 
 def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
-    """Turn a mesh and hold what is measured against the rules."""
+    """Turn a mesh and check the measured values against the rules."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
     room = (found.high - found.low) * R
@@ -167,11 +167,11 @@ def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: Turn
     findings = _findings(backlash, proof, found, turned, names)
     return replace(
         proof, findings=tuple(each for each in findings if not (rolls and each.rule == "T2"))
-    )  # the bottom between two lobes is itself a flank, as near to pins as its play is small
+    )  # the bottom between two lobes is itself a flank, at a distance from the pins of about the backlash
 
 
 def clearance(turned: TurnedPair) -> float:
-    """Least distance (mm) of a tip from the mate's root, on the line of centres."""
+    """Return the minimum distance from a tip to the root of the other wheel on the line of centres [mm]."""
     (tip, root), (other_tip, other_root) = turned.reaches
     a = turned.distance
     if turned.ring:
@@ -180,7 +180,7 @@ def clearance(turned: TurnedPair) -> float:
 
 
 def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
-    """Mean width (mm) of the tips, a little under the tip circle; of a lantern the diameter of its pins."""
+    """Return the mean width of the tips [mm], slightly below the tip circle; for a lantern the diameter of its pins."""
     shapely = plane_geometry()
     tip, root = reach
     if material.geom_type != "Polygon":
@@ -198,38 +198,38 @@ def _findings(
         where = turned.words(found.place, names)
         yield _error("T5", f"{pair}: {where} overlap by {proof.overlap:.3g} mm2", _STUCK, _LOOSER)
     elif min(proof.minimum, proof.declared) <= _TOUCH:
-        what = f"{pair} has no play"
-        yield _error(
-            "T5", what, "two wheels that are cut never fit without", f"give a backlash of {0.05 * module:.3g} mm"
-        )
+        what = f"{pair} has no backlash"
+        fix = f"give --backlash {0.05 * module:.3g}mm"
+        yield _error("T5", what, "manufactured wheels jam without backlash", fix)
     elif proof.minimum < proof.declared - ALLOWED:
-        what = f"{pair} has {proof.minimum:.4g} mm of play, and {proof.declared:.4g} mm are declared"
+        what = f"{pair} has a backlash of {proof.minimum:.4g} mm, but {proof.declared:.4g} mm are declared"
         yield _error("T5", what, "its teeth are thicker as cut than as declared", _LOOSER)
     elif not np.isfinite(proof.most):
-        yield _error("T5", f"{pair} does not hold: one wheel turns past the other", "their tips do not reach", _NEARER)
+        yield _error("T5", f"{pair} slips: one wheel can turn past the other", "the tips do not overlap", _NEARER)
     if proof.clearance < _CLEARANCE * module - TOLERANCE:
-        what = f"{pair}: tips stand {proof.clearance:.3g} mm from roots"
+        what = f"{pair}: the clearance between tips and roots is {proof.clearance:.3g} mm"
+        why = "with too little clearance, tips touch roots or dirt jams the pair"
         fix = f"deepen the roots, to leave {_CLEARANCE * module:.3g} mm"
-        yield BuildFinding("T2", "error" if proof.clearance < _TOUCH else "note", Problem(what, "dirt stops them", fix))
+        yield BuildFinding("T2", "error" if proof.clearance < _TOUCH else "note", Problem(what, why, fix))
     ratio = proof.contact_ratio
     if ratio is not None and ratio < _EASY_RATIO:
         level: BuildLevel = "error" if ratio < _WHOLE else "note"
         why = (
-            "one couple of teeth parts before the next meets"
+            "a tooth pair separates before the next one meets"
             if ratio < _WHOLE
-            else "little is left for wear and distance"
+            else "wear or a larger centre distance can reduce it below 1"
         )
         yield BuildFinding(
             "T3", level, Problem(f"{pair} has a contact ratio of {ratio:.4g}", why, backlash.more_contact)
         )
     if proof.tip_width < _TIP * module:
         what = f"{pair} has tips {proof.tip_width:.3g} mm wide"
-        yield BuildFinding("T4", "note", Problem(what, "so narrow they burn or break", "shorten the addendum"))
+        yield BuildFinding("T4", "note", Problem(what, "such narrow tips burn or break", "shorten the addendum"))
 
 
-_STUCK = "it cannot turn"
-_LOOSER = "give more backlash, shorter addenda, or another distance"
-_NEARER = "bring the axes nearer, or take taller teeth"
+_STUCK = "overlapping teeth cannot turn"
+_LOOSER = "give more backlash, shorter addenda, or another centre distance"
+_NEARER = "reduce the centre distance, or give taller teeth"
 
 
 def _error(rule: str, what: str, why: str, fix: str) -> BuildFinding:

@@ -1,8 +1,8 @@
-"""Whether a train is ready to cut: what is written of it, proved to turn, and what is in the way.
+"""Proof that a train is ready to cut: the written parts can turn, or a list of obstacles.
 
-Wheels in mesh are proved flat, on their written outlines (`mesh_proof`), thin wheels bent by a wave at positions of it.
-Solids of different links are compared through their turn: where bounding boxes overlap, so may solids, and their
-common volume is computed.
+Meshing wheels are proved in the plane on their written outlines (`mesh_proof`). Flexible wheels are proved at several
+positions of their wave generator. Solids of different links are compared in several poses of the train: if bounding
+boxes overlap, the common volume of the solids is computed.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import numpy as np
 from geartrain.dynamics.cut_teeth import not_cut
 from geartrain.errors import MissingExtraError, Problem
 from geartrain.kinematics.buildability import BuildFinding, build_errors
+from geartrain.numerics.exact import plural
 from geartrain.numerics.results import Key, Result
 from geartrain.scene.pose import ScenePose, scene_pose
 from geartrain.teeth.outlines.fixed_teeth import bent_line
@@ -35,66 +36,66 @@ if TYPE_CHECKING:
 
 
 SLIVER = 1e-3
-"""Common volume (mm3) that is none: where two round surfaces of one radius touch, their chords cross."""
+"""Common volume [mm3] that is ignored: the chords of two round surfaces in contact overlap by about this volume."""
 
-_POSITIONS = 7  # of the wave in a pitch of the ring
-_PARTS = 4  # of each chord of the wheel, which bending makes round
-_POSES = tuple(Fraction(k * 41, 97) for k in range(8))  # turns of the lead
-_SHARE = 1e-6  # of the smaller part: a larger one is no sliver
+_POSITIONS = 7  # of the wave generator in a pitch of the internal wheel
+_PARTS = 4  # subdivision of each chord of the wheel, because bending curves it
+_POSES = tuple(Fraction(k * 41, 97) for k in range(8))  # turns of the driving link; 97 is prime, so poses do not repeat
+_SHARE = 1e-6  # of the smaller part: a larger common volume is not a sliver
 
 
 @dataclass(frozen=True, slots=True)
 class TrainProof(Result):
-    """What the proof of a train found.
+    """Result of the proof of a train.
 
     See Also
     --------
-    prove_train : gives it.
+    prove_train : Prove a train.
     """
 
     KEYS = (Key("ready", "is_ready"), "verdict", "meshes", "links", "findings")
 
     meshes: tuple[MeshProof, ...]
-    """Of every pair whose wheels are cut."""
+    """Measured values of every pair of cut wheels."""
     links: tuple[LinkFreedom, ...]
-    """Of every link that turns."""
+    """Freedom of every link that turns."""
     findings: tuple[BuildFinding, ...]
-    """What is in the way, errors first, and what is unwise or could not be proved."""
+    """Findings: errors first, then notes on what is unwise or could not be proved."""
 
     @property
     def is_ready(self) -> bool:
-        """True if nothing is in the way."""
+        """True if no finding is an error."""
         return not build_errors(self.findings)
 
     @property
     def verdict(self) -> str:
-        """One sentence."""
+        """Verdict as one sentence."""
         errors = build_errors(self.findings)
         if not errors:
             return "ready to cut"
-        more = f", and {len(errors) - 1} more in the way" if len(errors) > 1 else ""
+        more = f", and {plural(len(errors) - 1, 'more error')}" if len(errors) > 1 else ""
         return f"not ready to cut: {errors[0].problem.what}{more}"
 
 
 def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> TrainProof:
-    """Turn what is written of a train, mesh by mesh and as a whole.
+    """Prove that the written parts of a train can turn, mesh by mesh and as a whole.
 
     Parameters
     ----------
     work : SolidModel
         The train and its sizes.
     watch : callable, optional
-        Called after each of `proof_steps` steps.
+        Callback after each of `proof_steps` steps.
 
     Returns
     -------
     TrainProof
-        All that was measured, and what is in the way.
+        Measured values and findings.
 
     Raises
     ------
     MissingExtraError
-        Without shapely and manifold3d, the extra `proof`.
+        If shapely and manifold3d (extra `proof`) are not installed.
     GearTrainError
         If the train cannot be laid out or has no sizes.
 
@@ -119,17 +120,19 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
     watch()
     uncut = [*_uncut(work)]
-    named = {found.problem.what for found in uncut}  # where they are notes on the declaration too, the error counts
+    named = {
+        found.problem.what for found in uncut
+    }  # if the declaration has them as notes too, the error replaces these
     findings = [found for found in work.sized.build_findings if found.problem.what not in named]
     findings += [*uncut, *_frame(work), *cut.findings]
     findings += [found for mesh in meshes for found in mesh.findings]
     findings += [*prove_waves(work, cut), *freedom.findings, *prove_solids(work, watch)]
-    ranked = sorted(findings, key=lambda found: not found.is_error)
+    ranked = sorted(findings, key=lambda found: not found.is_error)  # stable, with errors first
     return TrainProof(tuple(meshes), freedom.links, tuple(ranked))
 
 
 def proof_is_installed() -> bool:
-    """Whether the libraries of plane geometry and of solids are there."""
+    """Return whether shapely and manifold3d are installed."""
     try:
         return all(find_spec(name) is not None for name in ("shapely", "manifold3d"))
     except (ImportError, ValueError):
@@ -137,12 +140,12 @@ def proof_is_installed() -> bool:
 
 
 def proof_steps(work: SolidModel) -> int:
-    """How often `prove_train` calls its watch."""
+    """Return the number of times that `prove_train` calls `watch`."""
     return len(work.blanks.backlashes) + 1 + pose_count(work)
 
 
 def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
-    """Wheels without a drawing: errors where they are flat."""
+    """Yield findings for wheels without a drawing: errors for flat ones, notes for others."""
     blanks = work.blanks
     for name, problems in blanks.uncut.items():
         flat = name in blanks.flat
@@ -151,7 +154,7 @@ def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
 
 
 def _frame(work: SolidModel) -> Iterator[BuildFinding]:
-    """What the plates cannot bear (notes: a bracket is made by hand), and what is in the way of arbors."""
+    """Yield findings for axes that the plates cannot bear and for obstacles of arbors."""
     if work.frame is None:
         return
     for cup in work.frame.plan.stack.cups:
@@ -166,9 +169,9 @@ def _frame(work: SolidModel) -> Iterator[BuildFinding]:
 
 
 def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> tuple[BuildFinding, ...]:
-    """Couples of parts that stand in each other in some pose, the largest common volumes first.
+    """Return findings for parts that overlap in some pose, in descending order of common volume.
 
-    watch   called after each pose. Raises `MissingExtraError` without manifold3d.
+    watch   callback after each pose. Raises `MissingExtraError` if manifold3d is not installed.
     """
     solids = _Solids(work)
     found: dict[tuple[int, int], float] = {}
@@ -183,7 +186,7 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
 
 
 def pose_count(work: SolidModel) -> int:
-    """How often `prove_solids` calls its watch."""
+    """Return the number of times that `prove_solids` calls `watch`."""
     return len(_POSES) if work.scene.driving_link is not None else 1
 
 
@@ -197,12 +200,12 @@ class _Solids:
         self.parts = work.parts
         self.placed = [part.solid.vertices @ part.turn.T + part.place for part in self.parts]
         self.meshed = {frozenset(work.scene.wheels[at].id for at in pair.wheels) for pair in work.scene.pairs}
-        # a thin wheel is drawn round, and stands bent
+        # the solid of a flexible wheel is circular, but the wheel is bent when assembled
         self.bent = {name for name, (_, wheel) in work.train.declaration.wheels.items() if wheel.flexible}
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Parts of different bodies, not wheels in mesh, whose boxes overlap."""
+        """Yield pairs of parts of different bodies whose bounding boxes overlap, except meshing wheels."""
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])
@@ -215,14 +218,14 @@ class _Solids:
                 yield one, other
 
     def common(self, one: int, other: int, pose: ScenePose) -> float:
-        """The volume (mm3) that two parts share in a pose; 0 for a sliver."""
+        """Return the common volume of two parts in a pose [mm3]; 0 for a sliver."""
         solids = [self._made(at).transform(_matrix(pose, self.parts[at].body)) for at in (one, other)]
         volume = float((solids[0] ^ solids[1]).volume())
         minimum = max(SLIVER, _SHARE * min(each.volume() for each in solids))
         return volume if volume > minimum else 0.0
 
     def _made(self, at: int) -> Any:
-        """A part in the zero pose."""
+        """Return a part in the zero pose as a manifold."""
         if at not in self.made:
             faces = np.ascontiguousarray(self.parts[at].solid.faces, dtype=np.uint64)
             mesh = self.library.Mesh64(np.ascontiguousarray(self.placed[at], dtype=float), faces)
@@ -238,13 +241,13 @@ def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
     what = f"'{one.name}' and '{other.name}' overlap by {volume:.3g} mm3"
     kinds = {one.kind, other.kind}
     if kinds == {"arbor"}:
-        why, fix = "two arbors are in one place", "make one of them a pipe about the other, or move an axis"
+        why, fix = "two arbors intersect", "make one of them a pipe around the other, or move an axis"
     elif "arbor" in kinds:
-        why, fix = "an arbor goes through a part of another link", "end the arbor before it, or give the part more room"
+        why, fix = "an arbor passes through a part of another link", "shorten the arbor, or cut a hole in the part"
     elif kinds == {"plate", "wheel"}:
-        why, fix = "a plate is in the way of a wheel", "cut the plate away there, or move an axis"
+        why, fix = "a plate obstructs a wheel", "cut the plate away there, or move an axis"
     else:
-        why, fix = "two parts of different links are in one place", "put them in different layers, or move an axis"
+        why, fix = "parts of different links must not intersect", "put them in different layers, or move an axis"
     return BuildFinding("S2", "error", Problem(what, why, fix))
 
 
@@ -252,7 +255,7 @@ def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
 
 
 def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
-    """What is in the way of thin wheels that are bent into their rings."""
+    """Yield findings for flexible wheels that overlap the internal wheel into which they are bent."""
     waves = () if work.frame is None else (each for each in work.frame.plan.stack.eccentrics if each.wave is not None)
     for each in waves:
         for gear in work.train.declaration.gears:
@@ -261,13 +264,17 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
                 area = max(overlaps(work, each, cut.materials[each.wheels[0]], (ring, cut.materials[ring])))
                 if area > NOTHING:
                     what = (
-                        f"pair '{gear.name}': bent by its wave '{each.wheels[0]}' overlaps '{ring}' by {area:.3g} mm2"
+                        f"pair '{gear.name}': '{each.wheels[0]}', bent by its wave generator, overlaps '{ring}' by "
+                        f"{area:.3g} mm2"
                     )
-                    yield BuildFinding("T5", "error", Problem(what, "it cannot turn", "give more backlash"))
+                    why = "overlapping teeth cannot turn"
+                    yield BuildFinding("T5", "error", Problem(what, why, "give more backlash: --backlash 0.1mm"))
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Common areas (mm2) of a bent wheel and its ring, the wave in several places of a pitch."""
+    """Yield common areas [mm2] of a bent flexible wheel and its internal wheel, for several wave positions
+    in a pitch.
+    """
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring
@@ -278,14 +285,14 @@ def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]
     for turn in np.arange(_POSITIONS) * pitch / _POSITIONS * counts / (counts - z):
         own = -turn * (counts - z) / z
         bent = shapely.Polygon(bent_line(line, middle, (wave.wave.rise, wave.wave.lobes), (own, turn)))
-        # a tooth of the wheel stands before a space of its ring where the wave begins
+        # at the start of the wave, a tooth of the wheel faces a space of the internal wheel
         c, s = np.cos(pitch / 2), np.sin(pitch / 2)
         held = shapely.transform(material, lambda points, c=c, s=s: points @ np.array([[c, s], [-s, c]]))
         yield float(shapely.intersection(bent, held).area)
 
 
 def _divided(line: Floats) -> Floats:
-    """With points between its corners."""
+    """Insert equidistant points between the corners of a line."""
     steps = np.arange(_PARTS)[None, :, None] / _PARTS
     after = np.roll(line, -1, axis=0)
     found: Floats = (line[:, None, :] + (after - line)[:, None, :] * steps).reshape(-1, 2)

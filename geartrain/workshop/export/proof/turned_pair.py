@@ -1,8 +1,8 @@
-"""Two written outlines turned against each other: where they overlap, and how far the second is free.
+"""Two written outlines turned against each other: their overlap, and the free angle of the second one.
 
-Wheel 1 stands at the origin, wheel 2 at the distance of the axes on the positive x axis, a ring on the negative one, so
-that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (a ring by +t z1/z2) and by a
-`lag` more. Between which lags it is free is found by turning it until it bites: bisection on the area of the overlap.
+Wheel 1 is at the origin. Wheel 2 is at the distance of the axes on the positive x axis, or on the negative one if it is
+internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
++t z1/z2) plus a `lag`. The limits of the lag between which it is free are found by bisection on the area of overlap.
 
 Outlines are read back from the SVG that a laser follows (`read_material`), independently of the code that writes it.
 """
@@ -28,18 +28,18 @@ if TYPE_CHECKING:
 
 
 TOLERANCE = 2e-4
-"""How far (mm) chords of a proof may leave the arcs of a drawing."""
+"""Maximum deviation [mm] of the chords used in a proof from the arcs of a drawing."""
 
-NOTHING = 1e-9  # mm2: an overlap that is none
-SAME = 5e-6  # mm: above the digits of a drawing
+NOTHING = 1e-9  # mm2: a smaller overlap is a rounding error
+SAME = 5e-6  # mm: larger than the rounding of coordinates in a drawing
 Point = tuple[float, float]
-_STEPS = 12  # positions in a pitch at which play is measured
-_DENSE = 36  # positions in a pitch at which overlaps are looked for: between two of them a tooth moves by 0.02 modules
-_OFF = 0.137  # of a step: no position is a symmetric one
-_HALVINGS = 22  # of half a pitch: to a ten-millionth of it
-_PARTS = 16  # of a pitch, at which a wheel that is free half a pitch on is stopped
-_TRIES = 48  # places in a pitch at which a wheel that does not stand free is tried
-_ENDS = 0.2  # of a tooth's height: what counts as its tip, and as its root
+_STEPS = 12  # positions per pitch at which backlash is measured
+_DENSE = 36  # positions per pitch at which overlaps are sought: a tooth moves by about 0.1 modules in between
+_OFF = 0.137  # of a step: offset that avoids symmetric positions
+_HALVINGS = 22  # bisections of half a pitch: to a ten-millionth of it
+_PARTS = 16  # subdivisions of a pitch, to find the stop of a wheel that is free half a pitch further
+_TRIES = 48  # positions per pitch tried for a wheel that is not free
+_ENDS = 0.2  # fraction of the tooth height that counts as tip, and as root
 _CUT = "CUT"
 _WORDS = re.compile(r"[A-Za-z]|[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
@@ -47,54 +47,56 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 
 @dataclass(frozen=True, slots=True)
 class FreeTurn:
-    """How wheel 2 stands while wheel 1 is turned, an item a position."""
+    """Free angle of wheel 2 while wheel 1 is turned, as arrays with one item per position."""
 
     turned: Floats
-    """Angles of wheel 1 (rad), from where a tooth stands on the line of centres."""
+    """Angles of wheel 1 [rad], from the position with a tooth on the line of centres."""
     low: Floats
-    """Lags (rad) between which wheel 2 is free; NaN where it is not."""
+    """Lower limit of the lag at which wheel 2 is free [rad]; NaN if it is never free."""
     high: Floats
-    """Lags (rad) between which wheel 2 is free; NaN where it is not."""
+    """Upper limit of the lag at which wheel 2 is free [rad]; NaN if it is never free."""
     overlap: Floats
-    """Least common area (mm2); 0 where it is free."""
+    """Minimum common area over all lags [mm2]; 0 if it is free."""
     place: tuple[float, float] | None
-    """Where they overlap most, from the axle of wheel 1 (mm); None where nowhere."""
+    """Position of the largest overlap, from the axis of wheel 1 [mm]; None if they do not overlap."""
 
 
 @dataclass(frozen=True)
 class TurnedPair:
-    """Two wheels as materials about their own axles, a tooth on the x axis of each."""
+    """Two wheels as materials about their own axes, each with a tooth on its x axis."""
 
     materials: tuple[Any, Any]
     counts: tuple[int, int]
-    """Teeth of both."""
+    """Numbers of teeth of both wheels."""
     distance: float
-    """Of the axles (mm); `ring`, wheel 2 is one."""
+    """Distance of the axes [mm]. The field `ring` is True if wheel 2 is internal."""
     ring: bool = False
     same: float = SAME
-    """Teeth that differ by less (mm) are alike."""
+    """Tolerance [mm] below which teeth count as equal."""
 
     @cached_property
     def pitches(self) -> tuple[float, float]:
-        """Angles (rad) from tooth to tooth."""
+        """Angular pitches of both wheels [rad]."""
         return 2 * pi / self.counts[0], 2 * pi / self.counts[1]
 
     @cached_property
     def reaches(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Radii of tips and of roots of both wheels, as cut."""
+        """Tip and root radii of both wheels, as cut."""
         outer, inner = self.materials
         first = _teeth(outer, False)
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Through a pitch of wheel 1; where teeth differ, through all couples of teeth that meet."""
-        found = [self._through(tooth_pair) for tooth_pair in self.tooth_pairs]
+        """Turn the pair through a pitch of wheel 1; if teeth differ, through all tooth pairs that meet."""
+        found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Teeth of wheel 1 and spaces of wheel 2 that meet on the line of centres; alike ones once."""
+        """Teeth of wheel 1 and spaces of wheel 2 that meet on the line of centres; equal combinations are
+        listed once.
+        """
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -107,31 +109,35 @@ class TurnedPair:
         return list(found.values())
 
     def free(self, turned: Floats, lags: Floats, tooth_pair: tuple[int, int] = (0, 0)) -> FreeTurn:
-        """At angles of wheel 1 within a pitch about 0, wheel 2 standing about some lags."""
+        """Find the free angle of wheel 2 near given lags, at angles of wheel 1 within a pitch about 0."""
         t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
-        first = _moved(self._piece(0, tooth_pair[0]), t, 0.0)
+        first = _moved(self._contact_region(0, tooth_pair[0]), t, 0.0)
         areas = self._areas(first, t, lag, tooth_pair)
         place = None
         stuck = np.flatnonzero(areas > NOTHING)
         for at in stuck.tolist():
-            lag[at], areas[at] = self._tried(first[at], float(t[at]), tooth_pair, (float(lag[at]), float(areas[at])))
+            lag[at], areas[at] = self._nearest_free_lag(
+                first[at], float(t[at]), tooth_pair, (float(lag[at]), float(areas[at]))
+            )
         if (areas > NOTHING).any():
-            place = self._place(first, t, lag, tooth_pair, int(areas.argmax()))
-        ends = [self._end(first, t, lag, way, tooth_pair) for way in (-1, 1)]
+            place = self._overlap_centre(first, t, lag, tooth_pair, int(areas.argmax()))
+        ends = [self._last_free_lag(first, t, lag, way, tooth_pair) for way in (-1, 1)]
         blocked = areas > NOTHING
         low, high = (np.where(blocked, np.nan, end) for end in ends)
         return FreeTurn(t, low, high, np.where(blocked, areas, 0.0), place)
 
-    def _through(self, tooth_pair: tuple[int, int]) -> FreeTurn:
-        """Where play is measured, and every other position at which the middle of that play is no place to stand."""
+    def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
+        """Measure the backlash of one tooth pair through a pitch, and at further positions where its middle is not
+        free.
+        """
         t = self._positions(_STEPS)
         found = self.free(t, np.zeros(_STEPS), tooth_pair)
         held = np.isfinite(found.low) & np.isfinite(found.high)
         middle = (np.where(held, found.low, 0.0) + np.where(held, found.high, 0.0)) / 2
         dense = self._positions(_DENSE)
-        # teeth that are not conjugate stand elsewhere at every position
+        # teeth that are not conjugate have a different lag at every position
         lags = np.interp(dense, t, middle, period=self.pitches[0])
-        areas = self._areas(_moved(self._piece(0, tooth_pair[0]), dense, 0.0), dense, lags, tooth_pair)
+        areas = self._areas(_moved(self._contact_region(0, tooth_pair[0]), dense, 0.0), dense, lags, tooth_pair)
         stuck = areas > NOTHING
         if not stuck.any():
             return found
@@ -141,10 +147,12 @@ class TurnedPair:
     def _positions(self, steps: int) -> Floats:
         return np.asarray(self.pitches[0] * ((np.arange(steps) + _OFF) / steps - 0.5))
 
-    def _tried(
+    def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """The nearest lag within half a pitch at which wheel 2 is free; else the one with the least overlap."""
+        """Return the nearest lag within half a pitch at which wheel 2 is free, else the lag with the
+        minimum overlap.
+        """
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
         open_ = np.flatnonzero(areas <= NOTHING)
@@ -156,11 +164,11 @@ class TurnedPair:
                 return here
         return float(tries[at]), float(areas[at])
 
-    def _end(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """The last free lag on one side; infinite where nothing stops it within a pitch."""
+    def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
+        """Find the last free lag on one side by bisection; infinite if nothing stops the wheel within a pitch."""
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
-        if loose.any():  # play of half a pitch: the tooth that stops it is nearer or farther than that
+        if loose.any():  # free at half a pitch: the tooth that stops it is nearer or farther than that
             for part in range(1, _PARTS):
                 there = lag + way * self.pitches[1] * part / _PARTS
                 bites = loose & (self._areas(first, t, there, tooth_pair) > NOTHING)
@@ -174,24 +182,27 @@ class TurnedPair:
     def _second(self, t: Floats, lag: Floats, tooth_pair: tuple[int, int]) -> Any:
         ratio = self.counts[0] / self.counts[1] * (1 if self.ring else -1)
         away = -self.distance if self.ring else self.distance
-        return _moved(self._piece(1, tooth_pair[1]), t * ratio + lag, away)
+        return _moved(self._contact_region(1, tooth_pair[1]), t * ratio + lag, away)
 
     def _areas(self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int]) -> Floats:
         shapely = plane_geometry()
         return np.asarray(shapely.area(shapely.intersection(first, self._second(t, lag, tooth_pair))))
 
-    def _place(self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int], at: int) -> tuple[float, float]:
-        """The middle of the greatest sliver."""
+    def _overlap_centre(
+        self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int], at: int
+    ) -> tuple[float, float]:
+        """Return the centroid of the largest part of the overlap."""
         shapely = plane_geometry()
         common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], tooth_pair)[0])
         sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
         return float(sliver.centroid.x), float(sliver.centroid.y)
 
-    # ---------------------------------------------------------------------------------------------- what is near enough
+    # ------------------------------------------------------------------------------------- regions that can be in
+    # contact
 
     @cached_property
     def _extents(self) -> tuple[float, float]:
-        """Half angles (rad), seen from both axles, of where the tip circles overlap."""
+        """Half angles [rad], seen from both axes, of the region where the tip circles overlap."""
         (tip, _), (other, _) = self.reaches
         a = self.distance
         if not a:
@@ -200,34 +211,36 @@ class TurnedPair:
         two = (a**2 + other**2 - tip**2) / (2 * a * other)
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
-    def _piece(self, which: int, tooth: int) -> Any:
-        """What of a wheel may meet the other while a tooth, or a space of wheel 2, passes the line of centres."""
-        return self._pieces[which](tooth)
+    def _contact_region(self, which: int, tooth: int) -> Any:
+        """Return the part of a wheel that can touch the other while a tooth (or space of wheel 2) passes the line of
+        centres.
+        """
+        return self._contact_regions[which](tooth)
 
     @cached_property
-    def _pieces(self) -> tuple[Any, Any]:
+    def _contact_regions(self) -> tuple[Any, Any]:
         cut: dict[tuple[int, int], Any] = {}
 
         def piece(which: int, tooth: int) -> Any:
             kind = self._kinds(which)[tooth]
             if (which, kind) not in cut:
-                cut[which, kind] = self._cropped(which, tooth)
+                cut[which, kind] = self._crop(which, tooth)
             return cut[which, kind]
 
         return (lambda tooth: piece(0, tooth)), (lambda tooth: piece(1, tooth))
 
-    def _cropped(self, which: int, tooth: int) -> Any:
-        """A wheel turned so that a tooth (of wheel 2 a space) stands at the contact, cut off to what may touch."""
+    def _crop(self, which: int, tooth: int) -> Any:
+        """Turn a wheel to a tooth (of wheel 2 a space) at the contact, and crop it to the region that can touch."""
         shapely = plane_geometry()
         pitch = self.pitches[which]
         facing = 0.0 if which == 0 or self.ring else pi
         turn = facing - tooth * pitch + (0.0 if which == 0 else pitch / 2)
         whole = _moved(self.materials[which], np.array([turn]), 0.0)[0]
-        half = self._extents[which] + 1.1 * pitch
+        half = self._extents[which] + 1.1 * pitch  # the wheel turns by up to a pitch, plus a margin
         return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
 
     def _kinds(self, which: int) -> tuple[int, ...]:
-        """For each tooth the first that is like it, with all that lies about it."""
+        """Return for each tooth the number of the first tooth that is equal including its surroundings."""
         return self._alike[which]
 
     @cached_property
@@ -238,7 +251,7 @@ class TurnedPair:
     # ---------------------------------------------------------------------------------------------------------- words
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
-        """Where two wheels overlap: what of which, and at which radii (mm)."""
+        """Describe the position of an overlap: tip, flank or root of either wheel, with the radius [mm]."""
         away = -self.distance if self.ring else self.distance
         radii = hypot(*place), hypot(place[0] - away, place[1])
         parts = [_part(radius, *reach) for radius, reach in zip(radii, self.reaches, strict=True)]
@@ -260,7 +273,7 @@ def _part(radius: float, tip: float, root: float) -> str:
 
 
 def _tooth_lines(material: Any, ring: bool) -> Any:
-    """The outer line, or of a ring its hole; of pins all their lines."""
+    """Return the outer line of a wheel, for an internal wheel its hole, for a lantern all lines of its pins."""
     shapely = plane_geometry()
     if ring:
         return max(material.interiors, key=lambda line: float(shapely.Polygon(line).area))
@@ -268,7 +281,7 @@ def _tooth_lines(material: Any, ring: bool) -> Any:
 
 
 def _teeth(material: Any, ring: bool) -> tuple[float, float]:
-    """Radii of the tips and of the roots; of pins what they reach."""
+    """Return the tip and root radii; for a lantern the outermost and innermost radius of its pins."""
     shapely = plane_geometry()
     radii = np.hypot(*shapely.get_coordinates(_tooth_lines(material, ring)).T)
     ends = float(radii.max()), float(radii.min())
@@ -276,20 +289,22 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Teeth by the first that is like them: a wheel that is the same after a pitch has one kind."""
+    """Return for each tooth the first equal one; a wheel invariant under a turn by a pitch has one kind."""
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
     shapely.prepare(lines)
     turned = shapely.get_coordinates(lines) @ (1, 1j) * np.exp(2j * pi / count)
     near = shapely.dwithin(shapely.points(turned.real, turned.imag), lines, same)
+    # a wheel that does not coincide with itself after a pitch is treated as having no two equal teeth
     return (0,) * count if near.all() else tuple(range(count))
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
-    """The sector about a direction, from well under the teeth to well over them."""
+    """Return the sector about a direction, from well below the teeth to well above them."""
     shapely = plane_geometry()
     height = abs(reach[0] - reach[1])
     steps = np.linspace(-half, half, 9)
+    # divided by the cosine, so that the chords of the sector are outside the circle
     low, high = max(min(reach) - height, 0.0), (max(reach) + height) / cos(half / 8)
     outer = [(high * cos(facing + s), high * sin(facing + s)) for s in steps]
     inner = [(low * cos(facing + s), low * sin(facing + s)) for s in steps[::-1]]
@@ -297,7 +312,7 @@ def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
 
 
 def _moved(material: Any, turns: Floats, away: float) -> Any:
-    """Copies of a material, each turned about its axle, then taken along the x axis."""
+    """Return copies of a material, each turned about its axis and then moved along the x axis."""
     shapely = plane_geometry()
     x, y = shapely.get_coordinates(material).T
     c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]
@@ -310,7 +325,7 @@ def _moved(material: Any, turns: Floats, away: float) -> Any:
 
 
 def plane_geometry() -> Any:
-    """The library of plane geometry. Raises `MissingExtraError` without it."""
+    """Import and return shapely; raise `MissingExtraError` if it is not installed."""
     try:
         import shapely
     except ImportError:
@@ -319,10 +334,10 @@ def plane_geometry() -> Any:
 
 
 def read_material(svg: str, pins: bool = False, tolerance: float = TOLERANCE) -> Geometry:
-    """The material that a drawing leaves when its CUT path is cut, mm, y upwards; of a lantern its pins.
+    """Read the material that remains when the CUT path of a drawing is cut, in mm, y upwards; for a lantern its pins.
 
-    The largest line is the rim, the others are holes. Raises `GearTrainError` for what cannot be cut: a line that
-    crosses itself, a hole that leaves the part.
+    The largest line is the rim, the others are holes. Raises `GearTrainError` for a drawing that cannot be cut: a line
+    that crosses itself, or a hole that leaves the part.
     """
     shapely = plane_geometry()
     rings = [shapely.Polygon(line) for line in cut_lines(svg, tolerance)]
@@ -336,12 +351,12 @@ def read_material(svg: str, pins: bool = False, tolerance: float = TOLERANCE) ->
         return shapely.union_all([hole for hole in holes if not hole.covers(axle)])
     whole = shapely.Polygon(outer.exterior, [hole.exterior for hole in holes])
     if not whole.is_valid:
-        raise _uncuttable("its lines run into each other", shapely.is_valid_reason(whole))
+        raise _uncuttable("its lines intersect", shapely.is_valid_reason(whole))
     return whole
 
 
 def cut_lines(svg: str, tolerance: float = TOLERANCE) -> list[list[Point]]:
-    """The closed lines of the CUT path as points (mm), y upwards, arcs as chords."""
+    """Return the closed lines of the CUT path as points [mm], y upwards, with arcs as chords."""
     path = next(each for each in ElementTree.fromstring(svg).iter() if each.get("id") == _CUT)
     lines: list[list[Point]] = []
     for word, numbers in _commands(path.get("d", "")):
@@ -351,13 +366,13 @@ def cut_lines(svg: str, tolerance: float = TOLERANCE) -> list[list[Point]]:
             lines[-1].append((numbers[0], -numbers[1]))
         elif word == "A":
             end = numbers[5], -numbers[6]
-            # y upwards a positive sweep turns right
+            # with y upwards, a positive sweep turns right
             lines[-1] += _arc(lines[-1][-1], end, numbers[0], (bool(numbers[3]), not numbers[4]), tolerance)
     return lines
 
 
 def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
-    """Each command with its numbers."""
+    """Yield each command of an SVG path with its numbers."""
     words = _WORDS.findall(data)
     at = 0
     while at < len(words):
@@ -368,16 +383,16 @@ def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
 
 
 def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tolerance: float) -> list[Point]:
-    """Points of an arc of a circle after its start; flags: whether it is the larger one, and turns left.
+    """Return the points of a circular arc after its start; flags: large arc, and left turn.
 
-    The centre by appendix B.2.4 of SVG 2, for circles.
+    The centre is computed as in appendix B.2.4 of SVG 2, for circles.
     """
     large, left = flags
     (x, y), (u, v) = start, end
     half = sqrt((u - x) ** 2 + (v - y) ** 2) / 2
     if not half:
         return []
-    radius = max(radius, half)
+    radius = max(radius, half)  # rounded coordinates may be farther apart than the diameter
     aside = sqrt(radius**2 - half**2) / (2 * half) * (1 if left != large else -1)
     cx, cy = (x + u) / 2 - aside * (v - y), (y + v) / 2 + aside * (u - x)
     first, last = atan2(y - cy, x - cx), atan2(v - cy, u - cx)
@@ -388,4 +403,4 @@ def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tole
 
 
 def _uncuttable(what: str, why: str) -> GearTrainError:
-    return GearTrainError(Problem(f"a drawing cannot be cut: {what}", why, "change its teeth, its bore or its rim"))
+    return GearTrainError(Problem(f"the drawing cannot be cut: {what}", why, "change its teeth, its bore or its rim"))

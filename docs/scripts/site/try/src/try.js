@@ -134,7 +134,6 @@ function answered({ id, found }) {
       return html("li", { class: each.level }, place + each.what, ...more);
     }),
   );
-  part("words").textContent = found.words;
   part("left-out").textContent = found.left_out ?? "";
   part("results").classList.toggle("stale", !found.page);
   if (!found.page) return;

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 _MOST_ANGLES = 2_000_000  # angles of all links together, before samples are selected
 
-Other = Annotated[str | None, typer.Argument(help="Another train, shown beside the first.", metavar="[FILE2]")]
+Other = Annotated[str | None, typer.Argument(help="Another train, shown next to the first.", metavar="[FILE2]")]
 Page = Annotated[
     Path | None,
     typer.Option(

@@ -135,9 +135,6 @@ def fraction_text(value: Fraction | int) -> str:
     Python refuses to convert integers beyond 4300 digits, because its conversion takes quadratic time. Here decimals
     are assembled from halves in almost linear time, and the limit of the process is not changed.
 
-    Python refuses to write integers past 4300 digits, for it takes the square of their length. Decimals are put
-    together from halves instead, in little more than linear time; the limit of the process is neither met nor moved.
-
     >>> fraction_text(Fraction(-254, 19)), len(fraction_text(7**20_000))
     ('-254/19', 16902)
     """

@@ -22,8 +22,6 @@ class LabelledArray(Tabular, Result):
 
     `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels. An unknown label raises `KeyError`.
 
-    `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels; `KeyError` for one there is not.
-
     Examples
     --------
     >>> import geartrain

@@ -22,9 +22,6 @@ class LongFloat(Rational):
     Arithmetic rounds like that of floats, and returns a float wherever one can represent the result. Operands may also
     be floats, integers and Fractions. `Fraction(value)` is its exact value, which like that of any float is rounded.
 
-    Arithmetic rounds as that of floats does, and gives a float again wherever one holds the result. Mixed with floats,
-    integers and Fractions; `Fraction(value)` is its value, which like that of any float is not the exact answer.
-
     Examples
     --------
     >>> number = LongFloat(0.75, 5000)

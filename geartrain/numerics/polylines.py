@@ -17,9 +17,6 @@ def simplified(points: Floats, tolerance: float) -> list[int]:
     measured from that point. Ramer, Computer Graphics and Image Processing 1 (1972) 244; Douglas and Peucker,
     Cartographica 10 (1973) 112.
 
-    Both ends are kept; where they are one point, distances are counted from it. Ramer, Computer Graphics and Image
-    Processing 1 (1972) 244; Douglas and Peucker, Cartographica 10 (1973) 112.
-
     >>> simplified(np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.1], [3.0, 5.0], [4.0, 6.0]]), 0.5)
     [0, 2, 3, 4]
     """

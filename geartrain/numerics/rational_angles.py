@@ -31,9 +31,6 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
     Fractions with denominators up to q match a random angle with probability 0.6 q^2 slack, which bounds q. At most one
     such fraction exists, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
 
-    Fractions with denominators up to q leave room for an accident with probability 0.6 q^2 slack, which bounds q. There
-    is one such fraction at most, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
-
     >>> recognised_angle(0.3333, 1e-4), recognised_angle(0.3679, 1e-4)
     (Fraction(1, 3), None)
     """

@@ -182,9 +182,6 @@ def csv_line(cells: Iterable[object]) -> str:
     A text that a spreadsheet would interpret as a formula gets an apostrophe in front, except numbers and fractions.
     Control characters are escaped, so that a row is always one line of a file.
 
-    A text that a spreadsheet would take for a formula gets an apostrophe in front; numbers and fractions that are
-    written as text do not. Control characters are written out, so that a row is always one line of a file.
-
     >>> csv_line(["a,b", "=1+1", "-254/19", -0.5, None])
     '"a,b",\'=1+1,-254/19,-0.5,'
     """

@@ -107,6 +107,7 @@ class Sink:
     def write(self, data: bytes, said: str = "") -> None:
         """Write a finished result atomically; report its name, followed by `said`, on standard error."""
         if self.path is None:
+            # text printed so far must precede the bytes
             sys.stdout.flush()
             sys.stdout.buffer.write(data)
             sys.stdout.buffer.flush()
@@ -133,6 +134,7 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
         return Sink(plain=out is not None)
     from geartrain.numerics.files import destination
 
+    # checked before the computation, which may take long
     if suffix_of(out, allowed, option) == ".html" and ".html" in allowed:
         from geartrain.report.html_page import check_pages
 
@@ -181,6 +183,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
     elif out == STANDARD and sys.stdout.isatty():
         from rich.console import Console
 
+        # without highlighting: rich would colour every number
         to_terminal(documents, Console(highlight=False))
     elif out == STANDARD:
         emit(to_text(documents))
@@ -215,6 +218,7 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
 
 def file_name(text: str, ending: str) -> Path:
     """Return a file in the current folder named after `text`, with unsuitable characters replaced by hyphens."""
+    # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")
 
@@ -237,6 +241,7 @@ def as_json(data: Any) -> str:
     from geartrain.numerics.results import plain
 
     data = plain(data)
+    # JSON has no NaN and no infinity: `plain` data must not contain them
     text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
     return text if printable(text) == text else json.dumps(data, indent=2, allow_nan=False)
 

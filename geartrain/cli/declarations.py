@@ -30,6 +30,7 @@ def write_template(
     check_choice("template", kind, kinds)
     path = Path(f"{kind}.yaml") if out is None else out
     to = sink(path, force)
+    # `emit` appends the final line feed
     emit((TEMPLATES / f"{kind}.yaml").read_text(encoding="utf-8").removesuffix("\n"), to)
     if to.path is not None:
         tell(f"next: geartrain check {path}; geartrain report {path}; geartrain view {path} -o {path.stem}.html")

@@ -54,6 +54,7 @@ def run(
     """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
     from geartrain.analysis.gear_train import load
 
+    # options are checked before the train is read
     suffix_of(out, PICTURES)
     turned = read_turns("--turns", turns)
     train = load(file)

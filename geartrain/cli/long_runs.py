@@ -117,6 +117,7 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
     from geartrain.numerics.work import Execution
 
     plain = json.loads(json.dumps(question, default=str))
+    # the name depends on the question, so that runs with other options have other journals
     mark = hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()[:8]
     path = (out.parent if out else Path()) / f"{what}-{mark}.partial.jsonl"
     with (
@@ -132,6 +133,7 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
     """Open the journal at `path`; None if the folder is not writable."""
     from geartrain.numerics.work import Journal
 
+    # a run works without a journal, but it cannot be resumed then
     if not resume and not os.access(path.parent, os.W_OK):
         yield None
         return
@@ -241,6 +243,7 @@ def _interrupts() -> Iterator[list[int]]:
     came: list[int] = []
 
     def note(number: int, frame: Any) -> None:
+        # the second Ctrl-C interrupts immediately
         signal.signal(signal.SIGINT, before)
         came.append(number)
 

@@ -77,6 +77,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
+    # where the results of an interrupted run are written, checked together with the others
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
     if csv and to.path is not None:
@@ -85,6 +86,7 @@ def run(
         raise typer.BadParameter("only a CSV file can be resumed: give -o x.csv too", param_hint="--resume")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
+    # an output that is also a link is reported once
     motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance, fast)
     requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
@@ -149,6 +151,7 @@ def _report(
             if spectrum:
                 requested.find_spectra(bar.advance)
         except KeyboardInterrupt:
+            # an interrupt before the first results ends the command
             if not requested.done:
                 raise
             stopped = True

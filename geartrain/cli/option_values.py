@@ -71,6 +71,7 @@ def restitution(text: str) -> float:
 def input_rate(text: str) -> float:
     """Parse a speed of the input [rad/s]; a plain number is in revolutions per second."""
     found = read_quantity("--rate", text, "speed", plain=True, minimum="above 0")
+    # a plain number is in turns per second, not in rad/s
     return tau * float(found.value) if found.unit is None else found.si
 
 

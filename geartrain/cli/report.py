@@ -54,6 +54,7 @@ def report(
     if view and to.suffix != ".html":
         raise typer.BadParameter("the animation needs an HTML page: give -o x.html too", param_hint="--view")
     trains = load_all(files)
+    # the exit code covers all states, also those that are not printed
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))
     if json or to.suffix == ".json":
         emit(as_json([collect_report(train) for train in trains]), to)

@@ -172,6 +172,7 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
     if kind not in configuration.kinds:
         kinds = ", ".join(dict.fromkeys(configuration.kinds))
         raise typer.BadParameter(f"'{kind}' is not a kind of gear; use {kinds}", param_hint="--radius")
+    # a pitch radius determines the sphere through the pitch cone angle of its kind
     cones = size_gears(configuration).outer
     return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
 

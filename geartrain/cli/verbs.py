@@ -65,6 +65,7 @@ class Verbs(Mapping[str, Command]):
         return self._made[name]
 
     def __iter__(self) -> Iterator[str]:
+        # a command of an optional part is listed only if that part is installed
         absent = {f"geartrain.{name}" for name in WINGS if not has_wing(name)}
         yield from (name for name, module in self._modules.items() if ".".join(module.split(".")[:2]) not in absent)
         yield from self._make
@@ -80,6 +81,7 @@ class Verbs(Mapping[str, Command]):
             return {}
         from importlib.metadata import entry_points
 
+        # other distributions can add commands, but not replace those of this group
         known = {*self._modules, *self._make}
         return {each.name: each for each in entry_points(group=self._group) if each.name not in known}
 
@@ -169,6 +171,7 @@ def guarded(run: Callable[[], Any]) -> int:
     """Run the command, report errors on standard error, and return the exit code."""
     try:
         code = _code(run)
+        # errors of the disk or a closed pipe may appear only when the buffer is written
         sys.stdout.flush()
     except GearTrainError as error:
         complain(error)
@@ -179,6 +182,7 @@ def guarded(run: Callable[[], Any]) -> int:
         _discard_output()
         return READER_GONE
     except Exception as error:
+        # an error without a file name is one of standard output
         if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
             what = Problem(
                 "the result cannot be written",

@@ -91,6 +91,7 @@ def view(
     shown = _layout(embed, kiosk, other)
     trains = load_all([file] if other is None else [file, other])
     to = _page_sink(out or file_name("-".join(train.name for train in trains), ".html"), force)
+    # a simulation, and a page with two trains, show one state
     first = dynamics or other is not None
     taken = [(train, each) for train in trains for each in _states(train, state, first)]
     runs = [_simulated(train, each, request) if dynamics else None for train, each in taken]

@@ -27,8 +27,6 @@ def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple
 
     Together with the edge i j they form the fundamental cycle of that edge.
 
-    With the edge i j they make the fundamental cycle of that edge.
-
     >>> ways_to_common_ancestor("c", "d", {"c": "b", "b": "a", "d": "b"}.get)
     (['c', 'b'], ['d', 'b'])
     """

@@ -131,6 +131,7 @@ def _run(
         mesh = rub.of(pair_in_mesh(form, wheels, angle, driver), rate)
     except GearTrainError as error:
         raise at_option(error, "--teeth") from None
+    # the option is that of the form if the form has one, else that of the profile
     root = None if "clearance" in model.model_fields else clearance
     blank = {"clearance": root, "fillet": fillet, "bore": bore, "rim": rim, "tolerance": tolerance}
     outlines = write_profile(mesh, wheel, blank, outlined)

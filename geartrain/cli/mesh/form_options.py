@@ -88,6 +88,7 @@ def form_command(
     def command(**given: Any) -> None:
         run(**given)
 
+    # typer reads the options from the signature and their types from the annotations
     command.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {each.name: each.annotation for each in parameters}
     command.__doc__ = words
@@ -234,8 +235,10 @@ def two_wheels(
     from geartrain.train import GearPair
 
     kind = "helical" if helix else "spur" if shaft_angle is None else "bevel"
+    # the transverse module is the normal module divided by the cosine of the helix angle
     distance = None if module is None else module / cos(helix) * sum(teeth) / 2
     pair = GearPair(pair=("wheel 1", "wheel 2"))
+    # external helical wheels have opposite hands, a ring has the hand of its pinion
     lean = (helix, helix if internal else -helix)
     return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance, helix=lean)
 
@@ -337,6 +340,7 @@ class PairFrictionOption:
             raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts
+            # the pitch radius is that of the first wheel, the speed that of the driver
             radius *= second / first
         speed = quantity("--rate", rate, "speed", minimum="above 0") * radius
         return replace(mesh, wheels=replace(mesh.wheels, friction=None, friction_law=self.law, pitch_line=speed))

@@ -91,6 +91,7 @@ class TriangularOptions:
         """Create the pair in mesh, with some options replaced by varied values."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
+        # tooth counts in a sweep are floats
         z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
         rub = read_pair_friction(varied.get("friction", self.friction))
         wheels = two_wheels((z1, z2), rub.coefficient, self.module, self.internal)
@@ -107,6 +108,7 @@ class TriangularOptions:
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
         """Create the tooth form with some options replaced; a varied clearance replaces all given clearances."""
+        # only one of the options for the clearance can be given
         fixed = _KEPT if set(varied) - {*_KEPT} else tuple(self.own)
         return read_form(Triangular, {name: self.own[name] for name in fixed} | dict(varied), "--radii")
 

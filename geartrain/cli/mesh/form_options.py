@@ -106,8 +106,8 @@ def _option(name: str, field: FieldInfo) -> tuple[type, str]:
         text += f": {', '.join(_words(field.annotation))}"
     if _is_pair(field.annotation) and "comma" not in text:
         pair = "; one value, or two separated by a comma" + (" (first, second wheel)" if name in _PER_WHEEL else "")
-        before, default, after = text.partition("; default")
-        text = f"{before}{pair}{default}{after}"
+        before, *default = re.split(r"(?=[;.] [Dd]efault )", text, maxsplit=1)
+        text = before + pair + "".join(default)
     if field.default is not None and not field.is_required():
         text += f"; default {field.default}"
     return str, f"{text}."

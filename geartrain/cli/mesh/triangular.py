@@ -225,7 +225,7 @@ def _run(
         str | None,
         typer.Option(
             "--best",
-            help="Minimise loss, error or impact, or maximise the jam margin: one of these, or two with a comma.",
+            help="Minimise loss, error or impact, or maximise the jam margin (jam); one or two, separated by a comma.",
         ),
     ] = None,
     free: Annotated[

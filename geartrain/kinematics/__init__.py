@@ -1,25 +1,26 @@
-"""Exact speeds, mobility and loops: from a declaration to a verdict.
+"""Kinematics of a declared train: exact speeds, mobility, loops, and a verdict.
 
-In: a train's declaration, inputs, what is held. Out: fundamental circuits with their carriers, speeds as Fractions (or
-floats with a bound of their error), degrees of freedom, a verdict with its certificate, outputs held against what is
-expected of them. `TrainKinematics` has all of it for one train, each part found once.
+Input is the declaration of a train with its inputs, brakes and locks. Results are fundamental circuits with their
+carriers, speeds as Fractions (or floats with an error estimate), the mobility, a verdict with its certificate, and
+outputs compared with their expected values. `TrainKinematics` provides all of it for one train and computes each part
+once.
 
-The equation of the room is Willis': a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 9).
+The basic equation is Willis' equation, a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair (docs/theory.md, 3 to 9).
 
-train_kinematics                 everything below for one train; remarks on a sound declaration
+train_kinematics                 everything below for one train; remarks on a valid declaration
 circuits                         joint tree with its axes and rigid bodies; fundamental circuits
-willis_equation, willis_system   the rows of the system, for all that solve it; relative speeds
+willis_equation, willis_system   rows of the Willis system; relative speeds
 willis_matrix                    the same rows as a sparse matrix
 components                       ordinary trains of one carrier, and the reduced system between them
 speeds                           propagation, exact elimination, diagnosis; mobility; floats
-formulas                         outputs as rational functions of tooth counts, and as an engineer writes them
-levers                           links as points of a lever
-gridlock                         locked subgraphs, and the fewest meshes to take out
-phasing                          whether teeth meet when a train is put together
-buildability                     what of a declared train cannot be built, and what is unwise
-planet_copies                    one declared planet that stands for several
-graph                            the declared links, turning pairs and gear pairs as a networkx graph
-judged_outputs, answer           results; the effect of one tooth more or less
+formulas                         outputs as rational functions of tooth counts, and as textbook formulas
+levers                           lever analogy: links as points on a line
+gridlock                         locked subgraphs, and the smallest set of meshes to remove
+phasing                          phase closure: whether teeth mesh when a train is assembled
+buildability                     parts of a declared train that cannot be built, or should be changed
+planet_copies                    equal planets declared as one link
+graph                            declared links, turning pairs and gear pairs as a networkx graph
+judged_outputs, answer           results; effect of one tooth more or less
 """
 
 from __future__ import annotations

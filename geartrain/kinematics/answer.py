@@ -1,4 +1,4 @@
-"""What a train does in one state: the verdict with its certificate, speeds, judged outputs."""
+"""Result of solving a train in one state: verdict with its certificate, speeds, evaluated outputs."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, finite
 
 MOST_NAMES = 12
-_MAIN = 3  # links in the line of an answer
+_MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """The first names, and how many more there are.
+    """Join the first names, and give the number of the remaining ones.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -30,7 +30,7 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """A closed loop of meshing wheels in one carrier's frame, with the product of its ratios (docs/theory.md, 7).
+    """A closed loop of meshing wheels in the frame of one carrier, with its ratio product (docs/theory.md, 7).
 
     Examples
     --------
@@ -41,21 +41,22 @@ class Loop(Result):
     """
 
     carrier: str
-    """The link from which all pairs of the loop are seen."""
+    """Link relative to which all pairs of the loop are considered."""
     links: tuple[str, ...]
-    """Links in order."""
+    """Links in the order of the loop."""
     pairs: tuple[str, ...]
-    """Ids of the pairs in order; the last one closes the loop."""
+    """Ids of the pairs in the order of the loop; the last one closes it."""
     product: Fraction
-    """Speed with which a walk round the loop comes back, as a multiple of that with which it left, equation (20): 1
-    closes, and one mesh is redundant; anything else locks the loop to its carrier."""
+    """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one mesh is
+    redundant; otherwise the links of the loop are locked to the carrier.
+    """
 
     def _summary(self) -> str:
         return str(self).removeprefix("loop ")
 
     @property
     def closes(self) -> bool:
-        """True if the loop turns; its last mesh is then redundant."""
+        """True if the loop can turn; its last mesh is then redundant."""
         return self.product == 1
 
     def __str__(self) -> str:
@@ -68,9 +69,9 @@ VerdictKind = Literal["determined", "free", "locked", "contradictory", "refused"
 
 @dataclass(frozen=True, slots=True)
 class Verdict(Result):
-    """What a train does with its inputs, decided by exact rank; equation (22) of docs/theory.md is its certificate.
+    """Verdict on a train with given inputs, decided by exact rank; the certificate is equation (22) of docs/theory.md.
 
-    A verdict is an answer, never an exception. It is true if it is `determined`.
+    A verdict is a result, never an exception. It is true if its kind is `determined`.
 
     Examples
     --------
@@ -81,19 +82,22 @@ class Verdict(Result):
     """
 
     kind: VerdictKind
-    """Determined: every link's speed follows from the inputs. free: `links` are undetermined. locked: the input
-    cannot move, for `loops` or `prescriptions` hold it. contradictory: `prescriptions` cannot hold at once. refused:
-    no speed can be calculated in one of several states, for its locks make a linkage, or it drives no rotation."""
+    """Kind of the verdict.
+
+    determined: every link's speed follows from the inputs. free: the speeds of `links` are undetermined. locked: the
+    input cannot move because of `loops` or `prescriptions`. contradictory: `prescriptions` exclude each other. refused:
+    speeds cannot be calculated in this state, because its locks form a linkage or would stop a rotation.
+    """
     text: str
-    """The verdict in a sentence, with what it follows from."""
+    """Verdict as a sentence, with its cause."""
     links: tuple[str, ...] = ()
-    """Links whose speed is not determined."""
+    """Links whose speed is undetermined."""
     fixes: tuple[str, ...] = ()
-    """Links which, prescribed too, would determine all."""
+    """Links whose additional prescription would determine all speeds."""
     prescriptions: tuple[str, ...] = ()
     """Inputs, brakes and clutches that take part in a lock or contradiction."""
     loops: tuple[Loop, ...] = ()
-    """Loops that do not close and hold the train, or a part of it."""
+    """Loops with a ratio product other than 1, which lock the train or a part of it."""
 
     def _summary(self) -> str:
         return str(self)
@@ -107,27 +111,27 @@ class Verdict(Result):
 
 @dataclass(frozen=True, slots=True)
 class SpeedAccuracy:
-    """How far floats are from the truth: the estimate that came with them, and the true error where it was had."""
+    """Error of a float speed: its estimate, and the true error if the exact speed is known."""
 
     estimate: Real
     true_error: Real | None
     condition: float | None = None
-    """Component-wise, (25) of docs/theory.md, infinite of a link at rest; None where it was not asked for."""
+    """Component-wise condition number, (25) of docs/theory.md; infinite for a link at rest, None if not requested."""
 
 
 class RowResiduals(TypedDict, total=False):
-    """What JSON has of floats only: by row of the Willis system, the part of its terms that it is off."""
+    """JSON keys that only float speeds have: relative residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
-    """Residual of each row of the Willis system over the sum of the sizes of its terms, by label."""
+    """Residual of each row of the Willis system over the sum of the magnitudes of its terms, by label."""
 
 
 @dataclass(frozen=True, slots=True)
 class Answer(FrozenFields, Tabular, TrainResult):
-    """What a train does in one state: the solution of its Willis system, equations (4) and (5) of docs/theory.md.
+    """Solution of a train in one state: speeds by the Willis system, equations (4) and (5) of docs/theory.md.
 
-    True if the verdict is as expected (`determined` unless the state's `expect` says otherwise), and so are all
-    outputs. `answer[name]` is the speed of an output or a link; `KeyError` where it is not determined.
+    True if the verdict is as expected (`determined` unless the state's `expect` names another) and all outputs agree
+    with their expectations. `answer[name]` is the speed of an output or a link; `KeyError` if it is not determined.
 
     Examples
     --------
@@ -155,29 +159,32 @@ class Answer(FrozenFields, Tabular, TrainResult):
     train: str
     """Name of the train."""
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     place: str
-    """Where the state's inputs were declared; empty where the verdict is `determined`, as expected."""
+    """Place where the inputs of the state were declared; empty if the verdict is `determined` as expected."""
     unit: str
     """Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
     verdict: Verdict
-    """Whether the speeds follow from the inputs."""
+    """Verdict on whether the speeds follow from the inputs."""
     speeds: Mapping[str, SpeedValue]
-    """Speed of each determined link [`unit`]: exact, or floats (`LongFloat` past 1e308) where `method` says so."""
+    """Speed of each determined link [`unit`]: exact, or floats (`LongFloat` above 1e308) depending on `method`."""
     outputs: Mapping[str, OutputResult]
-    """The declared outputs, judged when they are first read."""
+    """Declared outputs, evaluated on first access."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Link -> input -> speed over that input, the others at rest; made when read, empty for floats."""
+    """Ratio of speeds by link and input, with all other inputs at rest; computed on access, empty for floats."""
     method: str
-    """How the speeds were found; floats by the sparse LU of the Willis system's matrix, or as exact ones rounded."""
+    """Method of solution: exact, or floats by sparse LU factorisation or by rounding exact speeds."""
     accuracy: Mapping[str, SpeedAccuracy]
-    """Absolute error of each link's speed [`unit`] and its condition number; made when read, empty for exact speeds."""
+    """Absolute error of each link's speed [`unit`] and its condition number; computed on access, empty for exact
+    speeds.
+    """
     work: int
-    """Circuits that were solved."""
+    """Number of circuits that were solved."""
     residual: Mapping[str, float] = field(default_factory=dict)
-    """By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; made when read, empty for speeds not found by it."""
+    """|b - A w| over |A| |w| [1] by row of `WillisSystem.matrix`; computed on access, empty if the matrix was not used.
+    """
     expected: str = "determined"
-    """The verdict that the state's `expect` names."""
+    """Expected kind of verdict, as named by the state's `expect`."""
     _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)
 
     def _summary(self) -> str:
@@ -191,7 +198,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """The links of the requested or declared outputs, else all that no input drives."""
+        """Return the links of the requested or declared outputs, else all links that are not inputs or fixed."""
         if case is None or self._output is not None:
             return self.speeds
         outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]
@@ -200,7 +207,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """A speed; of a train with one input that turns, over the speed of the input."""
+        """Return a speed as text; if exactly one input turns, as a ratio to that input."""
         speed = self.speeds[link]
         own = inputs.get(turning[0]) if len(turning) == 1 else None
         if own is None or not isinstance(speed, Fraction) or not isinstance(own, Fraction) or link == turning[0]:
@@ -208,16 +215,16 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{brief(speed / own)} of {turning[0]}"
 
     def __getitem__(self, name: str) -> SpeedValue:
-        """The speed of an output, or of a link."""
+        """Return the speed of an output, or of a link."""
         result = self.outputs.get(name)
         speed = result.speed if result is not None else self.speeds.get(name)
         if speed is None:
-            raise KeyError(f"'{name}' is no determined output or link of '{self.train}'")
+            raise KeyError(f"'{name}' is not a determined output or link of '{self.train}'")
         return speed
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each determined link: its speed as a float, and exactly."""
+        """Table with one row for each determined link: its speed as a float, and as an exact fraction."""
         speeds = self.speeds.values()
         exact = [str(speed) if isinstance(speed, Fraction) else None for speed in speeds]
         return {"link": [*self.speeds], "speed": [float(speed) for speed in speeds], "exact": exact}
@@ -228,22 +235,22 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs that miss their `expect`, their `published` figure or the tolerance of a target."""
+        """Outputs that miss their `expect`, their `published` value or the tolerance of a target."""
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)
 
     def __bool__(self) -> bool:
-        """True if the verdict is as expected, and so are all outputs that are determined."""
+        """Return True if the verdict is as expected and all determined outputs agree with their expectations."""
         return self.as_expected and not self.failures
 
     @property
     def as_expected(self) -> bool:
-        """Whether the verdict is the one that the state's `expect` names, by default `determined`."""
+        """True if the kind of the verdict equals the state's `expect`, by default `determined`."""
         return self.verdict.kind == self.expected
 
     @property
     def speed_figures(self) -> Mapping[str, SpeedFigures]:
-        """The speeds, and how far floats are off, as JSON has them."""
+        """Speeds and their errors in the form of the JSON output."""
         found = {link: speed_figures(speed) for link, speed in self.speeds.items()}
         for link, accuracy in self.accuracy.items():
             found[link]["estimate"] = as_plain(accuracy.estimate)
@@ -254,5 +261,5 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def row_residuals(self) -> RowResiduals:
-        """The residuals, as JSON has them; nothing where there are none."""
+        """Residuals in the form of the JSON output; empty for exact speeds."""
         return {"residual": self.residual} if self.residual else {}

@@ -1,8 +1,9 @@
-"""The ordinary train of each carrier frame: exact relative ratios, and its loops with their witnesses.
+"""Ordinary trains in the frame of each carrier: exact relative ratios, and loops with their certificates.
 
-Seen from one carrier, the links that mesh form an ordinary train whose relative speeds are rational multiples of
-one unknown. One walk finds them all; a mesh that closes a loop either agrees (it is redundant) or locks the train
-to its carrier. What couples the components are the links they share, and that system is small in real trains.
+Relative to one carrier, the links that mesh form an ordinary train whose relative speeds are rational multiples of one
+unknown. Breadth-first search finds all of them. A mesh that closes a loop is either consistent, and then redundant, or
+it locks the train to its carrier. The components are coupled by the links that they share, and the resulting system is
+small for real trains.
 """
 
 from __future__ import annotations
@@ -23,57 +24,57 @@ from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 
 @dataclass(frozen=True, slots=True)
 class Components:
-    """All components of a train. A node is a link seen from a carrier; node arrays run in parallel."""
+    """All components of a train as parallel arrays over nodes. A node is a link relative to a carrier."""
 
     links: tuple[str, ...]
     index: Mapping[str, int]
     frame: int
     circuits: Sequence[Circuit]
     node_link: Sequence[int]
-    """Link and carrier of each node, as indices into `links`."""
+    """Link of each node, as an index into `links`."""
     node_carrier: Sequence[int]
-    """Link and carrier of each node, as indices into `links`."""
+    """Carrier of each node, as an index into `links`."""
     node_group: Sequence[int]
-    """The component each node belongs to."""
+    """Component of each node."""
     ratios: FactoredRatios
-    """Its speed relative to the carrier, over that of its component's unknown."""
+    """Speed of each node's link relative to its carrier, over the unknown of its component."""
     node_circuit: Sequence[int]
-    """The circuit by which the walk reached it; -1 at the root."""
+    """Circuit through which the search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
     """Carrier of each component."""
     nodes_of: Mapping[int, Sequence[int]]
-    """Link -> its nodes."""
+    """Nodes of each link."""
     closing: Sequence[int]
-    """Circuits that close a loop and agree: each is redundant."""
+    """Circuits that close a loop consistently; each is redundant."""
     breaking: Sequence[int]
-    """Circuits that close a loop and disagree: they lock their component."""
+    """Circuits that close a loop inconsistently; they lock their component to its carrier."""
     holding: Sequence[int]
-    """Couplings of winding number 0: they hold the slot's component on its carrier."""
+    """Couplings of winding number 0, which lock the component of the slot to its carrier."""
 
     @property
     def node_parent(self) -> Sequence[int]:
-        """The node that each one was reached from; -1 at a root."""
+        """Predecessor of each node in the search tree; -1 for a root."""
         return self.ratios.parent
 
     def relative(self, node: int) -> Fraction:
-        """Speed of the node's link relative to its carrier, over the component's unknown."""
+        """Return the speed of the node's link relative to its carrier, over the component's unknown."""
         return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
-        """The node of a link as seen from a carrier."""
+        """Return the node of a link relative to a carrier."""
         return next(node for node in self.nodes_of[link] if self.node_carrier[node] == carrier)
 
     def group_of(self, circuit: Circuit) -> int:
-        """The component a circuit belongs to."""
+        """Return the component to which a circuit belongs."""
         return self.node_group[self.node(self.index[circuit.i], self.index[circuit.carrier])]
 
     def loop(self, circuit: int) -> Loop:
-        """The loop that a closing or breaking circuit completes, in order, with its ratio product."""
+        """Return the loop that a closing or breaking circuit completes, in order, with its ratio product."""
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]
         up, down = [self.node(self.index[link], carrier) for link in (chord.i, chord.j)]
-        left, right = ways_to_common_ancestor(up, down, self._above)
-        # walk: common ancestor -> ... -> i, over the chord to j, and back up to the ancestor
+        left, right = ways_to_common_ancestor(up, down, self._predecessor)
+        # closed walk: common ancestor -> ... -> i, over the chord to j, and back to the ancestor
         walk = left[::-1] + right[:-1]
         pairs = [self.node_circuit[node] for node in left[-2::-1]] + [circuit]
         pairs += [self.node_circuit[node] for node in right[:-1]]
@@ -85,23 +86,24 @@ class Components:
         )
 
     def closing_product(self, circuit: int) -> Fraction:
-        """The product of the ratios round the loop that a circuit completes, (20): 1 where it closes.
+        """Return the product of the ratios around the loop that a circuit completes, (20); 1 if the loop is consistent.
 
-        It is by how much the circuit contradicts the walk through its component, from its first link to its second.
+        It is the factor between the speed ratio of the circuit and the ratio along the search tree, from its first link
+        to its second.
         """
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]
         first, second = (self.relative(self.node(self.index[link], carrier)) for link in (chord.i, chord.j))
         return chord.gain * first / second
 
-    def _above(self, node: int) -> int | None:
+    def _predecessor(self, node: int) -> int | None:
         above = self.node_parent[node]
         return above if above >= 0 else None
 
     def path(self, nodes: Iterable[int]) -> list[int]:
-        """The circuits that join some nodes of one component: the part of the train that relates them."""
+        """Return the circuits on the search-tree paths between nodes of one component, which relate their speeds."""
         wanted = list(nodes)
-        chains = [chain_to_root(node, self._above) for node in wanted]
+        chains = [chain_to_root(node, self._predecessor) for node in wanted]
         common = set(chains[0]).intersection(*chains[1:]) if chains else set()
         used = {self.node_circuit[node]: None for chain in chains for node in chain if node not in common}
         return [circuit for circuit in used if circuit >= 0]
@@ -111,10 +113,11 @@ class Components:
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
-    """Walk every carrier's ordinary train once, breadth first, in short ratios: (18), (19) of docs/theory.md.
+    """Find the ordinary train of every carrier by breadth-first search, with factored ratios: (18), (19) of
+    docs/theory.md.
 
-    first   links to start from where possible (the inputs): their component's unknown is then their own speed,
-            and no long number is ever multiplied by another
+    first   links from which the search starts if possible (the inputs); the unknown of their component is then their
+            own speed, and long numbers are never multiplied with each other
     """
     index = {link: at for at, link in enumerate(links)}
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
@@ -130,7 +133,7 @@ def find_components(
     group_carrier: list[int] = []
     closing: list[int] = []
     breaking: list[int] = []
-    for root in _starts(nodes_of, [index[link] for link in first if link in index], count):
+    for root in _search_order(nodes_of, [index[link] for link in first if link in index], count):
         if group[root] >= 0:
             continue
         this = len(group_carrier)
@@ -142,13 +145,15 @@ def find_components(
             here = queue.popleft()
             entered = reached[here]
             for at, there, a, b in edges[here]:
-                if at == entered:  # by circuit, not by node: a second mesh with the same wheel closes a loop
+                if (
+                    at == entered
+                ):  # compare circuits, not nodes, because a second mesh between the same nodes closes a loop
                     continue
                 if group[there] < 0:
                     group[there], reached[there] = this, at
                     ratios.follow(there, here, a, b)
                     queue.append(there)
-                elif at != reached[there] and here < there:  # each chord is looked at from one side
+                elif at != reached[there] and here < there:  # each chord is tested from one side only
                     agrees = ratios.vanishes(((here, a), (there, -b)))
                     (closing if agrees else breaking).append(at)
     return Components(
@@ -163,7 +168,7 @@ _Edge = tuple[int, int, int, int]
 def _nodes(
     index: Mapping[str, int], circuits: Sequence[Circuit]
 ) -> tuple[list[int], list[int], list[list[_Edge]], list[int]]:
-    """Nodes, and for each its edges (circuit, far node, a, b): the far wheel's speed is a/b times the near one's."""
+    """Return the nodes, and for each its edges (circuit, far node, a, b): far speed = a/b times the near one."""
     size = len(index)
     node_of: dict[int, int] = {}
     node_link: list[int] = []
@@ -193,7 +198,7 @@ def _nodes(
     return node_link, node_carrier, edges, holding
 
 
-def _starts(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
+def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
     for link in first:
         yield from nodes_of.get(link, ())
     yield from range(count)
@@ -201,11 +206,11 @@ def _starts(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: 
 
 @dataclass(frozen=True, slots=True)
 class ReducedSystem:
-    """What couples the components: unknown numbers, the form of every link in them, and the equations left.
+    """Linear system that couples the components: unknowns, the speed of every link as a form of them, and equations.
 
-    Unknowns 0..g-1 are the components' own; above them, one for each carrier but the frame, and one for each link
-    that meshes with nothing. `origin` says what each equation states, for diagnoses: ("share", link, node) a link
-    seen from two carriers, ("loop", circuit, -1) a loop that does not close, ("hold", circuit, -1) a follower.
+    Unknowns 0..g-1 belong to the components. Above them there is one for each carrier other than the frame, and one for
+    each link that is in no mesh. `origin` gives the cause of each equation, for diagnoses: ("share", link, node) a link
+    that occurs relative to two carriers, ("loop", circuit, -1) an inconsistent loop, ("hold", circuit, -1) a follower.
     """
 
     components: Components
@@ -215,7 +220,7 @@ class ReducedSystem:
     origin: tuple[tuple[str, int, int], ...]
 
     def form(self, link: int) -> LinearForm:
-        """The speed of a link as a linear form of the unknowns."""
+        """Return the speed of a link as a linear form of the unknowns."""
         parts = self.components
         if link == parts.frame:
             return {}
@@ -225,7 +230,7 @@ class ReducedSystem:
         return self.seen_from(parts.nodes_of[link][0])
 
     def unknowns_of(self, link: int) -> tuple[int, ...]:
-        """The unknowns in a link's form, without their coefficients, which may be long."""
+        """Return the unknowns of a link's speed without their coefficients, which may be long numbers."""
         parts = self.components
         if link == parts.frame:
             return ()
@@ -237,7 +242,7 @@ class ReducedSystem:
         return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> LinearForm:
-        """The speed of a node's link: its carrier's plus its own relative to it."""
+        """Return the speed of a node's link: the speed of its carrier plus its relative speed."""
         parts = self.components
         row: LinearForm = {parts.node_group[node]: parts.relative(node)}
         carrier = parts.node_carrier[node]
@@ -248,7 +253,7 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Collapse every component to its one unknown and write what remains to be solved: docs/theory.md, 8."""
+    """Reduce every component to its one unknown, and return the remaining system: docs/theory.md, 8."""
     groups = len(parts.group_carrier)
     carriers = dict.fromkeys(carrier for carrier in parts.group_carrier if carrier != parts.frame)
     idle = (link for link in range(len(parts.links)) if link not in parts.nodes_of and link != parts.frame)
@@ -263,11 +268,11 @@ def reduce_components(parts: Components) -> ReducedSystem:
             add_into(row, shell.seen_from(node), -1)
             equations.append(row)
             origin.append(("share", link, node))
-    still: set[int] = set()  # components that are stopped already
+    still: set[int] = set()  # components that are already locked
     for kind, chords in (("loop", parts.breaking), ("hold", parts.holding)):
         for circuit in chords:
             group = parts.group_of(parts.circuits[circuit])
-            if group not in still:  # a component that stands still cannot be stopped again
+            if group not in still:  # a second equation for a locked component would be redundant
                 still.add(group)
                 equations.append({group: Fraction(1)})
                 origin.append((kind, circuit, -1))
@@ -276,31 +281,31 @@ def reduce_components(parts: Components) -> ReducedSystem:
 
 @dataclass(frozen=True)
 class SolvedPart:
-    """A train, or the part of it that matters, ready to be solved; its components are made when first needed."""
+    """A train, or its relevant part, ready for solution; its components are computed on first use."""
 
     links: tuple[str, ...]
     frame: str
     circuits: Sequence[Circuit]
     first: tuple[str, ...]
-    """Links to walk from where possible (the inputs)."""
+    """Links from which the search of components starts if possible (the inputs)."""
 
     @cached_property
     def reduced(self) -> ReducedSystem:
-        """Components collapsed to one unknown each, and the equations left."""
+        """Reduced system: one unknown for each component, and the remaining equations."""
         return reduce_components(find_components(self.links, self.frame, self.circuits, self.first))
 
 
 def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
-    """The circuits that can matter to the links in `keep`: loose ends come off one by one (docs/theory.md, 10).
+    """Return the circuits that can affect the links in `keep`, by repeated removal of leaves (docs/theory.md, 10).
 
-    A circuit with a link that is in no other circuit and not wanted only serves to move that link: it goes,
-    and so on until none is left. Loops have no such end, so a locked train stays locked.
+    A circuit with a link that is not wanted and occurs in no other circuit only determines the speed of that link and
+    is removed. This is repeated until no such circuit remains. Loops have no leaves, so a locked train stays locked.
     """
     wanted = set(keep)
     users: dict[str, set[int]] = {}
     members: list[tuple[str, ...]] = []
     for at, circuit in enumerate(circuits):
-        # only links whose coefficient is not 0: such a link alone can always meet its row
+        # only links with a non-zero coefficient: such a link can always satisfy its row
         links = tuple(link for link, _ in circuit.terms)
         members.append(links)
         for link in links:

@@ -1,6 +1,6 @@
 """The train as a networkx graph whose edges carry the declared objects, and its adjacency matrix.
 
-Direction is never read from an undirected edge: teeth, pins and slots are on the object the edge carries.
+The edges are undirected. Which link has the pin or a certain wheel is read from the declared object of the edge.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 
 def build_graph(train: Train) -> Graph:
-    """Links as vertices; turning pairs, gear pairs and couplings as edges.
+    """Return a graph with links as vertices, and turning pairs, gear pairs and couplings as edges.
 
-    Edge data: `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (the axis or the
-    pair's id) and `declared`, the model object as it stands in the declaration. The edge key is the id of a pair or
-    coupling, and `revolute 0` and so on for turning pairs in the order declared.
+    Edge data: `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (axis, or id of the
+    pair) and `declared`, the object of the declaration. The edge key is the id of a pair or coupling, and `revolute 0`
+    and so on for turning pairs in the order of the declaration.
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
@@ -38,7 +38,7 @@ def build_graph(train: Train) -> Graph:
 
 
 def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]:
-    """For each edge: its two links, its key, kind and label, and the declared object."""
+    """Yield for each edge its two links, its key, kind and label, and the declared object."""
     for at, joint in enumerate(train.revolutes):
         first, second = joint.pair
         yield (first, second), f"revolute {at}", "revolute", joint.axis, joint
@@ -51,16 +51,16 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
 
 
 MOST_SQUARE = 48
-"""Links up to which an adjacency matrix is shown unasked: its size grows with their square."""
+"""Maximum number of links for which the adjacency matrix is shown by default; it grows with their square."""
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
-    """The edges in the order declared: two links, what joins them, and the axis or the pair's id."""
+    """Return the edges in the order of the declaration: two links, kind, and the axis or the id of the pair."""
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 
 def adjacency_labels(train: Train) -> list[list[str]]:
-    """The adjacency matrix in letters: `R(axis)` for a turning pair, the id for a gear pair or coupling.
+    """Return the adjacency matrix as labels: `R(axis)` for a turning pair, the id for a gear pair or coupling.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def adjacency_labels(train: Train) -> list[list[str]]:
     Returns
     -------
     list of list of str
-        One row and one column for each link, in the order of the declaration; several joints are separated by blanks.
+        One row and one column for each link, in the order of the declaration. Several joints are separated by blanks.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def adjacency_kinds(train: Train) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
-    """The adjacency matrix in numbers: how many edges join two links.
+    """Return the adjacency matrix with the number of edges between every two links.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Graphviz text: turning edges thin with their axis, gear edges heavy, couplings dashed, the frame boxed.
+    """Return Graphviz text: turning pairs as thin edges, gear pairs thick, couplings dashed, the frame as a box.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """GraphML text with kind, label and, for gear pairs, the two wheels.
+    """Return GraphML text with kind, label and, for gear pairs, the two wheels.
 
     Parameters
     ----------
@@ -184,11 +184,11 @@ def to_graphml(graph: Graph) -> str:
     """
     import networkx as nx
 
-    return printable("\n".join(nx.generate_graphml(_plain(graph))))  # XML has no control characters at all
+    return printable("\n".join(nx.generate_graphml(_plain(graph))))  # XML does not allow control characters
 
 
 def to_json(graph: Graph) -> str:
-    """Node-link JSON with kind, label and, for gear pairs, the two wheels.
+    """Return node-link JSON with kind, label and, for gear pairs, the two wheels.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ def to_json(graph: Graph) -> str:
 
 
 def _plain(graph: Graph) -> Graph:
-    """The graph with text in place of the declared objects."""
+    """Return the graph with text instead of the declared objects."""
     import networkx as nx
 
     plain: Graph = nx.MultiGraph(name=graph.name)

@@ -1,4 +1,4 @@
-"""Each output against what was expected, what a source prints, and what the sky does; and what one tooth changes."""
+"""Comparison of outputs with expected, published and astronomical values; effect of one tooth more or less."""
 
 from __future__ import annotations
 
@@ -14,44 +14,44 @@ from geartrain.numerics.results import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
 
-DAYS_PER_CENTURY = 36525  # Julian century
+DAYS_PER_CENTURY = 36525  # days in a Julian century
 SpeedValue = Fraction | float | LongFloat
 Relative = Callable[[str, str], SpeedValue | None]
-"""Speed of a link seen from another, about the first one's axis; None where it is not determined."""
+"""Function that returns the speed of a link relative to another, about the axis of the first; None if undetermined."""
 
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """What a target asks of a speed."""
+    """Speed that a target requires."""
 
     label: str
-    """The target in words, its sense left out."""
+    """Description of the target without its sense of rotation."""
     speed: Fraction
-    """In the train's unit; positive where only the magnitude counts."""
+    """Speed [unit of the train]; positive if only the magnitude is compared."""
     signed: bool
-    """False: only the magnitude counts."""
+    """True if the sign is compared, False if only the magnitude is compared."""
     sense: str = ""
-    """That of a name or period: "direct", "retrograde" or nothing."""
+    """Sense of a name or period: "direct", "retrograde" or empty."""
 
     @property
     def words(self) -> str:
-        """The target in words, with its sense."""
+        """Description of the target with its sense of rotation."""
         return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
 
     def error(self, speed: SpeedValue) -> SpeedValue:
-        """Speed / goal - 1, positive is fast; the difference where the goal is 0."""
+        """Return the relative error speed / goal - 1, positive if fast; the difference if the goal is 0."""
         return error_against(speed, self.speed, self.signed)
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Relative error of a speed, or of its magnitude; the speed itself where 0 is wanted."""
+    """Return the relative error of a speed, or of its magnitude; the speed itself if the wanted speed is 0."""
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
 
 
 @dataclass(frozen=True, slots=True)
 class TargetResult(Result):
-    """An output against one target. A positive error is fast.
+    """Comparison of an output with one target. A positive error means that the output is fast.
 
     Examples
     --------
@@ -74,85 +74,86 @@ class TargetResult(Result):
     )
 
     goal: RatioGoal
-    """The target's speed [the train's unit], and whether its sense counts."""
+    """Speed of the target [unit of the train], and whether its sign is compared."""
     error: SpeedValue
-    """Output / speed - 1, of magnitudes where the sense does not count; the output itself where 0 is wanted."""
+    """Output / target - 1, of magnitudes if the sign is not compared; the output itself if the target is 0."""
     days_per_century: float | None
-    """What the pointer gains in time [d per 36525 d], where the unit is a time and the target turns; None beyond the
-    range of float64."""
+    """Gain of the pointer in time [d per 36525 d], if the unit is a time and the target is not 0; None beyond the range
+    of float64.
+    """
     degrees_per_unit: float | None
-    """What the pointer gains in angle while the unit passes once [deg]; None beyond the range of float64."""
+    """Gain of the pointer in angle during one unit of time [deg]; None beyond the range of float64."""
     met: bool | None
-    """Whether it is within the declared tolerance; None without one."""
+    """True if the error is within the declared tolerance; None without a tolerance."""
 
     @property
     def label(self) -> str:
-        """The target in words."""
+        """Description of the target."""
         return self.goal.label
 
     @property
     def speed(self) -> Fraction:
-        """The target's speed in the train's unit; positive where only the magnitude counts."""
+        """Speed of the target [unit of the train]; positive if only the magnitude is compared."""
         return self.goal.speed
 
     @property
     def compared(self) -> Literal["speed", "magnitude", "difference"]:
-        """How: with its sense, without, or by difference from 0."""
+        """Kind of comparison: speed with its sign, magnitude, or difference from 0."""
         return ("speed" if self.goal.signed else "magnitude") if self.speed else "difference"
 
     @property
     def ppm(self) -> float | None:
-        """The error in parts per million; None where 0 is wanted, and beyond the range of floats."""
+        """Relative error [ppm]; None if the target is 0, and beyond the range of floats."""
         return as_plain_product(self.error, 10**6) if self.speed else None
 
 
 class SpeedFigures(TypedDict, total=False):
-    """A speed as JSON has it: a fraction in text, and the nearest float; errors are of speeds solved in floats."""
+    """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
 
     exact: Required[str | None]
-    """The exact speed as a fraction in text; None where it was solved in floats or is not determined."""
+    """Exact speed as a fraction in text; None if it was solved in floats or is not determined."""
     value: Required[float | None]
-    """The nearest float64; None beyond its range, or where the speed is not determined."""
+    """Nearest float64; None beyond its range, or if the speed is not determined."""
     decimal: str
-    """Twelve digits of a speed beyond the range of float64."""
+    """Decimal number of twelve digits, for a speed beyond the range of float64."""
     estimate: float | None
     """Estimated absolute error of a speed solved in floats."""
     true_error: float | None
-    """Absolute error of a speed solved in floats against the exact one, where that is known."""
+    """Absolute error of a speed solved in floats relative to the exact one, if that is known."""
     condition: float | None
-    """Component-wise condition number of a speed solved in floats; None of a link at rest."""
+    """Component-wise condition number of a speed solved in floats; None for a link at rest."""
 
 
 class JudgedExpectation(NamedTuple):
-    """A declared `expect`, and whether it holds."""
+    """A declared `expect`, and whether the speed agrees with it."""
 
     value: str
-    """As declared."""
+    """Expected value as declared."""
     holds: bool | None
-    """True if the speed equals it within its tolerance; None where the speed is not determined."""
+    """True if the speed equals the value within its tolerance; None if the speed is not determined."""
 
 
 @dataclass(frozen=True, slots=True)
 class JudgedFigure(Result):
-    """A declared `published` figure, what stands against it in its form, and whether it holds."""
+    """A declared `published` value, the corresponding value of the train, and whether they agree."""
 
     KEYS = ("value", Key("as", "form"), "place", "found", "holds")
 
     value: str
-    """As printed in the source."""
+    """Value as printed in the source."""
     form: Literal["speed", "input/output", "output/input"]
-    """Which quantity is printed."""
+    """Quantity that is printed."""
     place: str | None
-    """Where in the source it stands."""
+    """Place in the source at which it is printed."""
     found: SpeedValue | None
     """The same quantity of this train."""
     holds: bool | None
-    """True if both agree at the digits printed; None where the quantity is not determined."""
+    """True if both agree to the printed digits; None if the quantity is not determined."""
 
 
 @dataclass(frozen=True, slots=True)
 class OutputResult(Result):
-    """One output: its speed and whether its declared expectations hold.
+    """Speed of one output, and its comparison with the declared expectations.
 
     Examples
     --------
@@ -169,43 +170,44 @@ class OutputResult(Result):
     output: Output
     """The output as declared."""
     of: str
-    """The link that turns."""
+    """Link that turns."""
     relative_to: str
-    """The link it is seen from."""
+    """Link to which the speed is relative."""
     speed: SpeedValue | None
-    """Speed of the one seen from the other, about the first one's axis [the train's unit]: exact, or a float
-    (`LongFloat` past 1e308) where solved in floats; None where undetermined."""
+    """Relative speed of `of`, about its own axis [unit of the train]: exact, or a float (`LongFloat` above 1e308) if
+    solved in floats; None if undetermined.
+    """
     ratio: SpeedValue | None
-    """Output over input, where there is exactly one non-zero input."""
+    """Output over input, if there is exactly one non-zero input."""
     expect_holds: bool | None
-    """Whether the declared `expect` holds; None without one."""
+    """True if the speed agrees with the declared `expect`; None without one."""
     published_holds: bool | None
-    """Whether the declared `published` figure holds; None without one."""
+    """True if the output agrees with the declared `published` value; None without one."""
     targets: tuple[TargetResult, ...]
-    """The output against each of its targets."""
+    """Comparison with each declared target."""
     bookkeeping: bool
-    """True for a sum of joint speeds over non-parallel axes, which is no rotation."""
+    """True for a sum of joint speeds about non-parallel axes, which is not a rotation."""
 
     @property
     def found(self) -> SpeedValue | None:
-        """What stands against the `published` figure, in its form; None where there is no such number."""
+        """The quantity to compare with the `published` value; None if it is not defined."""
         published = self.output.published
         return None if published is None else as_published(published, self.speed, self.ratio)
 
     @property
     def figures(self) -> SpeedFigures:
-        """The speed as JSON has it."""
+        """Speed in the form of the JSON output."""
         return speed_figures(self.speed)
 
     @property
     def expect(self) -> JudgedExpectation | None:
-        """The declared expectation, judged."""
+        """Declared expectation with its evaluation."""
         expect = self.output.expect
         return None if expect is None else JudgedExpectation(str(expect.value), self.expect_holds)
 
     @property
     def published(self) -> JudgedFigure | None:
-        """The published figure, judged."""
+        """Published value with its evaluation."""
         figure = self.output.published
         if figure is None:
             return None
@@ -213,13 +215,13 @@ class OutputResult(Result):
 
     @property
     def holds(self) -> bool:
-        """False if an `expect`, a `published` figure or the tolerance of a target is not met."""
+        """False if an `expect`, a `published` value or the tolerance of a target is not met."""
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
         return False not in judged
 
     @property
     def differs_in_sign(self) -> bool:
-        """True if the opposite speed would meet every `expect` and `published` that this one does not meet."""
+        """True if the opposite speed would meet every `expect` and `published` that this speed does not meet."""
         if self.speed is None or (self.expect_holds is not False and self.published_holds is not False):
             return False
         opposite, ratio = -self.speed, None if self.ratio is None else -self.ratio
@@ -228,18 +230,18 @@ class OutputResult(Result):
 
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:
-    """A product as a float, or None where float64 has none."""
+    """Return the product as a float, or None beyond the range of float64."""
     size = as_float(value) if isinstance(value, Fraction) else as_plain(value)
     return None if size is None else size * times
 
 
 def magnitude(value: SpeedValue) -> SpeedValue:
-    """|value|, of the same kind."""
+    """Return the absolute value, of the same type."""
     return value if value >= 0 else -value
 
 
 def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
-    """`exact` and `value` of a speed for JSON; beyond the range of float64 `value` is null and `decimal` has it."""
+    """Return a speed for JSON; beyond the range of float64 `value` is None and `decimal` is given."""
     if isinstance(speed, LongFloat):
         return {"exact": None, "value": None, "decimal": f"{speed:.12g}"}
     if not isinstance(speed, Fraction):
@@ -256,8 +258,8 @@ def judge_outputs(
 ) -> Iterator[OutputResult]:
     """Evaluate every output of a case.
 
-    relative      of two links, the speed of the first seen from the second
-    is_rotation   of two links, whether the axes between them are all parallel
+    relative      function that returns the speed of one link relative to another
+    is_rotation   function that returns whether all axes between two links are parallel
     """
     moving = [speed for speed in case.inputs.values() if speed]
     drive = moving[0] if len(moving) == 1 else None
@@ -274,18 +276,18 @@ def judge_outputs(
             ratio,
             _expect_holds(output, speed),
             _published_holds(output, speed, ratio),
-            tuple(_against(train, target, speed) for target in output.targets if speed is not None),
+            tuple(_compare_with_target(train, target, speed) for target in output.targets if speed is not None),
             not is_rotation(of, base),
         )
 
 
 def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
-    """Whether the expectation holds; a float agrees with a fraction to nine digits."""
+    """Return whether the speed agrees with the expectation; floats are compared to nine digits."""
     expect = output.expect
     if expect is None or speed is None:
         return None if expect is None else False
     exact = Fraction(speed)
-    # an exact expectation is no float: floats agree with it within what they are good for, and more than rounding
+    # floats are compared with an exact expectation to nine digits, well above their rounding errors
     slack = Fraction(1, 10**9) * max(Fraction(1), abs(exact))
     return (not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= slack) or expect.holds(exact)
 
@@ -300,14 +302,14 @@ def _published_holds(output: Output, speed: SpeedValue | None, ratio: SpeedValue
 
 
 def as_published(published: Published, speed: SpeedValue | None, ratio: SpeedValue | None) -> SpeedValue | None:
-    """An output in the form of the figure that a source prints of it."""
+    """Return an output as the quantity that a source prints."""
     if published.as_ == "speed":
         return speed
     return ratio if published.as_ == "output/input" else 1 / ratio if ratio else None
 
 
 def goal_of(train: Train, target: Target) -> RatioGoal:
-    """A target as a speed in the train's unit."""
+    """Convert a target to a speed in the unit of the train."""
     turns = target.turns.value
     if target.speed is not None:
         return RatioGoal(f"speed {target.speed}", target.speed.value * turns, True)
@@ -322,7 +324,7 @@ def goal_of(train: Train, target: Target) -> RatioGoal:
     return RatioGoal(label, -speed if target.sense == "retrograde" else speed, True, target.sense)
 
 
-def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
+def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
     goal = goal_of(train, target)
     error = goal.error(speed)
     tolerance = target.tolerance.base if target.tolerance else None
@@ -331,7 +333,7 @@ def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
         goal,
         error,
         as_plain_product(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
-        # of a goal that turns backwards, more speed is a smaller number: a gain is positive in both senses
+        # a faster retrograde output has a smaller (more negative) speed; a gain is positive in both senses
         as_plain_product(-ahead if goal.speed < 0 else ahead, 360),
         None if tolerance is None else magnitude(error) <= tolerance,
     )
@@ -339,11 +341,11 @@ def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity(Result):
-    """What one tooth fewer and one tooth more on an uncertain wheel do to an output, solved again exactly.
+    """Effect of one tooth fewer and one tooth more of an uncertain wheel on an output, by exact solution.
 
     Examples
     --------
-    With 63 teeth in place of 64 the Moon is slower by 1/64:
+    With 63 teeth instead of 64 the Moon is slower by 1/64:
 
     >>> import geartrain
     >>> train = geartrain.load("freeth-2008-doubt")
@@ -355,19 +357,21 @@ class Sensitivity(Result):
     KEYS = ("wheel", "teeth", "output", Key("one_fewer_ppm", "less"), Key("one_more_ppm", "more"))
 
     wheel: str
-    """The wheel whose count is in doubt."""
+    """Wheel with an uncertain tooth count."""
     teeth: int
-    """The count used."""
+    """Tooth count that is used."""
     allowed: tuple[int, ...]
     """All counts that the evidence allows."""
     output: str
     """Name of the output."""
     less: float | None
-    """Change of the speed of the output with one tooth fewer [ppm]; None for a train that no longer turns, or an
-    output at rest."""
+    """Change of the speed of the output with one tooth fewer [ppm]; None if the train can no longer turn, or the output
+    is at rest.
+    """
     more: float | None
-    """Change of the speed of the output with one tooth more [ppm]; None for a train that no longer turns, or an
-    output at rest."""
+    """Change of the speed of the output with one tooth more [ppm]; None if the train can no longer turn, or the output
+    is at rest.
+    """
 
 
 def sensitivity(
@@ -376,9 +380,9 @@ def sensitivity(
     solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
 ) -> Iterator[Sensitivity]:
-    """Solve again, exactly, with each uncertain wheel one tooth off.
+    """Yield the effect of one tooth fewer and one tooth more of each uncertain wheel, by exact solution.
 
-    solve_with   circuits -> relative speeds, for changed circuits
+    solve_with   function from changed circuits to relative speeds
     """
     for name, wheel in train.uncertain_wheels():
         teeth = wheel.count
@@ -390,17 +394,17 @@ def sensitivity(
             if teeth + step > 0
         }
         for result in outputs:
-            shift = {step: _shift(result, relative) for step, relative in changed.items()}
+            shift = {step: _relative_change(result, relative) for step, relative in changed.items()}
             if any(value != 0 for value in shift.values()):
                 allowed = wheel.doubt.allowed if wheel.doubt else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
 
 
-def _shift(result: OutputResult, relative: Relative) -> float | None:
+def _relative_change(result: OutputResult, relative: Relative) -> float | None:
     speed = relative(result.of, result.relative_to)
     if speed is None or result.speed is None:
         return None
     if speed == result.speed:
         return 0.0
-    # in Fractions where the answer is exact: of floats so near to each other few digits would be left
+    # exact if the answer is exact: in floats cancellation would leave few digits
     return as_plain_product(speed / result.speed - 1, 10**6) if result.speed else None

@@ -1,8 +1,7 @@
-"""Levers: the elementary epicyclic sets of a train, each as points on a line.
+"""Lever analogy: the elementary epicyclic sets of a train as points on a line.
 
-Seen from its carrier k, a set turns all its members in fixed proportion: w_m = w_k + x_m u. So the points (x_m, w_m)
-of one state lie on a straight line, the carrier's at x = 0 (Kutzbach 1927; Benford and Leising 1981, the lever
-analogy).
+Relative to its carrier k, all members of a set have fixed speed ratios: w_m = w_k + x_m u. The points (x_m, w_m) of one
+state therefore lie on a straight line, with the carrier at x = 0 (Kutzbach 1927; Benford and Leising 1981).
 """
 
 from __future__ import annotations
@@ -30,9 +29,9 @@ class Lever(Shown):
     """
 
     carrier: str
-    """The carrier k of the set."""
+    """Carrier k of the set."""
     abscissae: Mapping[str, Fraction]
-    """Link -> x, exact; the carrier's is 0, and the greatest magnitude is 1."""
+    """Exact abscissa x of each link; 0 for the carrier, and at most 1 in magnitude."""
 
     def _summary(self) -> str:
         points = ", ".join(f"{link} {brief(x)}" for link, x in self.abscissae.items())
@@ -40,7 +39,7 @@ class Lever(Shown):
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:
-    """Every elementary set of a train: what meshes in one moving carrier's frame, and turns on that carrier's axis.
+    """Return every elementary epicyclic set of a train: links that mesh relative to a moving carrier, coaxial with it.
 
     Parameters
     ----------
@@ -54,7 +53,7 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
     Returns
     -------
     list of Lever
-        One a set. A planet is a member only where fewer than two other links are.
+        One for each set. Planets are members only if the set has fewer than two coaxial links.
 
     References
     ----------
@@ -62,7 +61,7 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
 
     Examples
     --------
-    Sun and ring stand on the lever as 1 to -24/60 from the carrier:
+    Sun and ring have distances from the carrier in the ratio 1 to -24/60:
 
     >>> import geartrain
     >>> train = geartrain.load("planetary-24-18-60")
@@ -75,14 +74,14 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
         if carrier == parts.frame:
             continue
         nodes = [node for node, own in enumerate(parts.node_group) if own == group]
-        if len(nodes) < 2:  # the slot of a follower, held by its pin
+        if len(nodes) < 2:  # slot of a follower
             continue
         relative = {parts.links[parts.node_link[node]]: parts.relative(node) for node in nodes}
         name = parts.links[carrier]
         axis = tree.axis(name)
         coaxial = {link: x for link, x in relative.items() if link == train.frame or tree.axis(link) == axis}
         members = coaxial if len(coaxial) > 1 else relative
-        # exact, so that of two members at the same distance the first always counts as 1
+        # exact, so that the first of two members at the same distance is reliably scaled to 1
         scale = max(members.values(), key=abs)
         found.append(Lever(name, {name: Fraction(0)} | {link: x / scale for link, x in members.items()}))
     return found

@@ -1,6 +1,7 @@
-"""Equal planets: one declared link that stands for several, and the train in which each of them is declared.
+"""Equal planets declared by `copies`, and the expanded train in which each of them is declared separately.
 
-Speeds need one of them, for all turn alike. Assembly, loads, pictures and parts need all: docs/theory.md, 6.
+Speeds need only one of them, because equal planets have equal speeds. Assembly, loads, drawings and part lists need all
+of them: docs/theory.md, 6.
 """
 
 from __future__ import annotations
@@ -21,91 +22,93 @@ from geartrain.train.mechanism import Axis, Revolute
 
 
 def has_copies(train: Train) -> bool:
-    """True where a link stands for several."""
+    """Return True if at least one link is declared with `copies` above 1."""
     return any(part.copies > 1 for part in train.links.values())
 
 
 def check_copies(train: Train, tree: Tree) -> None:
-    """Raise `DeclarationError` where links that stand for several have no places to stand."""
+    """Raise `DeclarationError` if links with `copies` cannot be spaced about a carrier or joined to their mates."""
     if problems := tuple(_problems(train, tree)):
         raise DeclarationError(problems)
 
 
 def with_copies(train: Train, tree: Tree) -> Train:
-    """The train in which every equal planet is declared: `p`, `p.2`, `p.3`, with pairs and axes of their own.
+    """Return the train in which every equal planet is declared: `p`, `p.2`, `p.3`, with their own pairs and axes.
 
-    Loads and bearings are those of each. Positions are turned about the carrier's axis; where none are declared they
-    follow from the layout. What is prescribed of a planet stays with the first.
+    Loads and bearings apply to each planet. Positions are rotated about the axis of the carrier; undeclared ones follow
+    from the layout. Prescriptions of a planet apply to the first.
     """
-    return _Unfolding(train, tree).train() if has_copies(train) else train
+    return _Expansion(train, tree).train() if has_copies(train) else train
 
 
 def originals(train: Train) -> dict[str, str]:
-    """Of each link that `with_copies` has, the one that is declared."""
+    """Return the declared link of each link of the expanded train."""
     own = {link: link for link in train.links}
-    return own | {_named(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
+    return own | {_copy_name(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
 
 
 def as_one(train: Train) -> Train:
-    """The train in which equal planets are one that is as heavy and as stiff as all, for they move alike."""
+    """Return the train in which one planet has the mass, inertia and stiffness of all equal ones, as they move
+    alike.
+    """
     if not has_copies(train):
         return train
-    links = {name: _heavier(train, part) for name, part in train.links.items()}
-    gears = tuple(_stiffer(train, gear) for gear in train.gears)
+    links = {name: _with_total_inertia(train, part) for name, part in train.links.items()}
+    gears = tuple(_with_total_stiffness(train, gear) for gear in train.gears)
     states = train.states.items()
     return train.changed(
         links=FrozenDict(links),
         gears=gears,
-        loads=_summed(train, train.loads),
-        states=FrozenDict({name: state.changed(loads=_summed(train, state.loads)) for name, state in states}),
+        loads=_total_loads(train, train.loads),
+        states=FrozenDict({name: state.changed(loads=_total_loads(train, state.loads)) for name, state in states}),
     )
 
 
-def _heavier(train: Train, part: Link) -> Link:
+def _with_total_inertia(train: Train, part: Link) -> Link:
     number = part.copies
     if number == 1:
         return part
     wheels = {}
     for name, wheel in part.wheels.items():
         density = wheel.density or train.density
-        wheels[name] = wheel if density is None else wheel.changed(density=_times(density, number))
+        wheels[name] = wheel if density is None else wheel.changed(density=_multiplied(density, number))
     bearing = part.bearing
     if bearing is not None:
-        static = None if bearing.static is None else _times(bearing.static, number)
-        bearing = bearing.changed(sliding=_times(bearing.sliding, number), static=static)
+        static = None if bearing.static is None else _multiplied(bearing.static, number)
+        bearing = bearing.changed(sliding=_multiplied(bearing.sliding, number), static=static)
     return part.changed(
         copies=1,
         wheels=FrozenDict(wheels),
-        inertia=None if part.inertia is None else _times(part.inertia, number),
-        mass=None if part.mass is None else _times(part.mass, number),
-        drag=None if part.drag is None else _times(part.drag, number),
+        inertia=None if part.inertia is None else _multiplied(part.inertia, number),
+        mass=None if part.mass is None else _multiplied(part.mass, number),
+        drag=None if part.drag is None else _multiplied(part.drag, number),
         bearing=bearing,
     )
 
 
-def _number(train: Train, gear: GearPair) -> int:
-    """How many pairs one stands for."""
+def _pair_count(train: Train, gear: GearPair) -> int:
+    """Return the number of equal gear pairs that a declared pair represents."""
     return max(train.links[train.wheels[wheel][0]].copies for wheel in gear.pair)
 
 
-def _stiffer(train: Train, gear: GearPair) -> GearPair:
-    number = _number(train, gear)
+def _with_total_stiffness(train: Train, gear: GearPair) -> GearPair:
+    number = _pair_count(train, gear)
     if number == 1:
         return gear
     stiffness, damping = train.stiffness_of(gear), train.damping_of(gear)
     return gear.changed(
-        stiffness=None if stiffness is None else _times(stiffness, number),
-        damping=None if damping is None else _times(damping, number),
+        stiffness=None if stiffness is None else _multiplied(stiffness, number),
+        damping=None if damping is None else _multiplied(damping, number),
     )
 
 
-def _summed(train: Train, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
+def _total_loads(train: Train, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
     if not loads:
         return loads
-    return FrozenDict({link: _times(torque, train.links[link].copies) for link, torque in loads.items()})
+    return FrozenDict({link: _multiplied(torque, train.links[link].copies) for link, torque in loads.items()})
 
 
-def _times(quantity: Quantity, number: int) -> Quantity:
+def _multiplied(quantity: Quantity, number: int) -> Quantity:
     return (
         replace(quantity, value=quantity.value * number, text=f"{number} x {quantity.text}") if number > 1 else quantity
     )
@@ -116,27 +119,27 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
         bearer = tree.top.get(link)
         if part.copies == 1:
             if bearer in train.links and train.links[bearer].copies > 1:
-                what = f"'{link}' turns on '{bearer}', of which there are {train.links[bearer].copies}"
+                what = f"'{link}' turns on '{bearer}', which has `copies: {train.links[bearer].copies}`"
                 fix = (
-                    f"write `copies: {train.links[bearer].copies}` for it too; or, where all bear one '{link}', let it "
-                    "turn on an added link of the carrier's axis, joined by "
+                    f"write `copies: {train.links[bearer].copies}` for it too; or, if all share one '{link}', let it "
+                    "turn on an added link coaxial with the carrier, joined by "
                     f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
                 )
-                yield Problem(what, "each of those would bear one", fix, train.place("links", link))
+                yield Problem(what, "each copy would need its own", fix, train.place("links", link))
             continue
         if bearer is None or bearer == train.frame:
-            what = f"{part.copies} links '{link}' have no carrier to stand about"
-            why = "equal planets are spaced about the axis of the link that bears them, and the frame has no one axis"
-            fix = "let them turn on a carrier; where that stands still hold it: `fixed: [carrier]`"
+            what = f"{part.copies} links '{link}' have no carrier"
+            why = "equal planets are spaced about the axis of their carrier, and the frame has no single axis"
+            fix = "let them turn on a carrier, and fix it if it is at rest: `fixed: [carrier]`"
             yield Problem(what, why, fix, train.place("links", link))
         elif train.links[bearer].copies not in (1, part.copies):
             yield _unequal(train, link, bearer, "links", link)
     yield from _unequal_mates(train)
-    yield from _taken_names(train)
+    yield from _name_conflicts(train)
 
 
-def _taken_names(train: Train) -> Iterator[Problem]:
-    """What is declared under the name that a copy will bear."""
+def _name_conflicts(train: Train) -> Iterator[Problem]:
+    """Yield a problem for each declared name that a copy would also get."""
     axes = {*train.axes, *(joint.axis for joint in train.revolutes)}
     ids = {gear.id for gear in train.gears}
     for link, part in train.links.items():
@@ -150,10 +153,12 @@ def _taken_names(train: Train) -> Iterator[Problem]:
                 ("gear pair", pairs, ids),
             ):
                 for name in own:
-                    if _named(name, at) in all_of:
-                        what = f"{kind} '{_named(name, at)}' is declared, and copy {at} of '{name}' is called so"
-                        why = f"the {part.copies} links '{link}' and what they bear are numbered from 2"
-                        yield Problem(what, why, f"rename '{_named(name, at)}'", train.place("links", link))
+                    if _copy_name(name, at) in all_of:
+                        what = (
+                            f"{kind} '{_copy_name(name, at)}' is declared, but copy {at} of '{name}' has the same name"
+                        )
+                        why = f"the {part.copies} links '{link}' and their parts are numbered from 2"
+                        yield Problem(what, why, f"rename '{_copy_name(name, at)}'", train.place("links", link))
 
 
 def _unequal_mates(train: Train) -> Iterator[Problem]:
@@ -164,15 +169,15 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
             yield _unequal(train, first, second, "gears", at)
     for at, coupling in enumerate(train.couplings):
         for link in (coupling.pin, coupling.slot):
-            if train.links[link].copies > 1 and not _takes_copies(train, coupling):
+            if train.links[link].copies > 1 and not _allows_copies(train, coupling):
                 what = f"'{coupling.name}' joins one of {train.links[link].copies} links '{link}'"
-                fix = "declare these links one by one, and the coupling of each"
-                why = "`copies` are equal in all that they meet, and a pin drives each of them at another angle"
+                fix = "declare these links one by one, each with its coupling"
+                why = "copies have equal motions, and a pin would drive each of them at a different angle"
                 yield Problem(what, why, fix, train.place("couplings", at))
 
 
-def _takes_copies(train: Train, coupling: Coupling) -> bool:
-    """True of what keeps each of equal links parallel with one other."""
+def _allows_copies(train: Train, coupling: Coupling) -> bool:
+    """Return True for a coupling that keeps each of several equal links parallel to one other link."""
     counts = {train.links[link].copies for link in (coupling.pin, coupling.slot)}
     return isinstance(coupling, Parallel | PinsInHoles) and 1 in counts
 
@@ -186,8 +191,8 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 
 @dataclass(frozen=True)
-class _Unfolding:
-    """A train and its turning pairs; copies are numbered from 1, the declared one."""
+class _Expansion:
+    """Expansion of a train with its turning pairs; copy 1 is the declared link."""
 
     declared: Train
     tree: Tree
@@ -196,25 +201,27 @@ class _Unfolding:
         links: dict[str, Link] = {}
         for name, part in self.declared.links.items():
             links[name] = part.changed(copies=1)
-            for at in self._others(name):
-                links[_named(name, at)] = self._link(part, at)
+            for at in self._further_copies(name):
+                links[_copy_name(name, at)] = self._link(part, at)
         axes = dict(self.declared.axes)
         joints: list[tuple[int, Revolute]] = []
         for index, joint in enumerate(self.declared.revolutes):
             joints.append((index, joint))
-            joints += [(index, self._joint(joint, at)) for at in self._others(*joint.pair)]
-            for at in self._others(*joint.pair):
+            joints += [(index, self._joint(joint, at)) for at in self._further_copies(*joint.pair)]
+            for at in self._further_copies(*joint.pair):
                 if joint.axis in self.declared.axes:
-                    axes[_named(joint.axis, at)] = self._axis(joint.axis, at)
+                    axes[_copy_name(joint.axis, at)] = self._axis(joint.axis, at)
         gears: list[tuple[int, GearPair]] = []
         for index, gear in enumerate(self.declared.gears):
-            number = _number(self.declared, gear)
-            gears.append((index, _shared(gear, number)))
+            number = _pair_count(self.declared, gear)
+            gears.append((index, _with_divided_share(gear, number)))
             gears += [(index, self._gear(gear, at, number)) for at in range(2, 1 + number)]
         couplings: list[tuple[int, Coupling]] = []
         for index, coupling in enumerate(self.declared.couplings):
             couplings.append((index, coupling))
-            couplings += [(index, self._coupling(coupling, at)) for at in self._others(coupling.pin, coupling.slot)]
+            couplings += [
+                (index, self._coupling(coupling, at)) for at in self._further_copies(coupling.pin, coupling.slot)
+            ]
         states = self.declared.states
         made = self.declared.changed(
             links=FrozenDict(links),
@@ -235,72 +242,76 @@ class _Unfolding:
 
     # ------------------------------------------------------------------------------------------------------- one part
 
-    def _others(self, *links: str) -> range:
-        """Numbers of the further copies of what joins some links."""
+    def _further_copies(self, *links: str) -> range:
+        """Return the numbers of the further copies of a joint or pair between some links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
 
-    def _own(self, link: str, at: int) -> str:
-        """A link as its copy meets it: those that are one stay the same."""
-        return _named(link, at) if self.declared.links[link].copies > 1 else link
+    def _copied_link(self, link: str, at: int) -> str:
+        """Return the link that belongs to a copy; a link without copies is shared by all."""
+        return _copy_name(link, at) if self.declared.links[link].copies > 1 else link
 
     def _link(self, part: Link, at: int) -> Link:
-        wheels = {_named(name, at): wheel for name, wheel in part.wheels.items()}
-        # at what angle the teeth of others stand follows from where they stand
+        wheels = {_copy_name(name, at): wheel for name, wheel in part.wheels.items()}
+        # the angles of the teeth of copies follow from their positions
         return part.changed(copies=1, wheels=FrozenDict(wheels), angle=None)
 
     def _joint(self, joint: Revolute, at: int) -> Revolute:
         first, second = joint.pair
-        return joint.changed(pair=(self._own(first, at), self._own(second, at)), axis=_named(joint.axis, at))
+        return joint.changed(
+            pair=(self._copied_link(first, at), self._copied_link(second, at)), axis=_copy_name(joint.axis, at)
+        )
 
     def _gear(self, gear: GearPair, at: int, number: int) -> GearPair:
         own = {wheel: self._wheel(wheel, at) for wheel in gear.pair}
         driver = None if gear.driver is None else own[gear.driver]
-        changed = gear.changed(pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _named(gear.id, at))
-        return _shared(changed, number)
+        changed = gear.changed(
+            pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _copy_name(gear.id, at)
+        )
+        return _with_divided_share(changed, number)
 
     def _coupling(self, coupling: Coupling, at: int) -> Coupling:
         named = {
-            "pin": self._own(coupling.pin, at),
-            "slot": self._own(coupling.slot, at),
-            "id": coupling.id and _named(coupling.id, at),
+            "pin": self._copied_link(coupling.pin, at),
+            "slot": self._copied_link(coupling.slot, at),
+            "id": coupling.id and _copy_name(coupling.id, at),
         }
         return coupling.model_copy(update=named)
 
     def _wheel(self, wheel: str, at: int) -> str:
-        return _named(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel
+        return _copy_name(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel
 
     def _loads(self, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
-        """A torque that acts on a planet acts on each."""
+        """Return loads in which a torque on a planet acts on each copy."""
         if not loads:
             return loads
         found = dict(loads)
         for link, torque in loads.items():
-            found.update((_named(link, at), torque) for at in self._others(link))
+            found.update((_copy_name(link, at), torque) for at in self._further_copies(link))
         return FrozenDict(found)
 
     # ---------------------------------------------------------------------------------------------------------- places
 
     def _axis(self, label: str, at: int) -> Axis:
-        """An axis turned about that of the carrier."""
+        """Return the axis of a copy, rotated about the axis of the carrier."""
         carrier, number = self._carriers[label]
         about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
         axis, angle = self.declared.axes[label], tau * (at - 1) / number
-        told: dict[str, object] = {
+        changes: dict[str, object] = {
             "direction": tuple(Figure.parse(_decimal(part)) for part in turned(axis.way, about.way, angle))
         }
         if axis.point is not None:
             if about.point is None:
-                what = f"it is not known where copies of axis '{label}' stand"
-                fix = f"give axis '{self.tree.axis(carrier)}' a position, or take that of '{label}' away"
-                why = "they stand about the axis of their carrier, which has no position"
+                what = f"the positions of copies of axis '{label}' are unknown"
+                fix = f"give axis '{self.tree.axis(carrier)}' a position, or remove that of '{label}'"
+                why = "copies are spaced about the axis of their carrier, which has no position"
                 raise DeclarationError([Problem(what, why, fix, self.declared.place("axes", label))])
             place = plus(about.point, turned(minus(axis.point, about.point), about.way, angle))
-            told["position"] = tuple(Quantity.parse(f"{_decimal(part)} mm", "length", plain=False) for part in place)
-        return axis.changed(**told)
+            changes["position"] = tuple(Quantity.parse(f"{_decimal(part)} mm", "length", plain=False) for part in place)
+        return axis.changed(**changes)
 
     @cached_property
     def _carriers(self) -> Mapping[str, tuple[str, int]]:
-        """Axis of copied links -> the one link about whose axis they stand, and how many there are."""
+        """Carrier and number of copies by axis of copied links."""
         found = {}
         for link, (_, axis) in self.tree.parent.items():
             number, carrier = self.declared.links[link].copies, self.tree.top[link]
@@ -313,7 +324,7 @@ class _Unfolding:
 
 @dataclass(frozen=True)
 class _Places:
-    """Where the parts of an unfolded train were written."""
+    """Function from a path in the expanded train to the place where the original part was written."""
 
     declared: Train
     indices: Mapping[str, list[int]]
@@ -333,17 +344,17 @@ class _Places:
         return name if known else name.rpartition(".")[0] or name
 
 
-def _named(name: str, at: int) -> str:
+def _copy_name(name: str, at: int) -> str:
     return f"{name}.{at}"
 
 
-def _shared(gear: GearPair, number: int) -> GearPair:
-    """A declared share is that of all copies together."""
+def _with_divided_share(gear: GearPair, number: int) -> GearPair:
+    """Return the pair with its part of the declared share, which is the share of all copies together."""
     if gear.share is None or number == 1:
         return gear
     return gear.changed(share=Figure.parse(str(gear.share.value / number)))
 
 
 def _decimal(part: float) -> str:
-    """To 15 digits; what is left of cosines of right angles is 0."""
+    """Format a number to 15 digits; rounding errors of right angles become 0."""
     return f"{round(part, 13):.15g}"

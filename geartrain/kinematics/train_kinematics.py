@@ -1,7 +1,7 @@
-"""The kinematics of a train: its tree, circuits, mobility and speeds, each found once, when it is first requested.
+"""Kinematics of a train: joint tree, circuits, mobility and speeds, each computed once on first access.
 
-An answer goes from what is prescribed in a state to the train or the part of it that matters, the method, and judged
-outputs. Remarks are conventions and means that the answers of a sound declaration depend on: notes, never errors.
+An answer proceeds from the prescriptions of a state to the relevant part of the train, the method of solution, and the
+evaluated outputs. Remarks describe conventions and mean values on which answers depend; they are notes, not errors.
 """
 
 from __future__ import annotations
@@ -52,22 +52,24 @@ if TYPE_CHECKING:
 
 
 def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
-    """Pairs whose sense is a convention, for nothing declared fixes it, and pairs whose drive is intermittent."""
+    """Yield a note for each pair whose sense of rotation is only a convention, and for each intermittent drive."""
     at = {gear.name: position for position, gear in enumerate(train.gears)}
     for circuit in circuits:
         if circuit.note:
             yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place("gears", at[circuit.id]))
     for position, gear in enumerate(train.gears):
-        yield from (_intermittent(train, wheel, position) for wheel in gear.pair if _is_finger(train, gear, wheel))
+        yield from (
+            _intermittent_note(train, wheel, position) for wheel in gear.pair if _is_single_tooth(train, gear, wheel)
+        )
 
 
-def _is_finger(train: Train, gear: GearPair, name: str) -> bool:
-    """True of a spur wheel of one tooth, but for helical teeth, which overlap, and for a form that shapes the tooth."""
+def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
+    """Return True for a spur wheel of one tooth without helix angle (helical teeth overlap) and without tooth form."""
     wheel = train.wheels[name][1]
     return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
 
 
-def _intermittent(train: Train, wheel: str, position: int) -> Problem:
+def _intermittent_note(train: Train, wheel: str, position: int) -> Problem:
     what = f"wheel '{wheel}' has one tooth, which cannot drive continuously"
     why = "the mean ratio is exact; the motion is intermittent"
     return Problem(what, why, "", train.place("gears", position))
@@ -77,23 +79,23 @@ def _intermittent(train: Train, wheel: str, position: int) -> Problem:
 
 
 Method = Literal["auto", "exact", "sparse", "floats"]
-"""How to solve; "floats" is an older name of "sparse"."""
+"""Method of solution; "floats" is an older name of "sparse"."""
 
-_CONDITIONED = 400  # links up to which each has its condition number; beyond, those of the outputs
+_CONDITIONED = 400  # maximum number of links for which all condition numbers are computed; else only those of outputs
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class TrainKinematics(Shown):
-    """Everything about a declared train that follows without teeth.
+    """Kinematic analysis of a declared train, independent of tooth forms.
 
     See Also
     --------
-    geartrain.GearTrain.kinematics : gives it.
+    geartrain.GearTrain.kinematics : property that returns it
     """
 
     declaration: Train
-    """What is declared."""
+    """The declared train."""
 
     # ------------------------------------------------------------------------------------------ joints and circuits
 
@@ -102,7 +104,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def tree(self) -> Tree:
-        """The turning pairs as a spanning tree rooted at the frame."""
+        """Turning pairs as a spanning tree rooted at the frame."""
         tree = find_tree(self.declaration)
         if has_copies(self.declaration):
             check_copies(self.declaration, tree)
@@ -110,26 +112,26 @@ class TrainKinematics(Shown):
 
     @cached_property
     def circuits(self) -> tuple[Circuit, ...]:
-        """One fundamental circuit for each gear pair and coupling."""
+        """Fundamental circuits, one for each gear pair and coupling."""
         return find_circuits(self.declaration, self.tree)
 
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        """The circuits but those of some pairs.
+        """Return all circuits except those of some pairs.
 
         Parameters
         ----------
         names : sequence of str
-            Pairs left out.
+            Pairs to leave out.
 
         Raises
         ------
         QuestionError
-            For a pair that is not declared.
+            If a pair is not declared.
         """
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
             what = f"'{self.declaration.name}' has no pair '{name}'"
-            raise QuestionError(Problem(what, "it is not declared", suggest(name, known)))
+            raise QuestionError(Problem(what, "only declared pairs can be left out", suggest(name, known)))
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     @cached_property
@@ -138,7 +140,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """-1 for links whose axis points against the reference direction of its parallels."""
+        """Sign of each link's axis: -1 if it points against the reference direction of its parallel axes."""
         return self._axes.link_signs
 
     @cached_property
@@ -147,7 +149,7 @@ class TrainKinematics(Shown):
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation.
+        """Return True if the axes between two links are parallel, so that their relative speed is a rotation.
 
         Parameters
         ----------
@@ -160,27 +162,27 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """What is prescribed in each state, or once for None, with rigid connections joint by joint."""
+        """Prescriptions of each state (key None for a train without states), with rigid connections joint by joint."""
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
 
     @property
     def usable_states(self) -> tuple[str | None, ...]:
-        """States in which speeds can be calculated; None for a train without states."""
+        """States in which speeds can be calculated; (None,) for a train without states."""
         return tuple(state for state, case in self.cases.items() if not case.problems)
 
     def case(self, state: str | None = None) -> StateCase:
-        """What is prescribed in one state.
+        """Return the prescriptions of one state.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
 
         Raises
         ------
         DeclarationError
-            Where speeds cannot be calculated in it.
+            If speeds cannot be calculated in the state.
         """
         case = self.cases[self.declaration.single_state(state)]
         if case.problems:
@@ -191,36 +193,36 @@ class TrainKinematics(Shown):
 
     @cached_property
     def whole(self) -> SolvedPart:
-        """All links and circuits, ready to be solved."""
-        return self._part(self.circuits, tuple(self.declaration.links))
+        """All links and circuits, ready for solution."""
+        return self._solved_part(self.circuits, tuple(self.declaration.links))
 
     @cached_property
     def mobility(self) -> Mobility:
-        """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         from geartrain.kinematics.speeds import find_mobility
 
         return find_mobility(self.whole.reduced, len(self.declaration.revolutes))
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
+        """True if phase closure can be checked: axes have positions or directions, and gear pairs form loops."""
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
+        """Locked subgraphs, and the smallest set of meshes to disengage; fast if the train is not locked."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
 
     @cached_property
     def remarks(self) -> tuple[Problem, ...]:
-        """Conventions that the answers of a sound declaration depend on: notes, never errors."""
+        """Conventions on which the answers of a valid declaration depend; they are notes, not errors."""
 
         return tuple(lint_train(self.declaration, self.circuits))
 
     def solution(self, case: StateCase) -> Solution:
-        """Exact speeds and the verdict, however long they take.
+        """Return exact speeds and the verdict without a limit on the computing time.
 
         Parameters
         ----------
@@ -230,62 +232,62 @@ class TrainKinematics(Shown):
         return solve(self.whole, case, self.signs, None)
 
     def equations(self, state: str | None = None) -> WillisSystem:
-        """The labelled Willis system of one state (docs/theory.md, 6).
+        """Return the labelled Willis system of one state (docs/theory.md, 6).
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         """
         return self._system(self.whole, self.case(state))
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Speeds and judged outputs in one state: see `GearTrain.solve`.
+        """Return speeds and evaluated outputs in one state; see `GearTrain.solve`.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         output : str, optional
-            An output or a link: only the circuits that drive it are solved.
+            An output or a link; only the circuits that can affect it are solved.
         method : {"auto", "exact", "sparse"}
-            How to solve.
+            Method of solution.
         """
         wanted, part, case = None, self.whole, self.cases[self.declaration.single_state(state)]
         if output is not None:
             case, wanted = self.single_output(case, output)
-            part = self._pruned(case, wanted)
+            part = self._relevant_part(case, wanted)
         check_choice("method", method, get_args(Method))
         if case.problems:
             verdict = Verdict("refused", "; ".join(problem.text for problem in case.problems))
-            return self._judged(case, verdict, {}, _unknown, wanted, 0, {})
+            return self._build_answer(case, verdict, {}, _unknown, wanted, 0, {})
         solution, in_floats = None, method in ("sparse", "floats")
         with suppress(TooDenseError):
             solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
         if solution is None or in_floats:
             try:
                 return self._answer_in_floats(part, case, wanted, solution)
-            except RangeError:  # no digit of some speed is known in floats
+            except RangeError:  # a speed has no correct digit in floats
                 if in_floats:
                     raise
             solution = solve(part, case, self.signs, None)
-        if not case.exact:  # radians beside turns are no fractions, and none are shown
-            return self._rounded(part, case, wanted, solution)
+        if not case.exact:  # ratios of radians to turns are irrational
+            return self._rounded_answer(part, case, wanted, solution)
         verdict, speeds = solution.verdict, solution.speeds
-        return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
+        return self._build_answer(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
-        """What one tooth fewer or more on each uncertain wheel does to each output of an answer.
+        """Yield the effect of one tooth fewer or more of each uncertain wheel on each output of an answer.
 
         Parameters
         ----------
         answer : Answer
-            As `solve` gives it.
+            Result of `solve`.
         """
         case = self.case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+            return solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
@@ -295,16 +297,16 @@ class TrainKinematics(Shown):
         inputs: Mapping[str, Sequence[float]] | None = None,
         condition_of: Sequence[str] = (),
     ) -> FloatSpeeds:
-        """Float64 speeds through a sparse LU, with error estimates; many input speeds share one factorisation.
+        """Return float64 speeds by sparse LU with error estimates; several input speeds share one factorisation.
 
         Parameters
         ----------
         state : str, optional
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         inputs : mapping of str to sequence of float, optional
-            Link -> speeds, one a case, in place of the declared ones [unit of the train].
+            Speeds by input link, one for each case, instead of the declared ones [unit of the train].
         condition_of : sequence of str
-            Links whose component-wise condition number is wanted (docs/theory.md, equation 25).
+            Links whose component-wise condition number is computed (docs/theory.md, equation 25).
 
         Returns
         -------
@@ -321,7 +323,7 @@ class TrainKinematics(Shown):
         return solve_floats(system, inputs, condition_of)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """The case with one output, and the links that output is made of: what turns, and from where it is seen.
+        """Return the case with only one output, the link that turns, and the link to which it is relative.
 
         Parameters
         ----------
@@ -333,7 +335,7 @@ class TrainKinematics(Shown):
         Raises
         ------
         QuestionError
-            For an output that is not declared.
+            If the output is not declared.
         """
         train = self.declaration
         declared = case.outputs.get(output)
@@ -341,7 +343,9 @@ class TrainKinematics(Shown):
             known = dict.fromkeys([*case.outputs, *train.links])
             raise QuestionError(
                 Problem(
-                    f"'{train.name}' has no output or link '{output}'", "it is not declared", suggest(output, known)
+                    f"'{train.name}' has no output or link '{output}'",
+                    "it must be a declared output or link",
+                    suggest(output, known),
                 )
             )
         outputs = {output: declared} if declared else {}
@@ -349,14 +353,14 @@ class TrainKinematics(Shown):
         return replace(case, outputs=outputs), links
 
     def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
-        """By output or link: what turns, and the link from which it is seen.
+        """Return the link that turns and the link to which it is relative, by output or link.
 
         Parameters
         ----------
         state : str or None
-            A declared state; None only of a train that has none.
+            A declared state; None only for a train without states.
         names : sequence of str
-            Outputs or links; by default all outputs, and all links of a train without any.
+            Outputs or links; by default all outputs, or all links of a train without outputs.
         """
         case = self.case(state)
         chosen = names or tuple(case.outputs) or tuple(self.declaration.links)
@@ -364,19 +368,19 @@ class TrainKinematics(Shown):
 
     # ------------------------------------------------------------------------------------------ the part that matters
 
-    def _part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
+    def _solved_part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
         declared = self.declaration
-        # inputs of all states: components are walked once, and serve every state
+        # inputs of all states, because the components are computed once for all states
         first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
         return SolvedPart(links, declared.frame, circuits, first)
 
-    def _pruned(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
-        """The part of the train that can matter to some links."""
+    def _relevant_part(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
+        """Return the part of the train that can affect some links."""
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = relevant_circuits(self.circuits, kept)
         kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
-        return self._part(circuits, tuple(link for link in self.declaration.links if link in kept))
+        return self._solved_part(circuits, tuple(link for link in self.declaration.links if link in kept))
 
     def _system(self, part: SolvedPart, case: StateCase) -> WillisSystem:
         components = part.reduced.components
@@ -388,16 +392,16 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Floats with their estimate, and with their true error where the exact solution is known."""
+        """Solve in floats with error estimates, and with true errors if the exact solution is known."""
         from geartrain.kinematics.speeds import solve_floats
 
         truth = solution.speeds if solution is not None else {}
         system = self._system(part, case)
         if solution is None:
             solution = self._without_speeds(part, case, system)
-        if not solution.verdict:  # no square system to factorise
-            return self._rounded(part, case, wanted, solution)
-        found = solve_floats(system, condition_of=self._conditioned(part, case, wanted))
+        if not solution.verdict:  # the system is not square
+            return self._rounded_answer(part, case, wanted, solution)
+        found = solve_floats(system, condition_of=self._condition_links(part, case, wanted))
         powers = found.exponents.values[:, 0].tolist()
         speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
 
@@ -418,12 +422,14 @@ class TrainKinematics(Shown):
         def relative(of: str, base: str) -> SpeedValue | None:
             return relative_speed(of, base, speeds.get, self.signs)
 
-        told, work = LazyMapping(accuracy), len(part.circuits)
-        answer = self._judged(case, solution.verdict, speeds, relative, wanted, work, None, told)
+        lazy_accuracy, work = LazyMapping(accuracy), len(part.circuits)
+        answer = self._build_answer(case, solution.verdict, speeds, relative, wanted, work, None, lazy_accuracy)
         return replace(answer, residual=LazyMapping(residual))
 
     def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
-        """The verdict on a dense system: by its float factors where they leave no doubt, else modulo a prime."""
+        """Return the verdict on a dense system, by its LU factors if these are certainly regular, else modulo a
+        prime.
+        """
         from geartrain.kinematics.speeds import is_regular
 
         moved = any(case.inputs.values())
@@ -433,16 +439,20 @@ class TrainKinematics(Shown):
         still = verdict.kind == "locked" and not moved
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
-    def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
-        """Links whose condition number is told: each costs a solve, so of long trains those of the outputs."""
+    def _condition_links(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
+        """Return links whose condition number is reported; only outputs of long trains, because each costs one
+        solve.
+        """
         if wanted is None and len(part.links) <= _CONDITIONED:
             return part.links
         frame = self.declaration.frame
         outputs = (wanted,) if wanted else (each.links(name, frame) for name, each in case.outputs.items())
         return tuple(dict.fromkeys(link for pair in outputs for link in pair))
 
-    def _rounded(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution) -> Answer:
-        """Exact speeds as floats."""
+    def _rounded_answer(
+        self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution
+    ) -> Answer:
+        """Return the answer with exact speeds rounded to floats."""
 
         def relative(of: str, base: str) -> float | None:
             speed = solution.relative(of, base)
@@ -450,9 +460,9 @@ class TrainKinematics(Shown):
 
         floats = {link: _nearest(speed) for link, speed in solution.speeds.items()}
         accuracy = {link: SpeedAccuracy(abs(speed) * float_info.epsilon / 2, None) for link, speed in floats.items()}
-        return self._judged(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
+        return self._build_answer(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
 
-    def _judged(
+    def _build_answer(
         self,
         case: StateCase,
         verdict: Verdict,
@@ -463,12 +473,14 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """The answer with its outputs judged, cut down to the links in `wanted`; no `ratios` means floats."""
+        """Return the answer with evaluated outputs, restricted to the links in `wanted`; `ratios` is None for
+        floats.
+        """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
-            verdict = replace(verdict, text=verdict.text + "".join(map(_side, self._bevels_on_one_side)))
+            verdict = replace(verdict, text=verdict.text + "".join(map(_facing_advice, self._bevels_on_one_side)))
         if wanted is not None:
-            verdict = self._narrowed(case, verdict, relative(*wanted) is not None, wanted)
+            verdict = self._output_verdict(case, verdict, relative(*wanted) is not None, wanted)
             shown = wanted if case.outputs else wanted[:1]
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
@@ -499,62 +511,66 @@ class TrainKinematics(Shown):
 
     # -------------------------------------------------------------------------------------------- the verdict on a part
 
-    def _narrowed(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
-        """The verdict on one output: it may be determined, or held still, in a train that is free.
+    def _output_verdict(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
+        """Return the verdict on one output, which may be determined or at rest although the train is free.
 
-        known   whether the output's speed is determined
+        known   True if the output's speed is determined
         """
         if not known:
             return verdict
         if not any(case.inputs.values()) and (whole := self._verdict(case)).kind == "locked":
-            return whole  # nothing is driven, and nothing could be
-        follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, for it is held"
-        seen = f"{wanted[0]} seen from {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
+            return whole  # no input is driven, and none could be
+        follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, because it is fixed"
+        seen = f"{wanted[0]} relative to {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
         return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)
 
     def _verdict(self, case: StateCase) -> Verdict:
-        """The verdict on the whole train."""
+        """Return the verdict on the complete train."""
         try:
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
 
 
-def _side(bevels: Sequence[str]) -> str:
-    """What is to be changed about two bevels that meet a third from the same side."""
+def _facing_advice(bevels: Sequence[str]) -> str:
+    """Return the advice for two bevel wheels that meet a third from the same side."""
     one, other, shared = bevels
     return f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
 
 
 def _unknown(of: str, base: str) -> None:
-    """No speed is known, whichever link is seen from another."""
+    """Return None as the relative speed of any two links."""
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:
-    """The accuracy of some links, made when read."""
+    """Return the accuracy of some links, computed on access."""
     return LazyMapping(lambda: {link: accuracy[link] for link in links if link in accuracy})
 
 
 def _nearest(speed: Fraction) -> float:
-    """The nearest float; `RangeError` where there is none."""
+    """Return the nearest float. Raises `RangeError` beyond the range of float64."""
     value = as_float(speed)
     if value is None:
-        why = "its ratio would come out as 0 or infinity"
+        why = "its ratio would become 0 or infinity"
         raise RangeError(Problem("a speed leaves the range of float64", why, "use the exact method, and no radians"))
     return value
 
 
 def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
-    """Raise `QuestionError` unless each input, and no other link, has one finite speed a case."""
+    """Raise `QuestionError` unless each input, and no other link, has one finite speed for each case."""
     for link in inputs:
         check_choice("input", link, declared)
     for link in declared:
         if link not in inputs:
-            why = "every input of the state needs its speeds"
+            why = "every input of the state needs speeds"
             raise QuestionError(Problem(f"input '{link}' is missing", why, f"give speeds of '{link}' too"))
     if len({len(speeds) for speeds in inputs.values()}) > 1:
-        why = "there is one speed a case for each input"
-        raise QuestionError(Problem("the inputs have unequal numbers of cases", why, "give each as many"))
+        why = "every input needs one speed for each case"
+        raise QuestionError(
+            Problem("the inputs have unequal numbers of cases", why, "give the same number of speeds for every input")
+        )
     for link, speeds in inputs.items():
         if not all(map(isfinite, speeds)):
-            raise QuestionError(Problem(f"a speed of '{link}' is not finite", "nothing follows from it", "mend it"))
+            raise QuestionError(
+                Problem(f"a speed of '{link}' is not finite", "inputs must be finite", "replace inf or nan")
+            )

@@ -11,14 +11,14 @@ class WillisEquation(NamedTuple):
 
     See Also
     --------
-    WillisSystem : holds all rows of a train
+    WillisSystem : all rows of a train
     """
 
     label: str
-    """The pair's id, or what is prescribed: `input sun`."""
+    """Id of the pair, or the prescription, such as `input sun`."""
     kind: str
-    """Frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower, pins_in_holes, parallel."""
+    """Kind of row: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
     terms: tuple[tuple[str, int], ...]
-    """Links with their coefficients, none of them 0."""
+    """Links with their non-zero coefficients."""
     right: Fraction = Fraction(0)
-    """The right-hand side [the train's unit]."""
+    """Right-hand side [unit of the train]."""

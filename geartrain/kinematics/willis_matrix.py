@@ -1,7 +1,7 @@
-"""The Willis system as a sparse matrix: what float solvers factorise, and what a solver of one's own may have.
+"""Willis system as a sparse matrix, for the float solvers and for solvers of the user.
 
-The entries are tooth counts and their sums, whole numbers far below 2**53: a float64 matrix holds each of them exactly,
-so that all error of a float solution is the solver's.
+The entries are tooth counts and their sums, integers far below 2**53. A float64 matrix represents them exactly, so all
+error of a float solution is due to the solver.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ from geartrain.numerics.results import Shown
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-_GIVEN = -1  # the column of what is prescribed
+_GIVEN = -1  # column of prescribed speeds
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class WillisMatrix(Shown):
     """A Willis system as arrays, A w = b: `matrix @ speeds == right` for speeds in the order of `links`.
 
-    One matrix serves three right-hand sides: speeds (A w = b), small errors of teeth (A dw = e), and, transposed,
-    torques without losses. `GearTrain.solve(method="sparse")` factorises this one.
+    One matrix serves three right-hand sides: speeds (A w = b), small tooth errors (A dw = e), and, transposed, torques
+    without losses. `GearTrain.solve(method="sparse")` factorises this matrix.
 
     See Also
     --------
-    WillisSystem.matrix : what gives it
+    WillisSystem.matrix : method that returns it
 
     Examples
     --------
@@ -52,15 +52,15 @@ class WillisMatrix(Shown):
     """
 
     matrix: csc_array
-    """A, (row, link), float64, column compressed; every entry is a whole number, held exactly."""
+    """Matrix A (row, link), float64, compressed sparse columns; every entry is an integer, represented exactly."""
     right: Floats
-    """B, (row,), float64: the floats nearest to what is prescribed [the train's unit]."""
+    """Right-hand side b (row,), float64, rounded from the prescribed speeds [unit of the train]."""
     rows: tuple[WillisEquation, ...]
-    """The equations of the rows, each with its label, kind and exact right-hand side."""
+    """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
-    """The columns: all links that move, or with the frame where the whole system was asked for."""
+    """Links of the columns: all except the frame, or all links if the complete system was requested."""
     left_out: tuple[str, ...]
-    """Labels of declared rows that are not in it: the frame's, and those that follow from others."""
+    """Labels of rows that are left out: the row of the frame, and rows that follow from others."""
 
     def _summary(self) -> str:
         rows, columns = self.matrix.shape
@@ -68,24 +68,24 @@ class WillisMatrix(Shown):
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The labels of the rows: pairs, and what is prescribed."""
+        """Labels of the rows: pairs and prescriptions."""
         return tuple(row.label for row in self.rows)
 
     @property
     def exact_right(self) -> tuple[Fraction, ...]:
-        """The right-hand side as prescribed, before it was rounded to floats [the train's unit]."""
+        """Exact right-hand side, before rounding to floats [unit of the train]."""
         return tuple(row.right for row in self.rows)
 
 
 def build_matrix(
     links: Sequence[str], equations: Sequence[WillisEquation], redundant: Sequence[str], whole: bool = False
 ) -> WillisMatrix:
-    """The arrays of a system.
+    """Build the arrays of a Willis system.
 
     redundant   labels of rows known to follow from others
-    whole       with the frame, and with rows that follow from others
+    whole       True to include the frame, and rows that follow from others
 
-    Raises `RangeError` where a prescribed speed is no float.
+    Raises `RangeError` if a prescribed speed is beyond the range of float64.
     """
     columns, rows = (links, equations) if whole else independent_rows(links, equations, redundant)
     kept = {row.label for row in rows}
@@ -101,10 +101,10 @@ def build_matrix(
 def independent_rows(
     links: Sequence[str], equations: Sequence[WillisEquation], redundant: Sequence[str]
 ) -> tuple[list[str], list[WillisEquation]]:
-    """The moving links, and the rows without the frame's and without those that follow from others.
+    """Return the moving links, and the rows without that of the frame and without dependent rows.
 
-    As many as there are moving links if the speeds are determined; more if rows contradict each other, none of which is
-    left out. Only where rows are too many it is looked which do: modulo a prime, as ranks are.
+    There are as many rows as moving links if the speeds are determined, and more if rows contradict each other, because
+    these are kept. If there are too many rows, dependent ones are found by Gaussian elimination modulo a prime.
     """
     frame = next(row.terms[0][0] for row in equations if row.kind == "frame")
     links, idle = [link for link in links if link != frame], set(redundant)
@@ -127,6 +127,6 @@ def independent_rows(
 def _nearest(row: WillisEquation) -> float:
     value = as_float(row.right)
     if value is None:
-        what = f"the right-hand side of '{row.label}' is no float"
-        raise RangeError(Problem(what, "a float holds 1e-308 to 1e308", "read `equations().equations`, in fractions"))
+        what = f"the right-hand side of '{row.label}' is beyond the range of float64"
+        raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", "read `equations().equations`, in fractions"))
     return value

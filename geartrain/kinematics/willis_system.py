@@ -1,6 +1,6 @@
-"""The labelled Willis system: one integer row a circuit, one row for the frame, one a prescription.
+"""Labelled Willis system: one integer row for each circuit, for the frame, and for each prescription.
 
-`relative_speed` is the speed of one link seen from another, exact or in floats.
+`relative_speed` gives the speed of one link relative to another, exact or in floats.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 
 def axis_sense(of: str, base: str, signs: Mapping[str, int]) -> int:
-    """1, or -1 where the axes of two links point against each other.
+    """Return 1, or -1 if the axes of two links have opposite directions.
 
-    signs   -1 for links whose axis points against the reference direction of its parallels
+    signs   -1 for links whose axis points against the reference direction of its parallel axes
     """
     return signs.get(of, 1) * signs.get(base, 1)
 
@@ -48,20 +48,20 @@ def relative_speed(
 def relative_speed(
     of: str, base: str, speed_of: Callable[[str], SpeedValue | None], signs: Mapping[str, int]
 ) -> SpeedValue | None:
-    """w_of - s w_base: a link's speed seen from another, about the first one's axis; None where one is not known.
+    """Return w_of - s w_base, the relative speed about the axis of `of`; None if a speed is not known.
 
-    speed_of   each link's speed about its own axis; None where it is not determined
-    signs      -1 for links whose axis points against the reference direction of its parallels: s is their product
+    speed_of   function that returns the speed of a link about its own axis; None if it is not determined
+    signs      -1 for links whose axis points against the reference direction of its parallels; s is the product of both
     """
     own, other = speed_of(of), speed_of(base)
     if own is None or other is None:
         return None
-    return own - other * axis_sense(of, base, signs) if other else own  # mostly seen from what stands still
+    return own - other * axis_sense(of, base, signs) if other else own  # usually relative to a link at rest
 
 
 @dataclass(frozen=True, slots=True)
 class WillisSystem(Shown):
-    """The Willis system of a train in one case: columns are links, rows are labelled equations.
+    """Willis system of a train in one case, with links as columns and labelled equations as rows.
 
     One row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of docs/theory.md,
     one for the frame, one for each drive, brake and lock.
@@ -77,47 +77,47 @@ class WillisSystem(Shown):
     """
 
     links: tuple[str, ...]
-    """The columns."""
+    """Links of the columns."""
     equations: tuple[WillisEquation, ...]
-    """The rows."""
+    """Equations of the rows."""
     exact: bool = True
-    """False where inputs are in radians beside others in turns, so that their numbers are shown in decimal."""
+    """False if inputs in radians and in turns are mixed, so that numbers are shown as decimals."""
     redundant: tuple[str, ...] = ()
-    """Labels of pairs that add nothing, for they close loops of product 1; where that was not looked for, none."""
+    """Labels of redundant pairs, which close loops of ratio product 1; empty if not determined."""
 
     def __str__(self) -> str:
-        """The equations as `geartrain equations` prints them."""
+        """Return the equations as printed by `geartrain equations`."""
         return self.text()
 
     def _summary(self) -> str:
         return f"{len(self.equations)} equations in the speeds of {len(self.links)} links"
 
     def matrix(self, whole: bool = False) -> WillisMatrix:
-        """The system as a sparse matrix and a right-hand side, for a solver of one's own.
+        """Return the system as a sparse matrix and a right-hand side, for other solvers.
 
         Parameters
         ----------
         whole : bool
-            With the column and row of the frame, and rows that follow from others: all that `text` shows. Otherwise the
-            matrix is square and regular where the train is determined.
+            True to include the column and row of the frame and rows that follow from others, as in `text`. Otherwise
+            the matrix is square and regular if the train is determined.
 
         Returns
         -------
         WillisMatrix
-            Made anew at each call.
+            A new object at each call.
         """
         from geartrain.kinematics.willis_matrix import build_matrix
 
         return build_matrix(self.links, self.equations, self.redundant, whole)
 
     def text(self) -> str:
-        """One line an equation, as a reader would write it."""
+        """Return the equations as text, one per line."""
         right = fraction_text if self.exact else decimal
         width = max((len(equation.label) for equation in self.equations), default=0)
         return "\n".join(f"{e.label:<{width}}  {_sum(e.terms, 'w[{}]')} = {right(e.right)}" for e in self.equations)
 
     def latex(self) -> str:
-        """The system as an `align` environment."""
+        """Return the system as a LaTeX `align` environment."""
         symbol = r"\omega_{{\text{{{}}}}}"
         right = _fraction if self.exact else decimal
         lines = [
@@ -135,9 +135,9 @@ def assemble_willis_system(
     signs: Mapping[str, int],
     redundant: Sequence[str] = (),
 ) -> WillisSystem:
-    """The rows of all circuits, the frame, and what `case` prescribes (None: nothing).
+    """Assemble the rows of all circuits, of the frame, and of the prescriptions of `case` (None: no prescriptions).
 
-    signs       -1 for links whose axis points against the reference direction of its parallels
+    signs       -1 for links whose axis points against the reference direction of its parallel axes
     redundant   ids of circuits known to follow from others
     """
     rows = [WillisEquation("frame", "frame", ((frame, 1),))]

@@ -1,8 +1,9 @@
 """Teeth of gear pairs: tooth forms, pairs with real teeth, outlines of wheels, pins in slots.
 
-In: two tooth counts, a form as a pair declares it, friction, sizes. Out: a `GearMesh`, whatever the form: verdict and
-backlash, transmission function on drive and coast flanks, efficiency, the outline to cut. Each form is one file, and
-each has a method `transmission` that gives the transmission function of a pair without a train.
+Input: two tooth counts, a tooth form as a pair declares it, friction and sizes. Output: a `GearMesh`, whatever the
+form, with its verdict, backlash, transmission functions of the drive and coast flanks, efficiency, and the outline to
+cut. Each form is one file. Each has a method `transmission` that returns the transmission function of a pair without a
+train.
 
 tooth_form, any_tooth_form    base class of all forms; the forms by name
 ideal                         the ratio of tooth counts at every instant
@@ -11,27 +12,27 @@ uniform_stress, uniform_temperature, least_friction
                               conjugate forms that are optimal (calculus of variations)
 circular_arc, pin_ring        clock teeth of BS 978; cycloidal reducers
 triangular                    triangular teeth of antiquity
-standard_teeth                involutes where no form is declared
+standard_teeth                involutes for pairs that declare no form
 
 meshing_wheels, gear_mesh     two wheels as declared; a pair with real teeth, as a train uses it
 transmission                  transmission function: driven angle, speed ratio and efficiency by the driver's angle
-transmission_table            the same as tables of polynomials, and the compiled kernel that reads them
+transmission_table            transmission functions as tables of polynomials; the compiled kernel that reads them
 pair_results                  figures, verdict and rows of tables of one pair
 form_comparison               conjugate forms compared with the 20 degree involute
-contact_coefficients          Coulomb friction and restitution as declared
+contact_coefficients          declared coefficients of Coulomb friction and restitution
 friction_law                  friction that depends on speed (Stribeck, Buckingham, Dokos, a table)
 rubbed_transmission           losses of a pair under such friction
-pin_coupling                  pins in slots and holes as declared
+pin_coupling                  declared couplings by pins in slots and holes
 pin_transmission              their transmission functions
-cycloidal_disc                disc of lobes in a ring of pins (shortened epitrochoid)
+cycloidal_disc                lobed disc in a ring of pins (shortened epitrochoid)
 
 conjugate                     teeth from their path of contact, for spur and bevel wheels
 contact                       contact of two outlines of any shape
 outlines                      closed outlines of wheels to cut
 
 Conjugate forms keep the ratio of tooth counts by the law of gearing: the common normal passes the pitch point
-(docs/shapes.md). Triangular teeth follow F. Sorge's equations (docs/teeth.md, with its errata), teeth given only by
-outlines the contact of these, pins plane geometry.
+(docs/shapes.md). Triangular teeth follow F. Sorge's equations (docs/teeth.md, with its errata). Teeth given only by
+their outlines are solved as a contact problem, and pins by plane geometry.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The tooth forms by name. A form is imported when a declaration or a command names it."""
+"""Tooth forms by name. A form is imported only when a declaration or a command names it."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ TOOTH_FORMS = {
     "circular_arc": "CircularArc",
     "pin_ring": "PinRing",
 }
-"""Class of each form by the form's name, which is also the name of its module."""
+"""Class name of each form by the name of the form, which is also the name of its module."""
 
 
 def tooth_form(name: str) -> type[ToothForm]:
-    """Import a form by its name, a key of `TOOTH_FORMS`."""
+    """Import the tooth form of this name, a key of `TOOTH_FORMS`, and return its class."""
     form: type[ToothForm] = getattr(import_module(f"geartrain.teeth.{name}"), TOOTH_FORMS[name])
     return form
 
 
 def tooth_forms() -> dict[str, type[ToothForm]]:
-    """Import all forms; return them by name."""
+    """Import all tooth forms and return their classes by name."""
     return {name: tooth_form(name) for name in TOOTH_FORMS}

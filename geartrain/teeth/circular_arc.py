@@ -1,19 +1,21 @@
 """Circular-arc clock teeth after British Standard 978, Part 2: radial flanks under tips that are arcs of circles.
 
-The wheel's addendum f comes from the epicycloid that the arc replaces: a circle half as wide as the pinion's pitch
-circle rolls on the wheel's, and f_a modules is where it meets its mirror image over a tooth half a pitch thick. For z
-leaves and ratio u, in units of the rolling circle's radius, with k = 1 + 2 u,
+The wheel's addendum f is derived from the epicycloid that the arc replaces. A circle with half the diameter of the
+pinion's pitch circle rolls on the wheel's pitch circle. The epicycloid and its mirror image over a tooth half a pitch
+thick intersect f_a modules above the pitch circle. For z leaves and ratio u, in units of the rolling circle's radius,
+with k = 1 + 2 u,
 
     t = pi / z + 2 u b,   tan b = sin t / (k - cos t),   f_a = z / 4 (sqrt(1 + k^2 - 2 k cos t) - 2 u).
 
-The tip stands 0.95 f_a m over the pitch circle and the arc has a radius of 1.40 f_a m. It passes through the end of the
-tooth's thickness on the pitch circle and through the tip on the middle of the tooth; the flank below is the tangent to
-it from the axle. Leaves are thinner than half a pitch, and a wheel's teeth are exactly half.
+The tip is 0.95 f_a modules above the pitch circle, and the arc has a radius of 1.40 f_a modules. The arc passes through
+the end of the tooth's thickness on the pitch circle and through the tip on the centre line of the tooth. The flank
+below is the tangent to the arc from the axis of the wheel. The leaves of a pinion are thinner than half a pitch, the
+teeth of a wheel exactly half a pitch thick.
 
 Sources: the iteration is H. Sparks's, "Designing Cycloidal Gears" (2013), who found it to agree with the standard's
 tables. The tables of f = 0.95 f_a and of the radius for the wheel, the three profiles of leaves and the tangent flank
 are as M. Robinson's OpenSCAD library (2016) transcribes them from the standard; the standard itself was not at hand.
-The depth of the leaves, the wheel's addendum and 0.4 modules, is Sparks's.
+The depth of the leaves, which is the wheel's addendum and 0.4 modules, is Sparks's.
 """
 
 from __future__ import annotations
@@ -39,46 +41,49 @@ if TYPE_CHECKING:
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_outline import Vertex
 
-_PRACTICAL, _ARC = 0.95, 1.40  # of f_a: the wheel's addendum, and the radius of its arc
-_BOTTOM = 0.4  # modules: what the spaces are deeper than the mate's tips are high
+_PRACTICAL, _ARC = 0.95, 1.40  # addendum of a wheel and radius of its arc, over f_a
+_BOTTOM = 0.4  # modules: bottom clearance, depth of a space less addendum of the mate
 _FEWEST, _MOST_TEETH = 5, 10_000
-_THIN = {False: 1.05, True: 1.25}  # modules: thickness of leaves, by whether there are more than ten
-_LEAVES = {  # addendum and radius of the arc (modules), by profile and by whether there are more than ten leaves
+_THIN = {False: 1.05, True: 1.25}  # modules: thickness of leaves, up to and above ten leaves
+_LEAVES = {  # addendum and radius of the arc (modules) by profile, up to and above ten leaves
     "A": {False: (0.525, 0.525), True: (0.625, 0.625)},
     "B": {False: (0.67, 0.70), True: (0.805, 0.84)},
     "C": {False: (0.855, 1.05), True: (1.05, 1.25)},
 }
-_SCOPE = "these teeth are for external pairs of spur wheels, no rings or bevels; a contrate is taken for a spur wheel"
+_SCOPE = "circular-arc teeth are for external pairs of spur wheels; a contrate wheel is treated as a spur wheel"
 
 
 def addendum_factor(z: int, ratio: float) -> float:
-    """f_a of a wheel that drives a pinion of z leaves, wheel over pinion being `ratio`; see the equations above.
+    """Return f_a of a wheel that drives a pinion of z leaves with the ratio wheel over pinion `ratio`.
 
-    A fixed-point iteration that shrinks by b's slope, less than one, at each step.
+    The equations in the module's docstring are solved by fixed-point iteration. It contracts, because the slope of b is
+    below one.
     """
     k, b, t = 1 + 2 * ratio, 0.0, 0.0
+    # the count is only an upper limit, since the loop ends when t no longer changes
     for _ in range(200):
         last, t = t, pi / z + 2 * ratio * b
         b = atan2(sin(t), k - cos(t))
-        # t is below pi: a step this small is its rounding
+        # t is below pi, so a step this small is rounding error
         if abs(t - last) <= 1e-16:
             break
     return z / 4 * (sqrt(1 + k * k - 2 * k * cos(t)) - 2 * ratio)
 
 
 def _wheel_number(raw: object) -> object:
-    """A declaration gives numbers as text."""
+    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
     return int(raw) if raw in ("1", "2") else raw
 
 
 class CircularArc(ToothForm):
-    """Circular-arc clock teeth as BS 978 Part 2 has them: radial flanks, ogive tips, thin leaves.
+    """Circular-arc clock teeth of BS 978 Part 2: radial flanks, ogival tips, thin leaves.
 
-    They are not conjugate: error, play and efficiency come from the contact of their outlines (docs/shapes.md).
+    They are not conjugate. Their transmission error, backlash and efficiency are computed from the contact of their
+    outlines (docs/shapes.md).
 
     See Also
     --------
-    geartrain.teeth.Cycloidal : the teeth that the arcs stand for.
+    geartrain.teeth.Cycloidal : the teeth that the arcs approximate.
 
     Examples
     --------
@@ -93,70 +98,82 @@ class CircularArc(ToothForm):
 
     any_distance: ClassVar[bool] = True
 
-    form: Literal["circular_arc"] = Field(description="The name of this form")
+    form: Literal["circular_arc"] = Field(description="Name of the tooth form")
     pinion: Annotated[Literal[1, 2], BeforeValidator(_wheel_number)] | None = Field(
         None,
-        description="Which wheel of the pair has leaves; default the one with fewer teeth, of equal ones the second",
+        description="Number of the wheel that is the pinion, 1 or 2; default the wheel with fewer teeth, the second of "
+        "equal ones",
     )
     leaf: Literal["A", "B", "C"] | None = Field(
-        None, description="Tips of the leaves: A round, B and C pointed; default C to 7 leaves, B to 9, A from 10"
+        None,
+        description="Tip profile of the leaves: A round, B and C pointed; default C up to 7 leaves, B for 8 and 9, A "
+        "from 10",
     )
     addendum: TwoFigures | None = Field(
-        None, description="Height of the tips in modules, one or one a wheel; default the standard's"
+        None,
+        description="Addendum in modules, one value, or a list of two (first, second wheel); default that of the "
+        "standard",
     )
     radius: TwoFigures | None = Field(
-        None, description="Radius of the arcs in modules, one or one a wheel; default the standard's"
+        None,
+        description="Radius of the tip arcs in modules, one value, or a list of two (first, second wheel); default "
+        "that of the standard",
     )
     thickness: TwoFigures | None = Field(
-        None, description="Thickness on the pitch circle in modules, one or one a wheel; default the standard's"
+        None,
+        description="Tooth thickness on the pitch circle in modules, one value, or a list of two (first, second "
+        "wheel); default that of the standard",
     )
     backlash: Length | None = Field(
         None,
-        description="Least play on the pitch circle, in modules or with a unit; thins the leaves where they have less",
+        description="Minimum backlash on the pitch circle, in modules or with a unit; the leaves are thinned if they "
+        "have less; default that of the standard",
     )
     centre_distance: Length | None = Field(
-        None, description="Distance of the two axes, in modules or with a unit; default half the sum of the teeth"
+        None, description="Centre distance, in modules or with a unit; default half the sum of the tooth numbers"
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> CircularArc:
+    def _check_parameters(self) -> CircularArc:
         for name in ("addendum", "radius", "thickness"):
             for figure in getattr(self, name) or ():
                 if figure.value <= 0:
-                    raise bad("length", f"{name} {figure.text} is no size of a tooth", "write modules above 0")
+                    raise bad("length", f"{name} {figure.text} is not above 0", "give a number of modules above 0")
         if self.thickness is not None and self.backlash is not None:
-            raise bad("backlash", "thickness and backlash are both given", "give one of them")
+            raise bad("backlash", "thickness and backlash are both given", "remove `thickness` or `backlash`")
         if self.backlash is not None and not self.backlash.value >= 0:
-            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "write 0 or more")
+            raise bad("backlash", f"a backlash of {self.backlash.text} would jam the teeth", "give 0 or more")
         if self.centre_distance is not None and self.centre_distance.value <= 0:
-            raise bad("length", f"centre_distance {self.centre_distance.text} is no length", "write it above 0")
+            raise bad("length", f"centre_distance {self.centre_distance.text} is not above 0", "give a length above 0")
         return self
 
     # ----------------------------------------------------------------------------------------------- teeth of a pair
 
     def teeth(self, z1: int, z2: int, module: float | None = None) -> tuple[ArcTooth, ArcTooth]:
-        """The teeth of both wheels.
+        """Return the teeth of both wheels.
 
         Parameters
         ----------
         z1, z2 : int
-            Teeth of the first and of the second wheel, 5 to 10000.
+            Numbers of teeth of the first and of the second wheel, 5 to 10000.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         tuple of ArcTooth
-            Of the first and of the second wheel; lengths in modules.
+            Teeth of the first and of the second wheel; lengths in modules.
 
         Raises
         ------
         GearTrainError
-            Where these sizes give no tooth.
+            If these sizes do not give a tooth.
         """
         for z in (z1, z2):
             if not _FEWEST <= z <= _MOST_TEETH:
-                why = f"BS 978 has leaves from 6 on, and here {_FEWEST} to {_MOST_TEETH} teeth are made"
+                why = (
+                    f"circular-arc teeth are computed for {_FEWEST} to {_MOST_TEETH} teeth (BS 978 begins at 6 leaves)"
+                )
                 raise refused(f"a wheel of {z} teeth has no circular-arc teeth", why, IDEAL)
         pinion = self.pinion or (1 if z1 < z2 else 2)
         zp, zw = (z1, z2) if pinion == 1 else (z2, z1)
@@ -167,7 +184,7 @@ class CircularArc(ToothForm):
             (_THIN[many], *_LEAVES[profile][many]),
         ]
         if self.backlash is not None:
-            # a thinner leaf has a tip of the same shape, as the standard's two have within a few percent
+            # a thinner leaf keeps the shape of its tip; the two thicknesses of the standard do so within a few percent
             thickness = min(_THIN[many], pi / 2 - _modules(self.backlash, module, "backlash"))
             sizes[1] = tuple(size * thickness / _THIN[many] for size in sizes[1])
         declared = (self.thickness, self.addendum, self.radius)
@@ -178,33 +195,33 @@ class CircularArc(ToothForm):
         made = []
         for at, z in enumerate((z1, z2)):
             thickness, addendum, radius = found[at]
-            # a wheel is cut half a pitch deep, or as deep as its mate's tips need
+            # a wheel is cut half a pitch deep, or deeper if the tips of its mate need it
             deep = found[1 - at][1] + _BOTTOM
             tooth = ArcTooth(z, thickness, addendum, radius, deep if at + 1 == pinion else max(deep, pi / 2))
             if not tooth.fits:
                 raise refused(
-                    f"no circular-arc tooth of {z} is {thickness:.4g} modules thick and {addendum:.4g} high on arcs of "
-                    f"{radius:.4g}",
-                    "the arc must rise from the pitch circle to the tip, and a flank be left under it",
-                    "leave addendum, radius and thickness to the standard, or take a greater radius or a thinner tooth",
+                    f"circular-arc teeth of a wheel of {z} cannot be {thickness:.4g} modules thick and {addendum:.4g} "
+                    f"high with arcs of radius {radius:.4g}",
+                    "the arc must rise from the pitch circle to the tip and leave a flank below it",
+                    "remove `addendum`, `radius` and `thickness`, or give a larger radius or a smaller thickness",
                 )
             made.append(tooth)
         return made[0], made[1]
 
     def distance(self, z1: int, z2: int, module: float | None = None) -> float:
-        """Distance of the axes.
+        """Return the centre distance.
 
         Parameters
         ----------
         z1, z2 : int
-            Teeth of both wheels.
+            Numbers of teeth of both wheels.
         module : float, optional
             Module [m], for a distance with a unit.
 
         Returns
         -------
         float
-            Modules; half the sum of the teeth unless declared.
+            Centre distance [module]; half the sum of the tooth numbers unless declared.
         """
         if self.centre_distance is None:
             return (z1 + z2) / 2
@@ -213,30 +230,30 @@ class CircularArc(ToothForm):
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, direction: int = 1, module: float | None = None
     ) -> OutlineTransmission:
-        """The transmission function of a pair, from the contact of its outlines.
+        """Return the transmission function of a pair, computed from the contact of its outlines.
 
         Parameters
         ----------
         z1, z2 : int
-            Teeth of the first and of the second wheel.
+            Numbers of teeth of the first and of the second wheel.
         friction : float
             Coefficient of friction, 0 or more.
         driver : {1, 2}
-            Which wheel drives.
+            Number of the driving wheel.
         direction : {1, -1}
-            -1 turns back, on the other flanks.
+            -1 for motion backwards, on the coast flanks.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         OutlineTransmission
-            Its `verdict` says whether the pair can turn.
+            Transmission function. Its `verdict` says whether the pair can turn.
 
         Raises
         ------
         GearTrainError
-            Where these sizes give no tooth.
+            If these sizes do not give a tooth.
         """
         from geartrain.teeth.contact.outline_transmission import OutlineTransmission
 
@@ -244,47 +261,51 @@ class CircularArc(ToothForm):
         return OutlineTransmission(gears, friction, driver, direction)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair on parallel axes, its first wheel driving; rings and bevels are refused."""
+        """Return the mesh of a pair on parallel axes, its first wheel driving.
+
+        Raise `GearTrainError` for internal gears and bevel wheels.
+        """
         from geartrain.teeth.contact.outline_mesh import OutlineMesh
 
         del shaft_angle
         odd = [kind for kind in wheels.kinds if kind not in ("spur", "contrate")]
         if odd or any(wheels.internal):
-            why = f"a {odd[0]} wheel does not mesh as spur wheels do" if odd else "a ring has its teeth inside"
-            raise refused("it cannot have circular-arc teeth", why, f"{_SCOPE}; {IDEAL}")
+            raise refused(f"a {f'{odd[0]} wheel' if odd else 'ring'} cannot have circular-arc teeth", _SCOPE, IDEAL)
         transmission = self.transmission(*wheels.counts, wheels.friction or 0.0, module=wheels.module)
         teeth = self.teeth(*wheels.counts, wheels.module)
         cut = [FixedTooth(each.tip, each.root, tuple(each.vertices())) for each in teeth]
         return OutlineMesh(wheels, self, wheels.driver, transmission, (cut[0], cut[1]))
 
-    # ------------------------------------------------------------------------------------------------- a maker's play
+    # ------------------------------------------------------------------------------------------------- backlash
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Why a maker's play does not hold for this pair: declared play or thickness wins.
+        """Return the reason why a requested backlash cannot be applied to this pair.
+
+        A declared backlash or thickness takes precedence over the backlash of the manufacturing options.
 
         Returns
         -------
         Problem or None
-            None where neither is declared.
+            None if neither is declared.
         """
         if self.backlash is None and self.thickness is None:
             return None
-        why = "it declares its backlash or thickness, and what is declared wins"
-        fix = "leave --backlash out, or take it out of the file"
+        why = "a declared backlash or thickness takes precedence over --backlash"
+        fix = "omit --backlash, or remove `backlash` and `thickness` from the file"
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
-        """The same teeth, the leaves thinner where they leave less play.
+        """Return the same teeth with leaves thinned to this backlash where they have less.
 
         Parameters
         ----------
         backlash : Quantity
-            Least play on the pitch circle, in modules or with a unit.
+            Minimum backlash on the pitch circle, in modules or with a unit.
 
         Returns
         -------
         CircularArc
-            A copy.
+            A copy with this `backlash`.
         """
         return self.model_copy(update={"backlash": backlash})
 
@@ -294,20 +315,20 @@ def _modules(length: Quantity, module: float | None, name: str) -> float:
         return float(length.value)
     if module is None:
         raise refused(
-            f"the {name} {length.text} has nothing to be compared with",
+            f"the {name} {length.text} cannot be converted to modules",
             "the wheels declare no module with a unit",
-            f"give the `module` of both wheels, or the {name} as a plain number of modules",
+            f"declare the `module` of both wheels with a unit, or give the {name} as a number of modules",
         )
     return length.si / module
 
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Equal pairs of a long train are looked at once."""
+    """Return the outlines of a pair, cached so that equal pairs of a long train are computed once."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
-    lead = (first.thickness + second.thickness) / 2
-    return OutlineGears(first.outline(), second.outline(), distance, lead, pi - 2 * lead)
+    mean = (first.thickness + second.thickness) / 2
+    return OutlineGears(first.outline(), second.outline(), distance, mean, pi - 2 * mean)
 
 
 # ---------------------------------------------------------------------------------------------------------------- tooth
@@ -315,64 +336,76 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """A tooth with radial flanks and a tip of two arcs, lengths in modules."""
+    """Tooth with radial flanks and a tip of two arcs. Lengths are in modules."""
 
     z: int
-    """Teeth of the wheel; `thickness` of one along the pitch circle."""
+    """Number of teeth of the wheel."""
     thickness: float
+    """Thickness of a tooth along the pitch circle."""
     addendum: float
-    """Height of the tip over the pitch circle; `radius` of the arcs."""
+    """Height of the tip above the pitch circle."""
     radius: float
+    """Radius of the arcs of the tip."""
     dedendum: float
-    """Depth of the root under it."""
+    """Depth of the root below the pitch circle."""
 
     @property
     def tip(self) -> float:
-        """Radius of the tip (modules)."""
+        """Radius of the tip circle [module]."""
         return self.z / 2 + self.addendum
 
     @property
     def root(self) -> float:
-        """Radius of the root circle (modules)."""
+        """Radius of the root circle [module]."""
         return self.z / 2 - self.dedendum
 
     @property
     def centre(self) -> tuple[float, float]:
-        """Of the arc on the side of positive x, the middle of the tooth along y; beyond it for a pointed tip."""
+        """Centre (x, y) of the arc on the side of positive x [module].
+
+        The centre line of the tooth is the y axis. The centre of the arc of a pointed tip is beyond it, at negative x.
+        """
         half = self.thickness / self.z
         x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
         chord = hypot(x, self.tip - y)
+        # on the perpendicular bisector of the chord; `far` is its distance from the chord over the chord's length
         far = sqrt(self.radius**2 - chord**2 / 4) / chord
         return x / 2 - far * (self.tip - y), (self.tip + y) / 2 - far * x
 
     @property
     def fits(self) -> bool:
-        """True if the arc spans from the pitch circle to the tip and rises all the way, and the flank ends on it."""
+        """True if the sizes give a tooth.
+
+        The arc must span from the pitch circle to the tip, rise all the way, and leave a flank below it.
+        """
         half = self.thickness / self.z
         chord = hypot(self.z / 2 * sin(half), self.tip - self.z / 2 * cos(half))
         if 2 * self.radius < chord or not 0 < half < pi / self.z:
             return False
         x, y = self.centre
         start, lean = self.flank
-        # the centre of a round tip is on the middle of the tooth, to the three digits of printed sizes
+        # the centre of a round tip is on the centre line of the tooth, within the three digits of printed sizes
         return x <= 1e-3 * self.radius and hypot(x, y) > self.radius and self.root < start and 0 < lean < pi / self.z
 
     @property
     def flank(self) -> tuple[float, float]:
-        """Radius at which the flank ends and the arc begins, and angle (rad) of the flank from the tooth's middle."""
+        """Radius [module] at which the flank ends and the arc begins, and angle of the flank from the centre line
+        [rad].
+        """
         x, y = self.centre
         far = hypot(x, y)
+        # length and direction of the tangent from the axis of the wheel to the arc
         return sqrt(far**2 - self.radius**2), atan2(x, y) + asin(self.radius / far)
 
     def outline(self) -> GearOutline:
-        """All teeth of the wheel, for the contact of outlines."""
+        """Return the outline of the wheel with all its teeth, for the contact of outlines."""
         import numpy as np
 
         from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
 
         (start, lean), (cx, cy), radius = self.flank, self.centre, self.radius
         way = np.array([sin(lean), cos(lean)])
-        # angles on the arc, counted from x towards y
+        # angles on the arc, measured from the x axis towards the y axis
         low, high = atan2(start * way[1] - cy, start * way[0] - cx), atan2(self.tip - cy, -cx)
 
         def arc(turn: Floats) -> Floats:
@@ -382,12 +415,15 @@ class ArcTooth:
         return GearOutline((ToothFlanks.symmetric(side),), self.z)
 
     def vertices(self) -> Iterator[Vertex]:
-        """The tooth about the x axis, from root to root, with the bulge of each edge; the arcs are exact."""
+        """Yield the vertices (x, y, bulge) of the tooth about the x axis, from root to root.
+
+        The bulge of an edge is the tangent of a quarter of its angle, so that the arcs are exact.
+        """
         (start, lean), (cx, cy) = self.flank, self.centre
         sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)
-        along, beside = cos(lean), sin(lean)
-        yield self.root * along, -self.root * beside, 0.0
-        yield start * along, -start * beside, tan(sweep / 4)
+        along, across = cos(lean), sin(lean)
+        yield self.root * along, -self.root * across, 0.0
+        yield start * along, -start * across, tan(sweep / 4)
         yield self.tip, 0.0, tan(sweep / 4)
-        yield start * along, start * beside, 0.0
-        yield self.root * along, self.root * beside, tan((pi / self.z - lean) / 2)
+        yield start * along, start * across, 0.0
+        yield self.root * along, self.root * across, tan((pi / self.z - lean) / 2)

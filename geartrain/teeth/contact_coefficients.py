@@ -1,7 +1,8 @@
 """Coefficients of Coulomb friction and of restitution as a train declares them.
 
-Restitution is Newton's law of impact: where two sides meet at a speed u they part at e u, with e from 0 (they stay
-together) to 1 (no energy is lost); of the energy in u the part 1 - e^2 is lost.
+Restitution is Newton's law of impact: two sides that approach each other at a speed u separate at the speed e u. The
+coefficient e is from 0 (they stay together) to 1 (no energy is lost), and the fraction 1 - e^2 of the kinetic energy of
+the approach is lost.
 """
 
 from __future__ import annotations
@@ -24,22 +25,27 @@ from geartrain.numerics.quantity import Figure, Friction, parse_friction
 
 
 class CoulombFriction(BaseModel):
-    """Dry friction: a part of the normal force, whatever the speed of sliding. A bare number is `sliding`."""
+    """Dry friction: a fraction of the normal force that does not depend on the sliding speed.
+
+    A bare number is the coefficient `sliding`.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
-    sliding: Friction = Field(description="Coefficient while surfaces slide")
+    sliding: Friction = Field(description="Coefficient of sliding friction")
     static: Friction | None = Field(
-        None, description="Coefficient at rest, which a start has to overcome; `sliding` or more, default `sliding`"
+        None,
+        description="Coefficient of static friction, which a start has to overcome; `sliding` or more, default "
+        "`sliding`",
     )
     deviation: Friction | None = Field(
         None,
-        description="Standard deviation of a normal distribution about `sliding`, for Monte Carlo; `static` keeps its "
-        "ratio to `sliding`; default 0",
+        description="Standard deviation of the normal distribution of `sliding` in Monte Carlo runs; `static` keeps "
+        "its ratio to `sliding`; default 0",
     )
 
     @model_validator(mode="after")
-    def _rests_no_easier(self) -> CoulombFriction:
+    def _check_static(self) -> CoulombFriction:
         if self.static is not None and self.static.value < self.sliding.value:
             raise PydanticCustomError(
                 "friction",
@@ -47,14 +53,14 @@ class CoulombFriction(BaseModel):
                 {
                     "static": self.static.text,
                     "sliding": self.sliding.text,
-                    "fix": "what slides is never harder to move than what rests: give `static` as `sliding` or more",
+                    "fix": "give a `static` friction of `sliding` or more, or leave `static` out",
                 },
             )
         return self
 
     @model_serializer(mode="wrap")
-    def _told(self, handler: Any) -> Any:
-        """As it was declared: the bare number where there is no more."""
+    def _declared(self, handler: Any) -> Any:
+        """Return the coefficient as it was declared, as a bare number if only `sliding` is given."""
         return str(self.sliding) if self.static is None and self.deviation is None else handler(self)
 
     @classmethod
@@ -67,21 +73,21 @@ def _sliding(raw: object) -> object:
 
 
 DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
-"""The same, or a bare number."""
+"""Field type: Coulomb friction, or a bare number for its coefficient `sliding`."""
 
 
-def _from_nothing_to_all(figure: Figure) -> Figure:
+def _check_restitution(figure: Figure) -> Figure:
     if not 0 <= figure.value <= 1:
         raise PydanticCustomError(
             "restitution",
-            "a restitution of {text} is none",
+            "a restitution of {text} is out of range",
             {
                 "text": figure.text,
-                "fix": "it is from 0, where what meets stays together, to 1, where no energy is lost",
+                "fix": "give a number from 0 (no rebound) to 1 (no loss of energy)",
             },
         )
     return figure
 
 
-DeclaredRestitution = Annotated[Figure, AfterValidator(_from_nothing_to_all)]
-"""A coefficient of restitution, 0 to 1."""
+DeclaredRestitution = Annotated[Figure, AfterValidator(_check_restitution)]
+"""Coefficient of restitution, 0 to 1."""

@@ -1,4 +1,4 @@
-"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, of one rolling circle a side."""
+"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, one rolling circle a side."""
 
 from __future__ import annotations
 
@@ -22,13 +22,14 @@ _HALF = Figure.parse("1/2")
 
 
 class Cycloidal(ConjugateToothForm):
-    """Cycloidal teeth, as in clocks: by default every dedendum is radial.
+    """Cycloidal teeth, as in clocks, by default with a radial dedendum.
 
-    Epicycloids outside the pitch circles, hypocycloids inside; one rolling circle makes each side (docs/shapes.md).
+    The profile is an epicycloid outside the pitch circle and a hypocycloid inside. One rolling circle generates the
+    addendum of one wheel and the dedendum of the other (docs/shapes.md).
 
     See Also
     --------
-    geartrain.teeth.Lantern : pins in place of the teeth of one wheel.
+    geartrain.teeth.Lantern : pins instead of the teeth of one wheel.
 
     Examples
     --------
@@ -37,78 +38,95 @@ class Cycloidal(ConjugateToothForm):
     ('the teeth run', Fraction(2, 15), 1.0)
     """
 
-    form: Literal["cycloidal"] = Field(description="The name of this form")
+    form: Literal["cycloidal"] = Field(description="Name of the tooth form")
     rolling: TwoLengths | None = Field(
-        None, description="Radius of the rolling circle in modules or with a unit; a list of two: approach, recess"
+        None,
+        description="Radius of the rolling circle in modules or with a unit, one value, or a list of two (approach, "
+        "recess); default from rolling_fraction",
     )
     rolling_fraction: TwoFigures | None = Field(
         None,
-        description="The same as a fraction of the pitch radius of the wheel whose dedendum it makes, or of a ring's "
-        "pinion; default 1/2, radial flanks",
+        description="Radius of the rolling circle over the pitch radius of the wheel whose dedendum it generates "
+        "(with a ring, of the pinion), one value, or a list of two (approach, recess); default 1/2, radial flanks",
     )
-    arcs: TwoFigures | None = Field(None, description="Arcs of approach and recess in pitches; default half each")
-    addendum: TwoFigures | None = Field(None, description="In place of arcs: addenda in modules; 0 for none")
+    arcs: TwoFigures | None = Field(
+        None, description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default 1/2 each"
+    )
+    addendum: TwoFigures | None = Field(
+        None,
+        description="Addendum in modules, instead of arcs, one value, or a list of two (first, second wheel); 0 for "
+        "none",
+    )
     thickness: TwoFigures | None = Field(
         None,
-        description="In place of backlash: thickness on the pitch circle in modules, one or one a wheel; clockmakers "
-        "have wheels of pi/2 and leaves of 1.05 (BS 978)",
+        description="Tooth thickness on the pitch circle in modules, instead of backlash, one value, or a list of two "
+        "(first, second wheel); BS 978 has pi/2 for wheels and 1.05 for leaves",
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> Cycloidal:
+    def _check_parameters(self) -> Cycloidal:
         if self.rolling is not None and self.rolling_fraction is not None:
-            raise bad("rolling", "the rolling circles are given twice", "give rolling or rolling_fraction")
+            raise bad(
+                "rolling", "rolling and rolling_fraction are both given", "remove `rolling` or `rolling_fraction`"
+            )
         for circle in (*(self.rolling or ()), *(self.rolling_fraction or ())):
             if circle.value <= 0:
-                raise bad("rolling", f"a rolling circle of {circle.text} does not roll", "write a radius above 0")
+                raise bad("rolling", f"a rolling circle of {circle.text} is not above 0", "give a radius above 0")
         if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
             raise bad(
                 "rolling",
-                "a rolling circle as large as the pitch circle makes a dedendum of no length",
-                "give a fraction below 1; 1/2 makes the flanks radial, more undercuts them",
+                "a rolling circle as large as the pitch circle generates a dedendum of zero height",
+                "give a fraction below 1 (1/2 makes radial flanks, a larger one undercut flanks)",
             )
         if self.thickness is not None:
             self._check_thickness(self.thickness)
         if self.arcs is not None and self.addendum is not None:
-            raise bad("arcs", "arcs and addendum are both given", "give one of them: each follows from the other")
+            raise bad(
+                "arcs", "arcs and addendum are both given", "remove `arcs` or `addendum`: each determines the other"
+            )
         if self.arcs is not None:
             check_arcs(self.arcs)
         elif self.addendum is not None and (
             min(height.value for height in self.addendum) < 0 or not sum(height.value for height in self.addendum)
         ):
-            raise bad("height", "an addendum is no height", "write modules, 0 or more, not 0 for both wheels")
+            raise bad(
+                "height", "an addendum is negative, or both are 0", "give modules, 0 or more, not 0 for both wheels"
+            )
         return self
 
     def _check_thickness(self, thickness: TwoFigures) -> None:
         if "backlash" in self.model_fields_set:
-            raise bad("backlash", "thickness and backlash are both given", "give one of them")
+            raise bad("backlash", "thickness and backlash are both given", "remove `thickness` or `backlash`")
         if (minimum := min(thickness, key=lambda each: each.value)).value <= 0:
-            raise bad("length", f"a thickness of {minimum.text} is no tooth", "write modules above 0")
+            raise bad("length", f"a thickness of {minimum.text} is not above 0", "give a number of modules above 0")
         if (both := sum(float(each.value) for each in thickness)) > pi:
-            fix = f"give {pi:.6g} modules or less in all"
-            raise bad("length", f"teeth {both:.6g} modules thick in all do not fit into a pitch", fix)
+            fix = f"give thicknesses with a sum of at most {pi:.6g} modules"
+            raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """As other forms say it; a declared thickness is a play too.
+        """Return the reason why a requested backlash cannot be applied to this pair.
+
+        A declared thickness determines the backlash, as a declared backlash does.
 
         Returns
         -------
         Problem or None
-            None where neither is declared.
+            None if neither is declared.
         """
         if self.thickness is None:
             return super().own_backlash(pair)
-        why = f"it declares teeth {' and '.join(each.text for each in self.thickness)} modules thick"
-        fix = "leave --backlash out, or take the `thickness` out of the file"
+        declared = " and ".join(each.text for each in self.thickness)
+        why = f"the declared thickness of {declared} modules takes precedence over --backlash"
+        fix = "omit --backlash, or remove `thickness` from the file"
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, with what would let them.
+            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
         """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -125,11 +143,13 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Rolling circles of approach and recess: modules, or rad."""
+        """Return the radii of the rolling circles of approach and recess, in modules or, for bevel pairs, in rad."""
         if self.rolling is not None:
             if wheels.bevel:
                 raise refused(
-                    "rolling circles of a bevel pair are cones", "they have no radius", "give rolling_fraction"
+                    "`rolling` does not apply to bevel pairs",
+                    "their rolling circles are cones",
+                    "give rolling_fraction",
                 )
             first, second = (wheels.modules(length, "rolling circle") for length in self.rolling)
             return first, second
@@ -139,17 +159,17 @@ class Cycloidal(ConjugateToothForm):
     def _arcs(self, pitch: PitchSurfaces, circles: tuple[float, float]) -> tuple[float, float]:
         if self.addendum is None:
             return arcs_of(self.arcs or (_HALF, _HALF), pitch)
-        # the addendum of the second wheel ends the approach, that of the first the recess
+        # contact begins at the tip of the driven wheel and ends at the tip of the driver
         heights = tuple(figure.value for figure in reversed(self.addendum))
         found = [
-            _arc(pitch, R, z, rho, height)
+            _arc_of_addendum(pitch, R, z, rho, height)
             for R, z, rho, height in zip((pitch.R2, pitch.R1), (pitch.z2, pitch.z1), circles, heights, strict=True)
         ]
         return found[0], found[1]
 
 
-def _arc(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """The arc (X) that ends at an addendum."""
+def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
+    """Return the arc of contact, as pitch-line displacement X, that ends at an addendum of `height` modules."""
     from math import asin, sin
 
     from geartrain.teeth.conjugate.closed_form_sides import circle_reach, cone_reach
@@ -164,8 +184,8 @@ def _arc(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction)
         chord = circle_reach(R, rho, abs(R) + (float(height) if R > 0 else -float(height))) / 2
     if chord >= size:
         raise refused(
-            f"an addendum of {float(height):g} modules is higher than these cycloids rise",
-            "the rolling circle has turned by half before",
+            f"an addendum of {float(height):g} modules is higher than these cycloids",
+            "a cycloid reaches its maximum height after half a turn of the rolling circle",
             "give a lower addendum or a larger rolling circle",
         )
     return 2 * size * asin(chord / size)

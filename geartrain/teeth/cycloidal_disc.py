@@ -1,9 +1,9 @@
-"""A disc of lobes that rolls in a ring of round pins: outline, loads of the pins, losses; and as a pair of a train.
+"""Lobed disc that rolls in a ring of round pins: outline, loads on the pins, losses, and the mesh that a train uses.
 
-Lengths are in modules: pitch radii are half the tooth numbers, and the centre of the disc is half a module from that of
-its ring. A pin's centre describes a shortened epitrochoid in the disc, whose outline stands a pin's radius within it.
-Every normal at a contact passes the pitch point; half of all pins press at once, or with a clearance fewer
-(docs/reducers.md, (1) to (7)).
+Lengths are in modules: pitch radii are half the tooth numbers, and the centre of the disc is half a module from the
+centre of the ring. The centre of a pin describes a shortened epitrochoid in the frame of the disc. The outline of the
+disc is offset inwards from that curve by the radius of a pin. Every contact normal passes through the pitch point. Half
+of all pins press at once, or fewer if there is a clearance (docs/reducers.md, (1) to (7)).
 """
 
 from __future__ import annotations
@@ -28,31 +28,40 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
 
-_SAMPLES = 4096  # of a lobe, where its sharpest round is sought
-_FEWEST, _MOST = 16, 4096  # points of a lobe
-_PHASES = 64  # of a pitch, for means
-_FREE = 0.1  # modules between lobes and the ring behind the pins
+_SAMPLES = 4096  # points of a lobe at which the maximum curvature is searched for
+_MIN_CHORDS, _MAX_CHORDS = 16, 4096  # minimum and maximum number of chords of a lobe
+_PHASES = 64  # positions in a pitch for means and extrema
+_RING_CLEARANCE = 0.1  # modules: clearance between the lobes and the ring behind the pins
 _WORDS = (
-    "Discs of lobes in rings of pins, each in the frame of its eccentric. Shortening is the ring's pitch radius over "
-    "that of the pins' circle; bearing, how many pins bear at once, which are fewer where a clearance and the "
-    "`deflection` of a pin are given; the greatest load is that of one pin over the force on the disc's pitch circle, "
-    "pins equally stiff; play in degrees of the driven wheel; efficiency of pins that do not roll, as the pair is "
-    "driven, and driven back."
+    "Lobed discs in rings of pins, each in the frame of its eccentric. Shortening: pitch radius of the ring over the "
+    "radius of the pin circle. Bearing: number of pins that bear load at once, reduced by a clearance if the "
+    "`deflection` of a pin is given. Max load: maximum load on one pin over the force on the disc's pitch circle, for "
+    "pins of equal stiffness. Backlash: in degrees of the driven wheel. Efficiency: for pins that do not roll, as the "
+    "pair is driven, and driven back."
 )
 _HEADER = (
-    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "greatest load", "play (deg)"),
+    *("pair", "drives", "lobes", "pins", "shortening", "pin radius", "bearing", "max load", "backlash (deg)"),
     *("efficiency", "driven back"),
 )
 
 
 @dataclass(frozen=True)
 class CycloidalDisc:
-    """The two wheels.
+    """Lobed disc of a cycloidal reducer and the ring of pins in which it rolls. Lengths are in modules.
 
-    lobes      of the disc; its ring has one pin more
-    circle     radius on which the centres of pins stand; `pin`, radius of a pin
-    clearance  by which the disc stands back from every pin
-    deflection by which a pin that bore the whole force on the pitch circle would give way; None: all pins share alike
+    Attributes
+    ----------
+    lobes : int
+        Number of lobes of the disc. The ring has one pin more.
+    circle : float
+        Radius of the circle through the centres of the pins.
+    pin : float
+        Radius of a pin.
+    clearance : float
+        Distance by which the outline of the disc is set back from every pin.
+    deflection : float or None
+        Deflection of one pin under the whole force on the pitch circle of the disc. None: all pins that push are loaded
+        in proportion to their lever arms, as if there were no clearance.
     """
 
     lobes: int
@@ -63,38 +72,48 @@ class CycloidalDisc:
 
     @property
     def pins(self) -> int:
-        """Of the ring."""
+        """Number of pins of the ring."""
         return self.lobes + 1
 
     @property
     def shortening(self) -> float:
-        """Pitch radius of the ring over that of the pins' circle, below 1: docs/reducers.md (1)."""
+        """Pitch radius of the ring over the radius of the pin circle, below 1: docs/reducers.md (1)."""
         return self.pins / 2 / self.circle
 
     def centres(self, turn: Floats) -> Floats:
-        """Where the centre of a pin stands in the disc, as complex numbers, while the eccentric turns: (2)."""
+        """Return the positions of a pin's centre in the frame of the disc, as complex numbers: docs/reducers.md (2).
+
+        turn   angle of the eccentric (rad)
+        """
         found: Floats = self.circle * np.exp(1j * turn / self.lobes) - np.exp(1j * turn * self.pins / self.lobes) / 2
         return found
 
     def outline(self, turn: Floats) -> Floats:
-        """Points of the disc: (3)."""
-        found: Floats = self.centres(turn) + (self.pin + self.clearance) * self._inwards(turn)
+        """Return points of the disc's outline, as complex numbers: docs/reducers.md (3).
+
+        turn   angle of the eccentric (rad)
+        """
+        found: Floats = self.centres(turn) + (self.pin + self.clearance) * self._inward_normals(turn)
         return found
 
-    def _inwards(self, turn: Floats) -> Floats:
-        """Directions across the outline, from the centres of the pins to it."""
+    def _inward_normals(self, turn: Floats) -> Floats:
+        """Return the unit normals of the outline, from the centres of the pins inwards, as complex numbers."""
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
         return found
 
     @cached_property
     def sharpest(self) -> float:
-        """Least radius of the curve of centres where it is round outwards: a pin must be smaller."""
-        bent = self._bend(np.linspace(0, 2 * pi, _SAMPLES))
+        """Minimum radius of curvature [module] of the convex parts of the pin-centre curve.
+
+        A pin must have a smaller radius, or it undercuts the lobes. The value is infinite if no part is convex.
+        """
+        bent = self._centre_curvature(np.linspace(0, 2 * pi, _SAMPLES))
         return 1 / float(bent.max()) if bent.max() > 0 else inf
 
-    def _bend(self, turn: Floats) -> Floats:
-        """Curvature of the curve of centres, above 0 where it is round outwards."""
+    def _centre_curvature(self, turn: Floats) -> Floats:
+        """Return the curvature of the pin-centre curve [1/module], positive where it is convex."""
+        # first and second derivative of `centres` by the angle of the eccentric
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
         first = 1j * (R / z * slow - e * (z + 1) / z * fast)
@@ -103,39 +122,53 @@ class CycloidalDisc:
         return found
 
     def curvature(self, angle: Floats) -> Floats:
-        """Of the outline where a pin touches it at an angle (rad) from the pitch point, below 0 in a hollow."""
-        bent = self._bend(angle)
+        """Return the curvature of the outline [1/module] at the contact with a pin, negative where it is concave.
+
+        angle   position of the pin from the pitch point, about the axis of the ring (rad)
+        """
+        # curvature of the parallel curve at the distance of a pin radius and the clearance
+        bent = self._centre_curvature(angle)
         found: Floats = bent / (1 - bent * (self.pin + self.clearance))
         return found
 
     # ------------------------------------------------------------------------------------------------------- contacts
 
     def distance(self, angle: Floats) -> Floats:
-        """From the pitch point to the centre of a pin, seen from the ring's axis at an angle (rad) from it."""
+        """Return the distance [module] from the pitch point to the centre of a pin.
+
+        angle   position of the pin from the pitch point, about the axis of the ring (rad)
+        """
         a, R = self.pins / 2, self.circle
         found: Floats = np.sqrt(R**2 + a**2 - 2 * R * a * np.cos(angle))
         return found
 
     def arms(self, angle: Floats) -> Floats:
-        """Lever arms of the normals about the disc's centre, of pins that push it forwards; 0 of others: (4)."""
+        """Return the lever arms [module] of the contact normals about the centre of the disc: docs/reducers.md (4).
+
+        The value is 0 for pins that cannot push the disc forwards.
+        """
         found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
         return found
 
     def loads(self, phase: Floats) -> Floats:
-        """Forces on all pins, shape (pins, ...), over that which the torque exerts on the disc's pitch circle: (5).
+        """Return the forces on all pins over the force of the torque on the disc's pitch circle: docs/reducers.md (5).
 
-        phase   of a pin from the line of centres (rad)
+        phase   angle of one pin from the line of centres (rad)
+
+        The shape is (pins, ...).
         """
         arms = self.arms(self.angles(phase))
         if self.clearance and self.deflection is not None:
-            return np.maximum(self._twist(arms) * arms - self.clearance, 0.0) / self.deflection
+            return np.maximum(self._loaded_angle(arms) * arms - self.clearance, 0.0) / self.deflection
+        # pins of equal stiffness: the deflection at a pin is proportional to its lever arm
         found: Floats = arms * self.lobes / 2 / (arms**2).sum(axis=0)
         return found
 
-    def _twist(self, arms: Floats) -> Floats:
-        """Angle by which the disc turns under load, until the pins that it reaches bear the torque: (7).
+    def _loaded_angle(self, arms: Floats) -> Floats:
+        """Return the angle (rad) of the disc under load at which enough pins bear the torque: docs/reducers.md (7).
 
-        The pins with the longest arms are met first: there are as many as leave the next one free.
+        Pins with longer lever arms come into contact first. Their number is the smallest for which the next pin stays
+        free.
         """
         assert self.deflection is not None
         ordered = -np.sort(-arms, axis=0)
@@ -148,20 +181,23 @@ class CycloidalDisc:
 
     @cached_property
     def bearing_pins(self) -> tuple[int, int]:
-        """Fewest and most pins that bear at once."""
+        """Minimum and maximum number of pins that bear load at once."""
         loads = self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))
-        # a pin on the line of centres has no arm, but for rounding
+        # the lever arm of a pin on the line of centres is 0 except for rounding error
         number = (loads > 1e-9 * loads.max()).sum(axis=0)
         return int(number.min()), int(number.max())
 
     def angles(self, phase: Floats) -> Floats:
-        """Of all pins from the pitch point, shape (pins, ...), one of them `phase` from it."""
+        """Return the angles (rad) of all pins from the pitch point, shape (pins, ...), one pin being at `phase`."""
         each = 2 * pi / self.pins * np.arange(self.pins)
         found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
         return found
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
-        """Speed of sliding over that of the pitch line, in the mean of the load, and loss over friction: (6)."""
+        """Return the load-weighted mean sliding speed over the pitch-line speed, and the loss over friction: (6).
+
+        phase   angle of one pin from the line of centres (rad)
+        """
         angles = self.angles(phase)
         reach = (self.distance(angles) - self.pin) / (self.lobes / 2) / self.pins
         loads = self.loads(phase)
@@ -170,43 +206,50 @@ class CycloidalDisc:
 
     @cached_property
     def maximum_load(self) -> float:
-        """Of any pin at any time, over the force that the torque exerts on the disc's pitch circle."""
+        """Maximum load on any pin over the force of the torque on the disc's pitch circle."""
         return float(self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)).max())
 
     @property
     def loss(self) -> float:
-        """Mean loss over friction."""
+        """Mean power loss over a pitch, per unit of friction."""
         return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """One lobe about the x axis, as chords, none of which reaches out of it: a pin must pass."""
-        number = _FEWEST
-        while np.abs(self._out(number)).max() > tolerance and number < _MOST:
+        """Return one lobe about the x axis as a chain of chords, none of which extends outside the lobe, so that pins
+        pass.
+        """
+        number = _MIN_CHORDS
+        while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:
             number *= 2
-        out = np.maximum(self._out(number), 0.0)
+        # both ends of a chord move inwards by the larger excess of the chords that they join
+        out = np.maximum(self._chord_excess(number), 0.0)
         turn = np.linspace(0, 2 * pi, number, endpoint=False)
-        points = self.outline(turn) + np.maximum(out, np.roll(out, 1)) * self._inwards(turn)
+        points = self.outline(turn) + np.maximum(out, np.roll(out, 1)) * self._inward_normals(turn)
+        # the outline begins at the bottom between two lobes
         points *= np.exp(-1j * pi / self.lobes)
         tooth = tuple((float(point.real), float(point.imag), 0.0) for point in points)
         tip = self.circle + 0.5 - self.pin - self.clearance
         return FixedTooth(tip, float(np.abs(points[0])), tooth)
 
-    def _out(self, number: int) -> Floats:
-        """How far each of so many chords of a lobe stands out of it at its middle; below 0 where it cuts it."""
+    def _chord_excess(self, number: int) -> Floats:
+        """Return the distances [module] by which `number` chords of a lobe lie outside it at their middles.
+
+        The value is negative where the chord is inside the lobe.
+        """
         turn = np.linspace(0, 2 * pi, 2 * number + 1)
         points = self.outline(turn)
         off = points[1::2] - (points[:-1:2] + points[2::2]) / 2
-        found: Floats = (off * np.conj(self._inwards(turn[1::2]))).real
+        found: Floats = (off * np.conj(self._inward_normals(turn[1::2]))).real
         return found
 
     def pin_tooth(self) -> FixedTooth:
-        """One pin about the x axis, half round, with the ring behind it; gear 2 of its pair."""
-        # a lobe reaches farthest out on the line of centres, half a module beyond its own radius
-        root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _FREE)
+        """Return one pin about the x axis as a tooth of the ring (gear 2): a half circle and the ring behind it."""
+        # lobes reach farthest out on the line of centres, where the eccentricity of half a module is added
+        root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _RING_CLEARANCE)
         R, r = self.circle, self.pin
-        if root > R:  # straight sides from the pin's middle outwards
+        if root > R:  # the sides are straight from the centre of the pin outwards
             side = pi / 2
             start = (R, r)
         else:
@@ -223,9 +266,18 @@ class CycloidalDisc:
 
 
 class DiscTransmission(ExactRatio):
-    """The law of a disc in its ring of pins, in the frame of the eccentric: the exact ratio at every instant.
+    """Transmission function of a disc in its ring of pins, in the frame of the eccentric, with the exact ratio.
 
-    driver     1, the disc, or 2, the ring; `direction` -1 turns back, on the other flanks
+    Parameters
+    ----------
+    disc : CycloidalDisc
+        The disc and its pins.
+    friction : float
+        Coefficient of friction, 0 or more.
+    driver : {1, 2}
+        1 if the disc drives, 2 if the ring drives.
+    direction : {1, -1}
+        -1 for motion backwards, on the coast flanks.
     """
 
     def __init__(self, disc: CycloidalDisc, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -233,51 +285,58 @@ class DiscTransmission(ExactRatio):
         self.friction = check_friction(friction)
         z1, z2 = (disc.lobes, disc.pins) if driver == 1 else (disc.pins, disc.lobes)
         super().__init__(Fraction(z1, z2), 2 * pi / z1)
+        # rad of the driven wheel: the clearance on both flanks at the pitch radius z2 / 2
         self._backlash = 4 * disc.clearance / z2
 
     @property
     def verdict(self) -> PairVerdict:
-        """They run: what cannot run is refused as it is declared."""
+        """Verdict on the pair, always "runs", since discs that cannot run are rejected when they are declared."""
         return PairVerdict("runs", "the teeth run", self._backlash, ())
 
     @property
     def reversed(self) -> DiscTransmission:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
         return DiscTransmission(self.disc, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> DiscTransmission:
-        """The law of the other flanks."""
+        """Return the transmission function of the coast flanks."""
         return DiscTransmission(self.disc, self.friction, self.driver, -self.direction)
 
     @property
-    def _ahead(self) -> float:
+    def _constant_error(self) -> float:
         return self._backlash if self.direction < 0 else 0.0
 
     def error(self, S: ArrayLike) -> Floats:
-        """0 rad of the driven wheel everywhere; the play where the other flanks drive."""
-        return self._constant(S, self._ahead)
+        """Return the transmission error [rad of the driven wheel]: 0 on the drive flanks, the backlash on the coast
+        flanks.
+        """
+        return self._constant(S, self._constant_error)
 
     def error_range(self) -> tuple[float, float]:
-        """The constant error twice."""
-        return self._ahead, self._ahead
+        """Return the constant transmission error as both minimum and maximum."""
+        return self._constant_error, self._constant_error
 
     def error_moments(self) -> tuple[float, float]:
-        """The constant error, and 0."""
-        return self._ahead, 0.0
+        """Return the constant transmission error as the mean, and 0 as the rms."""
+        return self._constant_error, 0.0
 
     def _phase(self, S: ArrayLike) -> Floats:
-        """Of a pin from the line of centres; a lobe stands between two pins."""
+        """Return the angle (rad) of a pin from the line of centres.
+
+        At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is there, between two
+        pins.
+        """
         S = self.direction * np.asarray(S, dtype=float)
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
         return found
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Power out over power in."""
+        """Return power out over power in at driver angles S (rad)."""
         found: Floats = 1 / (1 + self.friction * self.disc.sliding(self._phase(S))[1])
         return found
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Of all pins together, in the mean of their loads."""
+        """Return the sliding of all pins combined into one contact, weighted by their loads."""
         speed, lost = self.disc.sliding(self._phase(S))
         return ContactRubbing(speed[None], lost[None], np.zeros_like(lost)[None])
 
@@ -286,80 +345,80 @@ class DiscTransmission(ExactRatio):
         return self.efficiency(np.linspace(0, self.period, _PHASES, endpoint=False))
 
     def efficiency_mean(self) -> float:
-        """Over a pitch."""
+        """Return the mean efficiency over a pitch at constant driver torque."""
         return float(self._sampled.mean())
 
     def efficiency_at_constant_load(self) -> float:
-        """Over a pitch, with the same torque going out."""
+        """Return the mean efficiency over a pitch at constant torque of the driven wheel."""
         return float(1 / (1 / self._sampled).mean())
 
     def efficiency_minimum(self) -> float:
-        """At any angle."""
+        """Return the minimum efficiency at any driver angle."""
         return float(self._sampled.min())
 
 
 # ------------------------------------------------------------------------------------------------------ pair of a train
 
 
-def _counted(fewest: int, most: int) -> str:
+def _range_text(fewest: int, most: int) -> str:
     return str(most) if fewest == most else f"{fewest} to {most}"
 
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Of a disc in its ring of pins."""
+    """Figures of a disc in its ring of pins."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
     shortening: float
-    """The ring's pitch radius over that of the pins' circle."""
+    """Pitch radius of the ring over the radius of the pin circle."""
     pin_radius: float
-    """In modules."""
+    """Radius of a pin [module]."""
     maximum_load: float
-    """Of one pin over the force on the disc's pitch circle."""
+    """Maximum load on one pin over the force on the disc's pitch circle."""
     bearing: tuple[int, int]
-    """Fewest and most pins that bear at once."""
+    """Minimum and maximum number of pins that bear load at once."""
 
 
 @dataclass(frozen=True)
 class DiscMesh(GearMesh):
-    """A disc and its ring of pins; gear 1 is the disc."""
+    """Mesh of a disc and its ring of pins. Gear 1 is the disc."""
 
     transmission: DiscTransmission
 
     @cached_property
     def reversed(self) -> DiscTransmission:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
         return self.transmission.reversed
 
     @property
     def verdict(self) -> PairVerdict:
-        """Whether these teeth can turn."""
+        """Verdict on the pair: whether the teeth can turn."""
         return self.transmission.verdict
 
     @property
     def gears(self) -> tuple[str, str]:
-        """The disc and its ring."""
+        """Names of the disc and of its ring, in this order."""
         first, second = self.gear.pair
         return (second, first) if self.wheels.internal[0] else (first, second)
 
     @property
     def stands(self) -> float:
-        """A lobe stands between two pins, less half the play."""
+        """Position of a lobe at angle 0 [pitches past the line of centres], between two pins less half the backlash."""
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Lengths of the law are modules already."""
+        """Return the size of the pair, whose lengths are in modules already."""
         del tips
         return PairSize(1.0, 0.5, 1.0)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """A lobe, or a pin."""
+        """Return a lobe if the wheel is the disc, a pin if it is the ring."""
         del scale
         return self.transmission.disc.lobe(tolerance) if wheel == self.gears[0] else self.transmission.disc.pin_tooth()
 
     def account(self) -> PairAccount:
-        """Sizes, the greatest load, play and efficiency."""
+        """Return the report of the pair: sizes, maximum pin load, backlash and efficiency."""
         disc = self.transmission.disc
         figures = DiscFigures(
             self.counts,
@@ -373,7 +432,7 @@ class DiscMesh(GearMesh):
         )
         row = (
             *(self.name, f"{self.driver} -> {self.driven}", str(disc.lobes), str(disc.pins)),
-            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _counted(*disc.bearing_pins)),
+            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _range_text(*disc.bearing_pins)),
             f"{disc.maximum_load:.4g}",
             *(f"{degrees(self.verdict.backlash):.4g}", *self.efficiency_texts),
         )

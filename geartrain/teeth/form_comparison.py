@@ -1,7 +1,7 @@
 """Comparison of conjugate tooth forms with the 20 degree involute of the same wheels and the same arcs of contact.
 
-Forms are comparable where they are in contact equally long: arcs of approach and recess are given, in pitches, and each
-form makes the pair that has them. Costs are ratios to those of the involute.
+Forms are compared at equal arcs of contact. The arcs of approach and recess are given, in pitches, and each form
+constructs the pair that has them. Losses, stresses and temperatures are ratios to the values of the involute.
 """
 
 from __future__ import annotations
@@ -28,25 +28,25 @@ if TYPE_CHECKING:
 REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Forms that are compared where none are named: one reading of each."""
-_MOST_PITCHES = 100.0  # of an arc
-_EIGHTH = 0.125  # turn: from 45 deg on teeth of uniform stress are no longer determined by their pressure angle
+"""Forms that are compared by default, with one reading of each."""
+_MOST_PITCHES = 100.0  # upper limit of an arc of contact
+_EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """One form of a comparison: its path and measures, or why it cannot run."""
+    """Result for one form of a comparison: path of contact and measures, or the faults that keep it from running."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
     name: str
-    """As it was asked for, with its reading."""
+    """Name of the form as requested, with its reading."""
     path: PathOfContact | None
     measures: PathMeasures | None
     ratios: PathRatios | None = None
     """Measures over those of the involute; None for teeth that cannot run."""
     faults: tuple[ToothFault, ...] = ()
-    """Why they cannot; of kind "refused" where the form gives no such pair."""
+    """Reasons why the teeth cannot run, of kind "refused" if the form does not give such a pair."""
 
     @property
     def runs(self) -> bool:
@@ -63,13 +63,13 @@ class MeasuredForm(Result):
 
     @property
     def pressure_angle(self) -> float | None:
-        """At the pitch point (rad); None without a path."""
+        """Pressure angle at the pitch point [rad]; None without a path."""
         return None if self.path is None else float(self.path.at(0.0).psi)
 
 
 @dataclass(frozen=True)
 class FormComparison(Result):
-    """Forms beside the 20 degree involute of the same pair and arcs."""
+    """Tooth forms compared with the 20 degree involute of the same pair and arcs."""
 
     PAGE = "report.conjugate_pair_page:describe_form_comparison"
 
@@ -80,29 +80,32 @@ class FormComparison(Result):
     )
 
     teeth: tuple[int, int]
-    """Of the two wheels."""
+    """Tooth numbers of the two wheels."""
     matched: str
-    """What all have in common, in words."""
+    """Text that lists the properties that all compared pairs have in common."""
     base: MeasuredForm
-    """The involute itself."""
+    """Result for the involute."""
     forms: tuple[MeasuredForm, ...]
-    """The forms that are compared."""
+    """Results for the compared forms."""
 
     @property
     def path(self) -> PathOfContact:
-        """The path of the involute."""
+        """Path of contact of the involute."""
         assert self.base.path is not None
         return self.base.path
 
     @property
     def measures(self) -> PathMeasures:
-        """What the involute costs."""
+        """Losses, stresses and temperatures of the involute."""
         assert self.base.measures is not None
         return self.base.measures
 
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
-    """What can be compared, by name: a conjugate form, and the reading of it where it has several."""
+    """Return the forms that can be compared by name: the class of a conjugate form, and the parameters of its reading.
+
+    A form with several readings is listed once without a reading and once for each, such as `uniform_temperature_b`.
+    """
     found: dict[str, tuple[type[ConjugateToothForm], dict[str, str]]] = {}
     for name, model in tooth_forms().items():
         if not issubclass(model, ConjugateToothForm):
@@ -119,30 +122,30 @@ def compare_forms(
     arcs: tuple[float, float] = (0.5, 0.5),
     pressure_angle: Quantity | None = None,
 ) -> FormComparison:
-    """Loss, stress, heat, flash and depth of forms as ratios to those of the 20 degree involute.
+    """Compute loss, stress, heat, flash temperature and depth of tooth forms as ratios to the 20 degree involute.
 
-    Costs are those of docs/shapes.md, to first order in friction; the criteria are W. D. Smith's (1993).
+    The measures are those of docs/shapes.md, to first order in friction. The criteria are W. D. Smith's (1993).
 
     Parameters
     ----------
     wheels : WheelPair
-        Tooth numbers of the two, and how their axes stand.
+        Tooth numbers of the two wheels, and the arrangement of their axes.
     names : sequence of str
-        Of `comparable_forms`.
+        Names of the forms, keys of `comparable_forms`.
     arcs : tuple of float
-        Of approach and recess, matched by all [pitch]; together 1 or more.
+        Arcs of approach and recess of all forms [pitch], 1 or more together.
     pressure_angle : Quantity, optional
-        Of the forms that have one, below 45 deg; by default as each declares it.
+        Pressure angle of the forms that have one, below 45 deg. Default: the default of each form.
 
     Returns
     -------
     FormComparison
-        The involute, and each form with its ratios or what keeps it from running.
+        The involute, and each form with its ratios or the faults that keep it from running.
 
     Raises
     ------
     QuestionError
-        For unknown names and wrong parameters, and where the involute itself cannot run.
+        For unknown names and wrong parameters, and if the involute itself cannot run.
 
     Examples
     --------
@@ -154,55 +157,60 @@ def compare_forms(
     known = comparable_forms()
     _check(known, names, arcs, pressure_angle)
     angle = {} if pressure_angle is None else {"pressure_angle": pressure_angle.text}
-    base = _measured("involute", reference_involute(wheels, arcs))
+    base = _pair_result("involute", reference_involute(wheels, arcs))
     if base.measures is None:
-        raise _no_base(base)
-    found = [_form(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
-    found += _beside(found, wheels, arcs, angle, base.measures)
+        raise _reference_error(base)
+    found = [_form_result(name, *known[name], wheels, arcs, angle, base.measures) for name in names]
+    found += _recess_only_involute(found, wheels, arcs, angle, base.measures)
     models = [model for name, (model, _) in known.items() if name in names]
-    return FormComparison((int(wheels.z1), int(wheels.z2)), _matched(models, arcs), base, tuple(found))
+    return FormComparison((int(wheels.z1), int(wheels.z2)), _matched_text(models, arcs), base, tuple(found))
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """The 20 degree involute with these arcs of approach and recess (pitches), whatever addenda they take."""
+    """Return the 20 degree involute pair with these arcs of approach and recess (pitches), whatever its addenda."""
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 
 def arcs_error(text: str) -> QuestionError:
-    """What is said of arcs that no pair can have."""
-    fix = "give those of approach and recess in pitches, such as 0.5,0.5; together 1 or more"
-    return QuestionError(Problem(f"arcs {text} are none", "", fix, "--arcs"))
+    """Return the error for arcs of contact that are out of range."""
+    why = f"arcs of approach and recess are numbers from 0 to {_MOST_PITCHES:g}, and not both 0"
+    fix = "give two arcs in pitches with a sum of 1 or more, such as `--arcs 0.5,0.5`"
+    return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "--arcs"))
 
 
 def _check(
     known: Mapping[str, object], names: Sequence[str], arcs: tuple[float, float], angle: Quantity | None
 ) -> None:
-    """Raise `QuestionError` for what cannot be compared."""
+    """Raise `QuestionError` for unknown names, arcs out of range and pressure angles of 45 deg or more."""
     if not names:
-        raise QuestionError(Problem("no form is named", "", f"use some of: {', '.join(known)}", "--forms"))
+        raise QuestionError(
+            Problem("no tooth form is given", "", f"give one or more of: {', '.join(known)}", "--forms")
+        )
     for name in names:
         if name not in known:
-            fix = suggest(name, list(known), otherwise=f"use some of: {', '.join(known)}", wide=True)
-            raise QuestionError(Problem(f"there is no tooth form '{name}' to compare", "", fix, "--forms"))
+            fix = suggest(name, list(known), otherwise=f"give one or more of: {', '.join(known)}", wide=True)
+            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix, "--forms"))
     if not 0 <= min(arcs) <= max(arcs) <= _MOST_PITCHES or sum(arcs) <= 0:
         raise arcs_error(",".join(f"{arc:g}" for arc in arcs))
     if angle is not None and not 0 < angle.base < _EIGHTH:
-        why = "at 45 deg and above teeth of uniform stress are no longer determined by it"
-        fix = "give one between 0 and 45 deg; 20 deg is usual"
+        why = "from 45 deg on, the pressure angle does not determine teeth of uniform stress"
+        fix = "give an angle between 0 and 45 deg, such as `--pressure-angle 20deg`"
         raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "--pressure-angle"))
 
 
-def _no_base(base: MeasuredForm) -> QuestionError:
-    """What keeps the involute with which forms are compared from running; its pressure angle is not to choose."""
-    what = "the 20 deg involute, with which forms are compared, cannot run: "
+def _reference_error(base: MeasuredForm) -> QuestionError:
+    """Return the error for a reference involute that cannot run. Fixes by its pressure angle, which is given, are left
+    out.
+    """
+    what = "the 20 deg involute, the reference of the comparison, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
     return QuestionError(
-        Problem(what + fault.what, fault.why, f"{fix}, or give other teeth", "--arcs")
+        Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "--arcs")
         for fault, fix in zip(base.faults, fixes, strict=True)
     )
 
 
-def _form(
+def _form_result(
     name: str,
     model: type[ConjugateToothForm],
     reading: Mapping[str, str],
@@ -211,30 +219,33 @@ def _form(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> MeasuredForm:
-    """One form with these arcs, or what refuses them."""
+    """Return the result for one form with these arcs, with faults of kind "refused" if the form rejects them."""
     own = angle if "pressure_angle" in model.model_fields else {}
     try:
-        return _measured(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base)
+        return _pair_result(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base)
     except GearTrainError as error:
         refused = (ToothFault("refused", 0, nan, each.what, each.why, each.fix) for each in error.problems)
         return MeasuredForm(name, None, None, faults=tuple(refused))
 
 
-def _beside(
+def _recess_only_involute(
     found: Sequence[MeasuredForm],
     wheels: WheelPair,
     arcs: tuple[float, float],
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> Iterator[MeasuredForm]:
-    """For a form that works in recess only, the involute with its arcs: it tells what is due to these."""
+    """Yield the involute with the arcs of the first form that works in recess only.
+
+    The comparison separates the effect of these arcs from the effect of the form.
+    """
     for form in found:
         if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:
-            yield _measured("involute, recess only", Involute.pair_of_arcs(wheels, form.pitches, angle), base)
+            yield _pair_result("involute, recess only", Involute.pair_of_arcs(wheels, form.pitches, angle), base)
             return
 
 
-def _measured(name: str, pair: ConjugatePair, base: PathMeasures | None = None) -> MeasuredForm:
+def _pair_result(name: str, pair: ConjugatePair, base: PathMeasures | None = None) -> MeasuredForm:
     from geartrain.teeth.conjugate.path_losses import measure
 
     if pair.faults:
@@ -243,9 +254,9 @@ def _measured(name: str, pair: ConjugatePair, base: PathMeasures | None = None) 
     return MeasuredForm(name, pair.path, found, None if base is None else found.over(base))
 
 
-def _matched(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
-    """What all pairs have in common, in words."""
+def _matched_text(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
+    """Return the text that lists the properties that all compared pairs have in common."""
     notes = dict.fromkeys(model.matched for model in models if model.matched)
-    common = "; ".join([f"arcs, {arcs[0]:g} pitches of approach and {arcs[1]:g} of recess", *notes])
-    loads = "one pair of teeth bears all, or those in contact share it; first order in friction"
-    return f"Matched: {common}. Two loads: {loads}."
+    common = "; ".join([f"arcs of contact, {arcs[0]:g} pitches in approach and {arcs[1]:g} in recess", *notes])
+    loads = "one tooth pair bears the whole load, or the tooth pairs in contact share it"
+    return f"Matched: {common}. Two loads: {loads}. Results are to first order in friction."

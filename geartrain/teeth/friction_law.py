@@ -1,8 +1,8 @@
-"""Friction that depends on speed: laws that may replace a coefficient, and a pair under one.
+"""Friction that depends on speed: friction laws that can replace a coefficient, and a pair under such a law.
 
-The measured values are those that W. D. Smith prints in "Optimal shapes for gears" (1993): Buckingham's for lubricated
-cast iron, Dokos's for dry steel. Smith gives their ends, not their tables; how values between them are found is said at
-each law.
+The measured values are from W. D. Smith, "Optimal shapes for gears" (1993): Buckingham's for lubricated cast iron, and
+Dokos's for dry steel. Smith prints their end values but not their tables. The docstring of each law describes the
+interpolation between these values.
 """
 
 from __future__ import annotations
@@ -28,18 +28,19 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 FOOT_A_MINUTE = 0.3048 / 60
-"""m/s."""
+"""One foot per minute [m/s]."""
 BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
-"""Pitch-line speed (ft/min) and coefficient of lubricated cast-iron spur gears: Buckingham, p. 404, as Smith cites."""
+"""Pitch-line speed [ft/min] and coefficient of lubricated cast-iron spur gears: Buckingham, p. 404, cited by Smith."""
 DOKOS = (0.53, 0.18, 1e7)
-"""Coefficient of dry steel on dry steel, slowest and fastest, and the factor between the speeds: Dokos, likewise."""
+"""Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds: Dokos, cited by Smith."""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 
 def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: float, viscous: float) -> Floats:
-    """mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md (16).
+    """Return mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md (16).
 
-    Stribeck's fall from rest to full sliding with the viscous rise after it; v, speed in m/s, viscous in s/m.
+    The Stribeck curve falls from static to kinetic friction, and rises with a viscous term. v and speed are in m/s,
+    viscous in s/m.
     """
     import numpy as np
 
@@ -48,7 +49,7 @@ def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: f
 
 
 def buckingham(V: Floats) -> Floats:
-    """mu = c2 exp(-c1 sqrt V) + c3 sqrt V at the pitch-line speed V (m/s), docs/shapes.md (17)."""
+    """Return mu = c2 exp(-c1 sqrt V) + c3 sqrt V at the pitch-line speed V (m/s), docs/shapes.md (17)."""
     import numpy as np
 
     c1, c2, c3 = buckingham_constants()
@@ -59,10 +60,10 @@ def buckingham(V: Floats) -> Floats:
 
 @cache
 def buckingham_constants() -> tuple[float, float, float]:
-    """c1, c2, c3, V in ft/min, at which the law has the three printed values: c2 is that of the stationary pair.
+    """Compute the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
 
-    With a = exp(-c1 sqrt V1) of the slower pair and q = sqrt(V2/V1), the two others give
-    c2 a^q + q (mu1 - c2 a) = mu2 for a.
+    c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) of the lower speed and q = sqrt(V2/V1), the two other
+    values give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
     """
     (_, rest), (slow, low), (fast, high) = BUCKINGHAM
     q = sqrt(fast / slow)
@@ -70,38 +71,40 @@ def buckingham_constants() -> tuple[float, float, float]:
     def off(a: float) -> float:
         return float(rest * a**q + q * (low - rest * a) - high)
 
-    most = low / rest
+    most = low / rest  # above it c3 would be negative
     a = root(off, 0.0, most, off(0.0), off(most))
     return -log(a) / sqrt(slow), rest, (low - rest * a) / sqrt(slow)
 
 
 def dokos(v: Floats, slowest: float) -> Floats:
-    """mu falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, evenly in log v, docs/shapes.md (18).
+    """Return mu, which falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, docs/shapes.md (18).
 
-    Level beyond both. Smith prints no more than both ends and the factor ("gradually"), and no speed.
+    The coefficient is constant below and above these speeds. Smith prints only both end values and the ratio of speeds
+    ("gradually"). Linear interpolation in log v is an assumption, and so is any value of `slowest`.
     """
     import numpy as np
 
     first, last, factor = DOKOS
+    # the logarithm is -inf at rest, which the clip below maps to the first coefficient
     with np.errstate(divide="ignore"):
         decades = np.log(np.asarray(v) / slowest) / log(factor)
     found: Floats = first + (last - first) * np.clip(decades, 0.0, 1.0)
     return found
 
 
-def _bad(what: str, fix: str) -> PydanticCustomError:
+def _invalid(what: str, fix: str) -> PydanticCustomError:
     return PydanticCustomError("friction", "{what}", {"what": what, "fix": fix})
 
 
 def _positive(value: Any) -> Any:
     if value.value <= 0:
-        raise _bad(f"{value.text} is not above 0", "give a number above 0")
+        raise _invalid(f"{value.text} is not above 0", "give a number above 0")
     return value
 
 
 def _not_negative(value: Any) -> Any:
     if value.value < 0:
-        raise _bad(f"{value.text} is below 0", "give 0 or more")
+        raise _invalid(f"{value.text} is below 0", "give 0 or more")
     return value
 
 
@@ -112,12 +115,12 @@ Speeds = Literal["sliding", "pitch_line"]
 
 
 class FrictionLaw(BaseModel, ABC):
-    """Friction between teeth as a function of a speed: of sliding, at each contact, or of the pitch line.
+    """Friction between teeth as a function of a speed: the sliding speed at each contact, or the pitch-line speed.
 
     See Also
     --------
-    geartrain.teeth.StribeckFriction, geartrain.teeth.BuckinghamFriction : two of them.
-    geartrain.teeth.PairFriction : a pair that runs under one.
+    geartrain.teeth.StribeckFriction, geartrain.teeth.BuckinghamFriction : two friction laws.
+    geartrain.teeth.PairFriction : a friction law applied to a pair.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -127,29 +130,29 @@ class FrictionLaw(BaseModel, ABC):
 
     @abstractmethod
     def coefficient(self, speed: Floats) -> Floats:
-        """The coefficient of friction.
+        """Return the coefficient of friction.
 
         Parameters
         ----------
         speed : ndarray
-            Speeds of 0 or more [m/s].
+            Speeds, 0 or more [m/s].
         """
 
     @property
     def of_pitch_line(self) -> bool:
-        """True if the speed is that of the pitch line, so that the coefficient is the same at every contact."""
+        """True if the law depends on the pitch-line speed, so that the coefficient is the same at every contact."""
         return False
 
     @property
     def at_rest(self) -> float:
-        """The coefficient at speed 0: what a start has to overcome."""
+        """Coefficient of friction at speed 0, which a start has to overcome."""
         import numpy as np
 
         return float(self.coefficient(np.zeros(1))[0])
 
 
 class StribeckFriction(FrictionLaw):
-    """Friction that falls from rest to full sliding, and may rise again with the speed.
+    """Friction that falls from static to kinetic with the sliding speed, and may rise again by a viscous term.
 
     Examples
     --------
@@ -158,21 +161,27 @@ class StribeckFriction(FrictionLaw):
     [0.2, 0.1241, 0.08]
     """
 
-    law: Literal["stribeck"] = Field(description="Falls from rest to full sliding: Stribeck")
-    static: Coefficient = Field(description="Coefficient at rest")
-    kinetic: Coefficient = Field(description="Coefficient that it falls to")
-    speed: PositiveVelocity = Field(description="Speed of sliding at which 1/e of the fall is left")
-    exponent: PositiveFigure = Field(Figure.parse("2"), description="Of the speed, 2 by default; 1/2 to 2 are usual")
-    viscous: Coefficient = Field(Figure.parse("0"), description="What a speed of 1 m/s adds")
+    law: Literal["stribeck"] = Field(
+        description="Stribeck friction, which falls from `static` to `kinetic` with the sliding speed"
+    )
+    static: Coefficient = Field(description="Coefficient of static friction, at speed 0")
+    kinetic: Coefficient = Field(
+        description="Coefficient of kinetic friction, the limit at high speed without `viscous`"
+    )
+    speed: PositiveVelocity = Field(
+        description="Sliding speed at which 1/e of the difference of `static` and `kinetic` remains"
+    )
+    exponent: PositiveFigure = Field(Figure.parse("2"), description="Exponent of the speed, usually 1/2 to 2")
+    viscous: Coefficient = Field(Figure.parse("0"), description="Increase of the coefficient per m/s of sliding speed")
 
     def coefficient(self, speed: Floats) -> Floats:
-        """`stribeck`."""
+        """Return the coefficient by `stribeck`."""
         exponent, viscous = float(self.exponent.value), float(self.viscous.value)
         return stribeck(speed, float(self.static.value), float(self.kinetic.value), self.speed.si, exponent, viscous)
 
 
 class BuckinghamFriction(FrictionLaw):
-    """Lubricated cast-iron spur gears, by the speed of the pitch line.
+    """Friction of lubricated cast-iron spur gears as a function of the pitch-line speed.
 
     Examples
     --------
@@ -181,20 +190,20 @@ class BuckinghamFriction(FrictionLaw):
     [0.0517, 0.0112, 0.0385]
     """
 
-    law: Literal["buckingham"] = Field(description="Lubricated cast iron, by pitch-line speed: Buckingham")
+    law: Literal["buckingham"] = Field(description="Buckingham's friction of lubricated cast iron, by pitch-line speed")
 
     @property
     def of_pitch_line(self) -> bool:
-        """True: it was measured so."""
+        """True, since the measurements were made at pitch-line speeds."""
         return True
 
     def coefficient(self, speed: Floats) -> Floats:
-        """`buckingham`."""
+        """Return the coefficient by `buckingham`."""
         return buckingham(speed)
 
 
 class DokosFriction(FrictionLaw):
-    """Dry steel on dry steel.
+    """Friction of dry steel on dry steel as a function of the sliding speed.
 
     Examples
     --------
@@ -203,19 +212,19 @@ class DokosFriction(FrictionLaw):
     [0.53, 0.48, 0.18]
     """
 
-    law: Literal["dokos"] = Field(description="Dry steel on dry steel, by speed of sliding: Dokos")
+    law: Literal["dokos"] = Field(description="Dokos's friction of dry steel on dry steel, by sliding speed")
     slowest: PositiveVelocity = Field(
         SLOWEST_OF_DOKOS,
-        description="Speed at which the coefficient is 0.53; default 0.0001 in/s, which is no source's",
+        description="Sliding speed up to which the coefficient is 0.53, an assumption: the source gives no speed",
     )
 
     def coefficient(self, speed: Floats) -> Floats:
-        """`dokos`."""
+        """Return the coefficient by `dokos`."""
         return dokos(speed, self.slowest.si)
 
 
 class TabulatedFriction(FrictionLaw):
-    """Coefficients at some speeds, straight lines between them.
+    """Friction interpolated linearly in a table of speeds and coefficients.
 
     Examples
     --------
@@ -224,27 +233,31 @@ class TabulatedFriction(FrictionLaw):
     [0.2, 0.175, 0.1]
     """
 
-    law: Literal["table"] = Field(description="Coefficients at speeds of your own")
-    speeds: tuple[Velocity, ...] = Field(description="Speeds, each above the last; level before the first and beyond")
-    coefficients: tuple[Coefficient, ...] = Field(description="The coefficient at each")
-    of: Speeds = Field("sliding", description="Of which speed: sliding, at each contact, or pitch_line")
+    law: Literal["table"] = Field(description="Table of coefficients at given speeds, interpolated linearly")
+    speeds: tuple[Velocity, ...] = Field(
+        description="Speeds in rising order; the coefficient is constant outside their range"
+    )
+    coefficients: tuple[Coefficient, ...] = Field(description="Coefficient of friction at each speed")
+    of: Speeds = Field("sliding", description="Speed of the table: sliding (at each contact) or pitch_line")
 
     @model_validator(mode="after")
-    def _is_a_table(self) -> TabulatedFriction:
+    def _check_table(self) -> TabulatedFriction:
         speeds = [speed.base for speed in self.speeds]
         if len(speeds) != len(self.coefficients) or len(speeds) < 2:
-            raise _bad("speeds and coefficients are no two columns", "give as many of both, two at least")
+            raise _invalid(
+                "speeds and coefficients do not form a table", "give as many coefficients as speeds, two or more"
+            )
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
-            raise _bad("these speeds do not rise from 0 or more", "write them in rising order")
+            raise _invalid("the speeds are not in rising order from 0 or more", "give them in rising order")
         return self
 
     @property
     def of_pitch_line(self) -> bool:
-        """As declared."""
+        """True if the declaration has `of: pitch_line`."""
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """By linear interpolation."""
+        """Return the coefficient by linear interpolation, constant outside the table."""
         import numpy as np
 
         found: Floats = np.interp(
@@ -256,12 +269,12 @@ class TabulatedFriction(FrictionLaw):
 AnyFrictionLaw = Annotated[
     StribeckFriction | BuckinghamFriction | DokosFriction | TabulatedFriction, Field(discriminator="law")
 ]
-"""What a declaration may say of friction besides a number."""
+"""Field type: friction that a declaration may give instead of a number."""
 
 
 @cache
 def law_keys() -> frozenset[str]:
-    """Every key that some law has."""
+    """Return the keys of all friction laws."""
     laws = (StribeckFriction, BuckinghamFriction, DokosFriction, TabulatedFriction)
     return frozenset(key for law in laws for key in law.model_fields)
 
@@ -270,9 +283,10 @@ _NAME = re.compile(r"[a-z_]+")
 
 
 def law_of_text(raw: object) -> object:
-    """A law as an option gives it, `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, as a declaration would.
+    """Parse a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`.
 
-    Columns of a table have colons between their values; whatever else it is given stays what it is.
+    Return it as a declaration has it. Values of a column of a table are separated by colons. Any other input is
+    returned unchanged.
     """
     parts = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(parts, list) or not parts or not _NAME.fullmatch(str(parts[0]).strip()):
@@ -285,12 +299,12 @@ def law_of_text(raw: object) -> object:
 
 
 FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
-"""The same, as an option may give it too."""
+"""Field type: a friction law as a declaration or as an option gives it."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairFriction(Shown):
-    """A law of friction in a pair whose pitch line runs at some speed: the coefficient, by the speed of sliding.
+    """Friction law of a pair whose pitch line runs at a known speed: the coefficient by the sliding speed.
 
     Examples
     --------
@@ -303,15 +317,16 @@ class PairFriction(Shown):
     """
 
     law: FrictionLaw
-    """The law."""
+    """Friction law."""
     pitch_line: float | Floats
-    """Speed of the pitch line, one or one for each position [m/s]."""
+    """Pitch-line speed, a number or one value for each position [m/s]."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
-        """The coefficient where teeth slide at these speeds, over that of the pitch line."""
+        """Return the coefficient at sliding speeds given as multiples of the pitch-line speed; NaN for no contact."""
         import numpy as np
 
         speed = np.asarray(sliding, dtype=float) * self.pitch_line
         if self.law.of_pitch_line:
+            # NaN marks positions without a contact
             speed = np.where(np.isnan(speed), np.nan, self.pitch_line)
         return self.law.coefficient(speed)

@@ -1,4 +1,4 @@
-"""A gear pair with real teeth, as a train uses it, whatever the tooth form."""
+"""Gear pair with real teeth, as a train uses it, whatever its tooth form."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GearMesh(Shown, ABC):
-    """A gear pair with real teeth: all that others ask of it, whatever their form.
+    """Gear pair with real teeth, of any form: the interface that trains, reports and exports use.
 
     See Also
     --------
@@ -43,12 +43,14 @@ class GearMesh(Shown, ABC):
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
     tooth_form: NamedForm
-    """The form that made it."""
+    """Tooth form that made this mesh."""
     who: MeshDriver
-    """The wheel that drives, and how that is known."""
+    """Driving wheel, and the basis on which it is known."""
     transmission: TransmissionFunction
-    """With that wheel driving, forwards; `coast` is that of the other flanks, `reversed` with the other wheel
-    driving."""
+    """Transmission function with that wheel driving forwards.
+
+    `coast` is the transmission function of the coast flanks, `reversed` the one with the other wheel driving.
+    """
 
     def _summary(self) -> str:
         driver, driven = self.counts
@@ -58,35 +60,38 @@ class GearMesh(Shown, ABC):
 
     @property
     def gear(self) -> DeclaredPair:
-        """The pair as declared."""
+        """Pair as declared."""
         return self.wheels.gear
 
     @property
     def name(self) -> str:
-        """The name of the pair."""
+        """Name of the pair."""
         return self.gear.name
 
     @property
     def form(self) -> str:
-        """The name of the tooth form."""
+        """Name of the tooth form."""
         return self.tooth_form.form
 
     @property
     def place(self) -> str:
-        """Where the pair is declared."""
+        """Place of the pair's declaration in its file."""
         return self.wheels.place
 
     @property
     def friction(self) -> float | None:
-        """Coefficient of friction; None where none is declared, or a law of speed is."""
+        """Coefficient of friction; None if none is declared, or if friction depends on speed."""
         return self.wheels.friction
 
     @cached_property
     def losses(self) -> TransmissionFunction:
-        """The law with what its teeth lose; of friction that depends on a speed that is not known, nothing."""
-        return self._rubbed(self.transmission)
+        """Transmission function with the losses of the teeth.
 
-    def _rubbed(self, transmission: TransmissionFunction) -> TransmissionFunction:
+        If friction depends on a speed that is not known, no loss is included.
+        """
+        return self._with_friction(self.transmission)
+
+    def _with_friction(self, transmission: TransmissionFunction) -> TransmissionFunction:
         if self.wheels.friction_law is None:
             return transmission
         from geartrain.teeth.rubbed_transmission import rubbed
@@ -95,24 +100,24 @@ class GearMesh(Shown, ABC):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Radius [m] at which the first wheel named rolls on the second; None where nothing gives the pair a size."""
+        """Working pitch radius of the first wheel of the pair [m]; None if no size is declared."""
         module, size = self.wheels.module, self.own_size
         stretch = 1.0 if size is None else size.stretch
         return None if module is None else module * self.wheels.counts[0] / 2 * stretch
 
     @property
     def note(self) -> str:
-        """What the form takes the wheels for, where it is not what they are."""
+        """Note on wheels that the form treats as another kind, such as a contrate wheel; empty otherwise."""
         return self.wheels.note
 
     @property
     def driver(self) -> str:
-        """The wheel that drives, or is taken to where that is not determined."""
+        """Name of the driving wheel, or of the wheel assumed to drive if that is not determined."""
         return self.who.wheel
 
     @property
     def driven(self) -> str:
-        """The other wheel."""
+        """Name of the driven wheel."""
         first, second = self.gear.pair
         return second if self.driver == first else first
 
@@ -124,31 +129,31 @@ class GearMesh(Shown, ABC):
 
     @property
     def gears(self) -> tuple[str, str]:
-        """The wheels that the form calls gear 1 and gear 2: as the pair names them, unless the form says otherwise."""
+        """Names of gear 1 and gear 2, in the order of the pair unless the form has another order."""
         return self.gear.pair
 
     @property
     def coast(self) -> TransmissionFunction:
-        """The transmission function of the coast flanks, which push while the driver turns back."""
+        """Transmission function of the coast flanks, which are in contact while the driver turns backwards."""
         return self.transmission.reversed_motion()
 
     @property
     @abstractmethod
     def reversed(self) -> TransmissionFunction:
-        """The law with the other wheel driving."""
+        """Transmission function with the other wheel driving."""
 
     @property
     @abstractmethod
     def verdict(self) -> PairVerdict:
-        """Whether these teeth can turn."""
+        """Verdict on the pair: whether its teeth can turn."""
 
     def own_faults(self) -> Iterator[Problem]:
-        """Everything that is wrong with these teeth, without pair and place."""
+        """Yield all faults of these teeth, without the name and the place of the pair."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
     def friction_faults(self) -> Iterator[Problem]:
-        """That friction locks these teeth, if it does."""
+        """Yield the fault that friction locks these teeth, if it does."""
         from geartrain.teeth.pair_results import friction_lock, friction_lock_at_speed
 
         if self.wheels.friction_law is None:
@@ -159,7 +164,7 @@ class GearMesh(Shown, ABC):
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """How large the pair is, and how far apart its axes stand.
+        """Return the size of the pair and its centre distance.
 
         Parameters
         ----------
@@ -169,68 +174,70 @@ class GearMesh(Shown, ABC):
         Returns
         -------
         PairSize or None
-            None where the axes are not parallel.
+            None if the axes are not parallel.
         """
 
     @property
     def own_size(self) -> PairSize | None:
-        """How large the pair is by itself, with no wheel of another pair to follow; None for axes that meet."""
+        """Size of the pair on its own, with no wheel of another pair to follow; None for intersecting axes."""
         return self.size({})
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii in the unit of the law, of wheels that have a size only up to a scale; none by default."""
+        """Tip radii, in the length unit of the teeth, of wheels whose size is known only up to a scale; empty by
+        default.
+        """
         return {}
 
     @abstractmethod
     def requirement(self, wheel: str, scale: float, tolerance: float) -> WheelRequirement:
-        """The teeth that this pair asks of one of its wheels.
+        """Return the teeth that this pair requires of one of its wheels.
 
         Parameters
         ----------
         wheel : str
             Name of the wheel.
         scale : float
-            Modules in one unit of the law's lengths, as of `size`.
+            Modules in one length unit of the teeth, as returned by `size`.
         tolerance : float
-            How far a chord may leave a flank [module].
+            Maximum distance of a chord from a flank [module].
 
         Returns
         -------
         WheelRequirement
-            What can be compared with the demands of the wheel's other pairs, and cut.
+            Teeth that can be compared with the requirements of the wheel's other pairs, and cut.
         """
 
     @property
     def path(self) -> PathOfContact | None:
-        """The path of contact by which the teeth are designed; None for those that are not designed by one."""
+        """Path of contact by which the teeth are designed; None for forms that are not designed by one."""
         return None
 
     @property
     def separation(self) -> float | None:
-        """Force between the axes over that along the pitch circles, without friction; None where it is not known."""
+        """Separating force between the axes over the tangential force, without friction; None if it is not known."""
         return None
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """The outline of one wheel of the pair, whole, as its form wants it cut.
+        """Return the closed outline of one wheel of the pair as its form is to be cut.
 
         Parameters
         ----------
         gear : {1, 2}
-            The first or the second wheel that the pair names.
+            First or second wheel of the pair.
         cut : BlankSizes
-            Module, bore, tolerance, and of conjugate teeth what else their roots are cut with.
+            Module, bore and tolerance, and for conjugate teeth the sizes with which their roots are cut.
 
         Returns
         -------
         WheelOutline
-            A tooth stands on the x axis; the two mesh at `centre_distance` where a space of gear 2 faces a tooth of
-            gear 1.
+            A tooth is on the x axis. The two wheels mesh at `centre_distance` if a tooth space of gear 2 faces a tooth
+            of gear 1.
 
         Raises
         ------
         GearTrainError
-            Where no such wheel can be cut.
+            If no such wheel can be cut.
         """
         import numpy as np
 
@@ -240,6 +247,7 @@ class GearMesh(Shown, ABC):
 
         size = self.own_size
         scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
+        # a step of -1 swaps the two wheels for gear 2
         tooth, mate = (self.requirement(name, scale, tolerance).cut() for name in self.gear.pair[:: 3 - 2 * gear])
         z, other = self.wheels.counts[:: 3 - 2 * gear]
         distance = self.wheels.touching if size is None else size.distance
@@ -249,6 +257,7 @@ class GearMesh(Shown, ABC):
             contours = [Contour.circle(tooth.root * cut.module + rim), teeth]
         else:
             contours = [teeth, *bore(cut, tooth.root * cut.module)]
+        # the thickness at the pitch circle is interpolated on one flank of the flattened tooth
         points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
         side = points[points[:, 1] >= 0]
         side = side[np.argsort(np.hypot(*side.T))]
@@ -273,142 +282,157 @@ class GearMesh(Shown, ABC):
 
     @property
     def has_cut_sizes(self) -> bool:
-        """True for teeth whose manufacturing errors are reckoned tooth by tooth."""
+        """True for teeth whose manufacturing errors are modelled tooth by tooth."""
         return False
 
     @property
     def cut_sizes(self) -> Any:
-        """The `TriangularSizes` about which errors are drawn; raises `RangeError` for teeth of another form."""
-        why, fix = "these sizes are of straight flanks that meet in a point", "declare `tooth_form: {form: triangular}`"
+        """Nominal `TriangularSizes` about which manufacturing errors are drawn.
+
+        `RangeError` is raised for teeth of another form.
+        """
+        why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """The law of displaced flanks along the path of contact, this wheel driving; None for teeth without one."""
+        """Contact of displaced flanks along the path of contact, with this wheel driving; None for teeth without such a
+        path.
+        """
         return None
 
     @abstractmethod
     def account(self) -> PairAccount:
-        """What is told of the pair, as it is driven."""
+        """Return the report of the pair as it is driven: rows of tables and figures."""
 
     def backlash_apart(self, gap: float) -> float | None:
-        """Play of axes that stand farther apart than declared.
+        """Return the backlash at another centre distance than the declared one.
 
         Parameters
         ----------
         gap : float
-            By how much [module]; below 0 they stand too near.
+            Distance by which the wheels are too far apart [module], negative if they are too close. In a ring, wheels
+            are apart if the centre distance is too short.
 
         Returns
         -------
         float or None
-            On the pitch circle [module], below 0 where the teeth jam; None for teeth that run as designed at their
-            own distance only.
+            Backlash on the pitch circle [module], negative if the teeth jam. None for teeth that run as designed only
+            at their own centre distance.
         """
         del gap
         return None
 
     @property
     def label(self) -> str:
-        """The pair as a fault names it."""
+        """Name of the pair in messages."""
         return f"pair '{self.name}'"
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """Everything that keeps these teeth from turning, with what would let them; empty if they turn."""
+        """All faults that keep these teeth from turning, each with its fix; empty if the teeth turn."""
         return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
     def fault(self) -> Problem | None:
-        """The first of them."""
+        """First fault; None if the teeth turn."""
         return self.faults[0] if self.faults else None
 
     @property
     def backlash(self) -> float:
-        """Play of the teeth, in pitches."""
+        """Backlash of the teeth in pitches."""
         return self.verdict.backlash / (self.transmission.period * float(self.transmission.ratio))
 
     @property
     def stands(self) -> float:
-        """Where a tooth of the driven wheel stands when its angle is 0, in pitches past the line of centres."""
+        """Position of a tooth of the driven wheel at angle 0, in pitches past the line of centres."""
         return 0.0
 
     @property
     def rigid(self) -> bool:
-        """True if the pair keeps its ratio at every instant: it adds nothing to any motion but its play."""
+        """True if the pair keeps its ratio at every instant, so that it affects motion by its backlash only."""
         return isinstance(self.transmission, ExactRatio)
 
     @property
     def rubs(self) -> bool:
-        """True if something is lost between these teeth."""
+        """True if these teeth have friction losses."""
         return bool(self.friction) or self.wheels.friction_law is not None
 
     @property
     def friction_words(self) -> str:
-        """The friction of the pair in words, at the speed at which it runs."""
+        """Sentence on the friction of the pair at its pitch-line speed."""
         declared, at = self.wheels.friction_law, self.wheels.pitch_line
         if declared is None:
             return f"Coefficient of friction {self.transmission.friction:g}"
         if at is None:
-            return f"Friction by the law '{declared.law}' of speed, and no speed is known"
+            return f"Friction by the law '{declared.law}', which needs a speed, and the speed is not known"
         return (
             f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
             f"{self.losses.friction:.6g}"
         )
 
     def efficiency(self, driver: str) -> SlidingEfficiency:
-        """What arrives of the power that one wheel puts in, over a turn.
+        """Return the efficiency of the pair over a turn with one of its wheels driving.
 
         Parameters
         ----------
         driver : str
-            Name of the wheel that drives.
+            Name of the driving wheel.
 
         Returns
         -------
         SlidingEfficiency
-            At constant torque of either side.
+            Mean efficiencies at constant torque of either side.
         """
         from geartrain.teeth.pair_results import SlidingEfficiency
 
-        return SlidingEfficiency(self.losses if driver == self.driver else self._rubbed(self.reversed))
+        return SlidingEfficiency(self.losses if driver == self.driver else self._with_friction(self.reversed))
 
     @property
     def tells_losses(self) -> bool:
-        """True where something says what these teeth lose: a coefficient, or a law and the speed it asks for."""
+        """True if the losses can be computed.
+
+        They need a declared coefficient, or a friction law and the pitch-line speed.
+        """
         return self.friction is not None or (self.rubs and self.wheels.pitch_line is not None)
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:
-        """Mean efficiency as the pair is driven, and driven back; dashes where no friction is declared, or it jams."""
+        """Mean efficiency as the pair is driven, and driven backwards.
+
+        Both are dashes if no friction is declared or if the pair jams.
+        """
         if not self.tells_losses or not self.verdict:
             return "-", "-"
         return self.efficiency(self.driver).text, self.efficiency(self.driven).text
 
     def driven_by(self, driver: MeshDriver) -> Self:
-        """The same teeth with another wheel driving.
+        """Return the same pair with another wheel driving.
 
         Parameters
         ----------
         driver : MeshDriver
-            The wheel, and how it is known that it drives.
+            The driving wheel, and the basis on which it is known.
 
         Returns
         -------
         GearMesh
-            With the law of that way.
+            A copy with the transmission function for this driver.
         """
         transmission = self.transmission if driver.wheel == self.driver else self.reversed
         return replace(self, who=driver, transmission=transmission)
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """The mesh as it is driven; where that is not determined, both ways."""
+        """The mesh as it is driven; the mesh with each wheel driving if the driver is not determined."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
-    """Everything wrong with one pair in the ways it is driven; what is wrong in some ways only says in which."""
+    """Return all faults of one pair in the directions in which it may be driven.
+
+    A fault that occurs with one driver only names that driver.
+    """
     said = [list(way.own_faults()) for way in ways]
     found: list[Problem] = []
     for way, faults in zip(ways, said, strict=True):

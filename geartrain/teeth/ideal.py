@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 
 class Ideal(ToothForm):
-    """Ideal teeth: the ratio of tooth counts at every instant, without error, play or loss.
+    """Ideal teeth: the ratio of tooth counts at every instant, without transmission error, backlash or loss.
 
-    A pair that declares them computes no tooth.
+    No teeth are computed for a pair that declares them.
 
     See Also
     --------
-    geartrain.teeth.Involute : real teeth that keep the ratio too.
+    geartrain.teeth.Involute : real teeth with a constant ratio.
 
     Examples
     --------
@@ -31,17 +31,17 @@ class Ideal(ToothForm):
     (Fraction(1, 2), (0.0, 0.0), 1.0)
     """
 
-    form: Literal["ideal"] = Field(description="The name of this form")
+    form: Literal["ideal"] = Field(description="Name of the tooth form")
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-        """None: these teeth add nothing to the ratio.
+        """Return None, since these teeth add nothing to the ratio.
 
         Parameters
         ----------
         wheels : MeshingWheels
             The two wheels as declared.
         shaft_angle : callable
-            Not asked.
+            Not used.
 
         Returns
         -------
@@ -50,14 +50,14 @@ class Ideal(ToothForm):
         """
 
     def transmission(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
-        """The transmission function of a pair: its ratio and nothing else.
+        """Return the transmission function of a pair, which has its exact ratio only.
 
         Parameters
         ----------
         z1, z2 : int
-            Teeth of the first and of the second wheel, 1 or more.
+            Numbers of teeth of the first and of the second wheel, 1 or more.
         driver : {1, 2}
-            Which wheel drives.
+            Number of the driving wheel.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Lantern wheels: round pins on one wheel, and on the other the teeth that are their exact mate."""
+"""Lantern wheels: round pins on one wheel, and conjugate teeth on the other."""
 
 from __future__ import annotations
 
@@ -21,23 +21,25 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_results import ToothFault
 
-_BEYOND = 1 + 1e-8  # times what the pins cut off: without it rounding may leave a hair less than a pitch of contact
+_CUT_MARGIN = (
+    1 + 1e-8
+)  # safety factor of the arc cut off by the pins: rounding must not leave less than a pitch of contact
 
 
 def _first_or_second(raw: object) -> object:
-    """A declaration gives numbers as text."""
+    """Convert "1" or "2" to an integer, since a declaration gives numbers as text."""
     return int(raw) if raw in ("1", "2") else raw
 
 
 class Lantern(ConjugateToothForm):
-    """Round pins on one wheel, a lantern, and teeth that mate with them on the other.
+    """Round pins on one wheel, the lantern, and conjugate teeth on the other.
 
-    A tooth is the curve beside the epicycloid of the pins' centres, by the radius of a pin (docs/shapes.md). By default
-    all contact is on one side of the pitch point.
+    A tooth profile is the parallel curve of the epicycloid of the pins' centres, at the distance of a pin radius
+    (docs/shapes.md). By default all contact is on one side of the pitch point.
 
     See Also
     --------
-    geartrain.teeth.Cycloidal : what the mate's teeth would be for pins without a diameter.
+    geartrain.teeth.Cycloidal : teeth of the mate in the limit of pins without a diameter.
 
     Examples
     --------
@@ -46,66 +48,73 @@ class Lantern(ConjugateToothForm):
     ('the teeth run', [0.0, 1.0])
     """
 
-    matched: ClassVar[str] = "the pins of a lantern have all of it in recess, beyond what they cut off"
+    matched: ClassVar[str] = "for a lantern the sum in recess only, beyond the part that its pins cut off"
 
-    form: Literal["lantern"] = Field(description="The name of this form")
+    form: Literal["lantern"] = Field(description="Name of the tooth form")
     pins: Annotated[Literal[1, 2], BeforeValidator(_first_or_second)] = Field(
-        2, description="Which wheel of the pair is the lantern"
+        2, description="Number of the wheel that is the lantern"
     )
-    pin_diameter: Length = Field("1.5", validate_default=True, description="In modules or with a unit")
+    pin_diameter: Length = Field(
+        "1.5", validate_default=True, description="Diameter of the pins, in modules or with a unit"
+    )
     pin_radius: Length | None = Field(
         None,
-        description="Distance of the pins from the lantern's axis, in modules or with a unit; default pitch radius",
+        description="Radius of the circle through the pins' centres, in modules or with a unit; default the pitch "
+        "radius",
     )
     arcs: TwoFigures | None = Field(
         None,
-        description="Arcs of approach and recess in pitches; default one, on the addendum of the pins' "
-        "mate, and what the pins cut off it",
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default one pitch on "
+        "the "
+        "addendum of the pins' mate, beyond the part that the pins cut off",
     )
-    addendum: Figure | None = Field(None, description="In place of arcs: addendum of the pins' mate in modules")
+    addendum: Figure | None = Field(None, description="Addendum of the pins' mate in modules, instead of arcs")
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> Lantern:
+    def _check_parameters(self) -> Lantern:
         lengths = {"pin_diameter": self.pin_diameter, "pin_radius": self.pin_radius, "addendum": self.addendum}
         for name, length in lengths.items():
             if length is not None and length.value <= 0:
-                raise bad("length", f"{name} {length.text} is no length", "write it above 0")
+                raise bad("length", f"{name} {length.text} is not above 0", "give a length above 0")
         if self.arcs is not None and self.addendum is not None:
-            raise bad("arcs", "arcs and addendum are both given", "give one of them: each follows from the other")
+            raise bad(
+                "arcs", "arcs and addendum are both given", "remove `arcs` or `addendum`: each determines the other"
+            )
         if self.arcs is not None:
             check_arcs(self.arcs)
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """None: these teeth have a law at their design distance only.
+        """Return None, since the transmission function of these teeth is known at the design centre distance only.
 
         Returns
         -------
         None
-            Never another distance than that of the design.
+            The centre distance is that of the design.
 
         Raises
         ------
         RangeError
-            Where another centre distance is declared.
+            If another centre distance is declared.
         """
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(
-                    f"this lantern is {distance - wheels.distance:+.6g} modules off its centre distance",
-                    "its mate keeps the ratio at the design distance only, and off it the law of pins is not covered",
-                    "leave out centre_distance, or take another tooth_form",
+                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off its design",
+                    "its mate keeps the ratio at the design distance only, and other distances are not modelled",
+                    "remove `centre_distance`, or give another tooth_form",
                 )
             )
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where pins do not reach the pitch circle or touch each other; `RangeError` for bevels and rings of pins.
+            If pins do not reach the pitch circle or touch each other; `RangeError` for bevel wheels and for a ring of
+            pins.
         """
         from geartrain.teeth.conjugate.closed_form_sides import flank_start, lantern, pin_angle
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -113,9 +122,9 @@ class Lantern(ConjugateToothForm):
 
         wheels.check()
         if wheels.bevel:
-            raise _beyond("a bevel lantern", "round pins on a cone have no mate in closed form")
+            raise _not_covered("a bevel lantern", "round pins on a cone have no mate in closed form")
         if wheels.internal and self.pins == 2:
-            raise _beyond("a ring of pins", "`tooth_form: pin_ring` has it, for a disc of one lobe less")
+            raise _not_covered("a ring of pins", "`tooth_form: pin_ring` models it, for a disc with one lobe less")
         pitch = wheels.pitch
         R, mate = (pitch.R2, pitch.R1) if self.pins == 2 else (pitch.R1, pitch.R2)
         A, B = self._sizes(R, wheels)
@@ -127,32 +136,39 @@ class Lantern(ConjugateToothForm):
         tooth = pitch.p / 2 - pin - self._backlash(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
-        path, cut = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)
+        path, cut = (
+            PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])),
+            self._undercut(pitch, start, outside, inside),
+        )
         return ConjugatePair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """The pair with as much contact, all of it in recess, beyond what the pins on their way in cut off.
+        """Return the pair with the same total arc of contact, all of it in recess.
+
+        The arc is extended by the part that the approaching pins cut off the mate's flanks.
 
         Parameters
         ----------
         wheels : WheelPair
             The two wheels.
         arcs : tuple of float
-            Of approach and recess, gear 1 driving [pitch], whose sum counts.
+            Arcs of approach and recess with gear 1 driving [pitch]. Only their sum is used.
         given : mapping
-            What else the form declares.
+            Other parameters of the form.
         """
         usual = conjugate_pair_of(cls.declared(given), wheels)
-        lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _BEYOND
+        lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _CUT_MARGIN
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
-    def _cut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""
+    def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
+        """Return an undercut fault if the approaching pins leave less of the mate's flank than the arcs need, else
+        nothing.
+        """
         from geartrain.teeth.pair_results import ToothFault
 
         left = (outside + min(inside, -start)) / pitch.p
-        # a pitch of contact but for rounding is enough where no arc on the dedendum is asked for
+        # without an arc on the dedendum, one pitch of contact (except for rounding error) is enough
         if inside <= -start or (left >= 1 - 1e-12 and not inside):
             return ()
         mate, where = 3 - self.pins, start / pitch.p
@@ -161,15 +177,15 @@ class Lantern(ConjugateToothForm):
             "undercut",
             mate,
             -start if self.pins == 1 else start,
-            f"gear {mate} is undercut by the pins on their way in",
-            f"they leave of its flanks what begins {side}, with {left:.6g} pitches of contact",
-            f"give an arc of {max(-where, 0):.4g} pitches at most on its dedendum and of at least {1 + where:.6g} on "
+            f"gear {mate} is undercut by the approaching pins",
+            f"its remaining flanks begin {side}, with {left:.6g} pitches of contact",
+            f"give an arc of at most {max(-where, 0):.4g} pitches on its dedendum and of at least {1 + where:.6g} on "
             "its addendum, a smaller pin_diameter, or a smaller pin_radius",
         )
         return (fault,)
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
-        """Which wheel has the pins, and how large their circle and they are.
+        """Return the wheel that carries the pins, the radius of the pin circle and the radius of a pin.
 
         Returns
         -------
@@ -183,42 +199,45 @@ class Lantern(ConjugateToothForm):
         return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
-        """Distance of the pins from the axle, and their radius, in modules."""
+        """Return the distance of the pins from the axis and their radius, in modules."""
         A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
         B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
         z = wheels.z1 if self.pins == 1 else wheels.z2
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"its radius is {R:.6g} modules and theirs {B:.6g}, so no contact passes the pitch point",
+                f"its radius is {R:.6g} modules and that of a pin {B:.6g}, so no contact passes the pitch point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
         most = 2 * A * sin(pi / z)
         if most <= 2 * B:
             raise refused(
                 f"pins of {2 * B:.6g} modules touch each other",
-                f"{z} of them stand {most:.6g} modules apart",
-                f"give a pin_diameter below {most:.6g} modules, half of which leaves room for the mate's teeth",
+                f"the centres of {z} pins are {most:.6g} modules apart",
+                f"give a pin_diameter below {most:.6g} modules; half of that leaves space for the mate's teeth",
             )
         return A, B
 
     def _arcs(
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
-        """Arcs (X) on the mate's addendum and on its dedendum; by default a pitch from where the flank begins."""
+        """Return the arcs (X) on the mate's addendum and on its dedendum.
+
+        By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
+        """
         from geartrain.teeth.conjugate.closed_form_sides import pin_arc, pin_reach
 
         if self.addendum is not None:
             height = float(self.addendum.value)
             return pin_arc(R, A, B, pin_reach(R, A, B, mate, abs(mate) + (height if mate > 0 else -height))), 0.0
         if self.arcs is None:
-            # a little more, lest rounding leave less than a pitch of contact
+            # slightly longer, because rounding must not leave less than a pitch of contact
             return pitch.p + max(start, 0.0) * (1 + 1e-9), 0.0
         approach, recess = arcs_of(self.arcs, pitch)
         return (approach, recess) if self.pins == 1 else (recess, approach)
 
 
-def _beyond(what: str, why: str) -> RangeError:
+def _not_covered(what: str, why: str) -> RangeError:
     return RangeError(
-        Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or take another tooth_form")
+        Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or give another tooth_form")
     )

@@ -1,4 +1,4 @@
-"""Teeth of least friction within a greatest pressure angle; and, for the record, the source's own extremal."""
+"""Teeth of minimum friction for a given maximum pressure angle, and the extremal printed in the source."""
 
 from __future__ import annotations
 
@@ -22,19 +22,20 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _HALF, _NONE, _WHOLE = Figure.parse("1/2"), Figure.parse("0"), Figure.parse("1")
-_STEEP, _FLAT = Quantity.parse("80 deg", "angle", False), Quantity.parse("50 deg", "angle", False)
-_CEILING, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15")
+_FIRST_ANGLE, _LAST_ANGLE = Quantity.parse("80 deg", "angle", False), Quantity.parse("50 deg", "angle", False)
+_MAXIMUM_ANGLE, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15")
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of least friction: a constant pressure angle from the pitch point, then the slowest contact allowed.
+    """Teeth of minimum friction: a constant pressure angle from the pitch point, then the minimum contact speed.
 
-    Along the dedendum the contact keeps the speed `margin`. `literal` gives the source's shape instead: above 45 deg,
-    clear of the pitch point, and of no use as a pair (docs/errata.md).
+    Along the dedendum the contact keeps the speed `margin`. `literal` gives the extremal printed in the source instead:
+    its pressure angles are above 45 deg, it does not include the pitch point, and it is not usable as a pair
+    (docs/errata.md).
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : the other optima of that source.
+    geartrain.teeth.UniformStress, geartrain.teeth.UniformTemperature : the other optima of the same source.
 
     Examples
     --------
@@ -44,75 +45,85 @@ class LeastFriction(ConjugateToothForm):
     [0.9895, 0.9847]
     """
 
-    form: Literal["least_friction"] = Field(description="The name of this form")
+    form: Literal["least_friction"] = Field(description="Name of the tooth form")
     pressure_angle: Angle | None = Field(
-        None, description="Greatest pressure angle, at the pitch point, at most 45 deg; default 25 deg"
+        None, description="Maximum pressure angle, which is at the pitch point, at most 45 deg; default 25 deg"
     )
     friction_law: FrictionLawOfText | None = Field(
-        None, description="Law of speed under which the loss is to be least; default a coefficient, whatever it is"
+        None, description="Friction law for which the loss is minimised; default a constant coefficient of any value"
     )
     pitch_line_speed: PositiveVelocity | None = Field(
-        None, description="Speed of the pitch line for which they are made, with friction_law"
+        None, description="Pitch-line speed for which the teeth are designed, required with friction_law"
     )
     margin: Figure | None = Field(
-        None, description="Least speed of the contact along a dedendum over the pitch-line speed; default 0.15"
+        None, description="Minimum speed of the contact along a dedendum over the pitch-line speed; default 0.15"
     )
-    literal: bool = Field(False, description="The source's extremal, from pressure_angles down, on one side")
+    literal: bool = Field(
+        False, description="Use the extremal printed in the source, on one side only, with falling pressure_angles"
+    )
     pressure_angles: tuple[Angle, Angle] | None = Field(
         None, description="First and last pressure angle of the literal shape; default [80 deg, 50 deg]"
     )
     arcs: TwoFigures | None = Field(
-        None, description="Arcs of approach and recess in pitches; default half each, literal [0, 1]"
+        None,
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess); default 1/2 each, for "
+        "the "
+        "literal shape [0, 1]",
     )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> LeastFriction:
+    def _check_parameters(self) -> LeastFriction:
         if self.arcs is not None:
             check_arcs(self.arcs)
         if (self.friction_law is None) != (self.pitch_line_speed is None):
             fix = "give both, or neither"
-            raise bad("friction_law", "teeth for a law of friction are made for one speed of the pitch line", fix)
-        return self._literal_makes_sense() if self.literal else self._usual_makes_sense()
+            raise bad("friction_law", "friction_law and pitch_line_speed belong together", fix)
+        return self._check_literal() if self.literal else self._check_usual()
 
-    def _usual_makes_sense(self) -> LeastFriction:
+    def _check_usual(self) -> LeastFriction:
         if self.pressure_angles is not None:
-            raise bad("literal", "pressure_angles belong to the literal shape", "give pressure_angle, or literal: true")
+            raise bad(
+                "literal", "pressure_angles are for the literal shape only", "give `pressure_angle`, or `literal: true`"
+            )
         if self.pressure_angle is not None:
             check_angle("pressure_angle", self.pressure_angle, 0.125)
         if self.margin is not None and self.margin.value <= 0:
-            raise bad("margin", f"a margin of {self.margin.text} lets the contact stand still", "write it above 0")
-        fastest = sin((self.pressure_angle or _CEILING).si)
+            raise bad("margin", f"with a margin of {self.margin.text} the contact would stop", "give a margin above 0")
+        fastest = sin((self.pressure_angle or _MAXIMUM_ANGLE).si)
+        # at the pitch point the contact moves with the sine of the pressure angle times the pitch-line speed
         if (self.margin or _MARGIN).value >= fastest:
             raise bad(
                 "margin",
                 f"a margin of {(self.margin or _MARGIN).text} is not below {fastest:.6g}, the speed at the pitch point",
-                "write it below the sine of the pressure angle, or give a larger pressure_angle",
+                "give a margin below the sine of the pressure angle, or a larger pressure_angle",
             )
         return self
 
-    def _literal_makes_sense(self) -> LeastFriction:
+    def _check_literal(self) -> LeastFriction:
         if self.friction_law is not None:
-            raise bad("literal", "the literal shape knows no law of friction", "leave friction_law out")
+            raise bad("literal", "the literal shape does not depend on a friction_law", "remove `friction_law`")
         if self.pressure_angle is not None or self.margin is not None:
-            raise bad("literal", "the literal shape has neither pressure_angle nor margin", "give pressure_angles")
-        first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
+            raise bad(
+                "literal", "the literal shape has neither pressure_angle nor margin", "give `pressure_angles` instead"
+            )
+        first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
         if not pi / 4 <= last < first < pi / 2:
             raise bad(
                 "pressure_angle",
-                "the pressure angles of the literal shape do not fall between 90 and 45 deg",
-                "its flanks have a cusp at 45 deg: give two angles above, the greater first",
+                "the pressure angles of the literal shape are not in falling order between 90 and 45 deg",
+                "give two angles from 45 to 90 deg, the larger one first: the flanks have a cusp at 45 deg",
             )
         if self.arcs is not None and min(arc.value for arc in self.arcs) > 0:
-            raise bad("arcs", "the literal shape has one side only", "give `arcs: [0, 1]` or `arcs: [1, 0]`")
+            raise bad("arcs", "the literal shape has contact on one side only", "give `arcs: [0, 1]` or `arcs: [1, 0]`")
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, with what would let them.
+            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
         """
         pitch = wheels.pitch
         return self._standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)
@@ -121,7 +132,7 @@ class LeastFriction(ConjugateToothForm):
         from geartrain.teeth.conjugate.optimal_sides import least_friction
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
 
-        psi, u = (self.pressure_angle or _CEILING).si, float((self.margin or _MARGIN).value)
+        psi, u = (self.pressure_angle or _MAXIMUM_ANGLE).si, float((self.margin or _MARGIN).value)
         approach, recess = (
             least_friction(pitch, b, X, psi, u, self._weight(pitch)) if X else none(psi)
             for b, X in zip((pitch.A, pitch.B), arcs_of(self.arcs or (_HALF, _HALF), pitch), strict=True)
@@ -129,7 +140,10 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """What a contact at the distance d loses, mu S up to a factor; None where friction is the same everywhere."""
+        """Return the loss density mu S of a contact at the distance d from the pitch point, up to a factor.
+
+        Return None if friction is the same at every contact.
+        """
         if self.friction_law is None or self.pitch_line_speed is None or self.friction_law.of_pitch_line:
             return None
         by = PairFriction(self.friction_law, self.pitch_line_speed.si)
@@ -145,7 +159,7 @@ class LeastFriction(ConjugateToothForm):
         from geartrain.teeth.conjugate.closed_form_sides import extremal
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none
 
-        first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
+        first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
         approach, recess = (
             extremal(pitch, X, first, last) if X else none(0.0) for X in arcs_of(self.arcs or (_NONE, _WHOLE), pitch)
         )

@@ -1,4 +1,4 @@
-"""The two wheels of a gear pair as a train declares them, and which of them drives."""
+"""The two wheels of a gear pair as a train declares them, and the one that drives."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ if TYPE_CHECKING:
 
 
 class DeclaredPair(Protocol):
-    """What a mesh reads of the gear pair that declares it."""
+    """Attributes of a declared gear pair that a mesh uses."""
 
     @property
     def name(self) -> str:
-        """As others refer to it."""
+        """Name of the pair."""
 
     @property
     def pair(self) -> tuple[str, str]:
-        """The two wheels."""
+        """Names of the two wheels."""
 
     @property
     def fitting(self) -> Any:
-        """How exactly it is mounted; None: as the train says."""
+        """Mounting accuracy of the pair; None if the train's applies."""
 
 
 class NamedForm(Protocol):
-    """What a mesh reads of the tooth form that made it."""
+    """Attributes of a tooth form that its mesh uses."""
 
     @property
     def form(self) -> str:
-        """Its name."""
+        """Name of the form."""
 
     @property
     def words(self) -> str:
-        """Its name as prose has it."""
+        """Name of the form in prose."""
 
     @property
     def has_lengths(self) -> bool:
@@ -45,53 +45,56 @@ class NamedForm(Protocol):
 
 @dataclass(frozen=True)
 class MeshDriver(Result):
-    """The wheel that drives a gear pair (of a coupling, the link), and how that is known."""
+    """Driving wheel of a gear pair (driving link of a coupling), and the basis on which it is known."""
 
     KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
 
     wheel: str
-    """The driving wheel; of a coupling, the driving link."""
+    """Name of the driving wheel; of a coupling, the driving link."""
     why: str
-    """How it is known."""
+    """Basis on which the driver is known."""
     known: bool = True
-    """False where the way of power is not determined: `wheel` is then taken to go on with, and no more."""
+    """False if the direction of power flow is not determined. `wheel` is then only an assumption."""
 
 
-_CONTRATE = "the contrate is taken for a spur wheel"
+_CONTRATE = "the contrate wheel is treated as a spur wheel"
 
 
 @dataclass(frozen=True)
 class MeshingWheels:
-    """The two wheels of a gear pair as a train declares them: what a tooth form makes a mesh of."""
+    """The two wheels of a gear pair as a train declares them: the input from which a tooth form makes a mesh."""
 
     gear: DeclaredPair
     place: str
-    """Where the pair is declared."""
+    """Place of the pair's declaration in its file."""
     counts: tuple[int, int]
-    """Tooth numbers; `kinds` of the wheels, helical ones apart, and which of them are rings."""
+    """Tooth numbers."""
     kinds: tuple[str, str] = ("spur", "spur")
+    """Kinds of the wheels, such as "spur", "helical", "bevel" or "contrate"."""
     internal: tuple[bool, bool] = (False, False)
+    """True for each wheel that is a ring."""
     friction: float | None = None
-    """None where none is declared."""
+    """Coefficient of friction; None if none is declared."""
     distance: float | None = None
-    """Half the transverse modules times the teeth, summed (m); None unless both wheels declare a module with a unit."""
+    """Sum of transverse module times teeth of both wheels, halved [m]; None unless both declare a module with a unit.
+    """
     friction_law: FrictionLaw | None = None
-    """In place of a coefficient; then `friction` is None."""
+    """Friction law declared instead of a coefficient; `friction` is then None."""
     pitch_line: float | None = None
-    """Speed of the pitch line (m/s), which a law of friction needs; None where it is not known."""
+    """Pitch-line speed [m/s], which a friction law needs; None if it is not known."""
     helix: tuple[float, float] = (0.0, 0.0)
-    """Helix angles (rad), of right hands above 0."""
+    """Helix angles [rad], positive for right-hand teeth."""
     width: float | None = None
-    """Of the narrower wheel (m); None where it is not known."""
+    """Face width of the narrower wheel [m]; None if it is not known."""
 
     @property
     def module(self) -> float | None:
-        """Mean transverse module (m); None without a declared length."""
+        """Mean transverse module [m]; None without a declared length."""
         return None if self.distance is None or not sum(self.counts) else 2 * self.distance / sum(self.counts)
 
     @property
     def pitch_distance(self) -> float | None:
-        """Distance (m) at which pitch circles of the declared modules touch; None without a declared length."""
+        """Centre distance [m] at which the declared pitch circles touch; None without a declared length."""
         z1, z2 = self.counts
         return (
             self.distance
@@ -101,33 +104,33 @@ class MeshingWheels:
 
     @property
     def ring(self) -> Literal[0, 1, 2]:
-        """Which wheel is a ring: 1 or 2, 0 if none is."""
+        """Number of the wheel that is a ring, 1 or 2; 0 if neither is."""
         return 1 if self.internal[0] else 2 if self.internal[1] else 0
 
     @property
     def touching(self) -> float:
-        """The distance (modules) at which pitch circles touch."""
+        """Centre distance [module] at which the pitch circles touch."""
         z1, z2 = self.counts
         return abs(z1 - z2) / 2 if any(self.internal) else (z1 + z2) / 2
 
     @property
     def driver(self) -> MeshDriver:
-        """The first wheel, until the driver is known."""
+        """First wheel as the assumed driver, until the driver is known."""
         return MeshDriver(self.gear.pair[0], "", False)
 
     @property
     def note(self) -> str:
-        """What the wheels are taken for, where it is not what they are; empty where it is."""
+        """Note on a wheel that is treated as another kind; empty otherwise."""
         return _CONTRATE if "contrate" in self.kinds else ""
 
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Of a pair with real teeth."""
+    """Size of a pair with real teeth."""
 
     scale: float
-    """Modules in one unit of its law's lengths."""
+    """Modules in one length unit of the teeth."""
     distance: float
-    """Of its axes, in modules."""
+    """Centre distance [module]."""
     stretch: float
-    """That distance over the one at which pitch circles touch."""
+    """Centre distance over the one at which the pitch circles touch."""

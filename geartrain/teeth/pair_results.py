@@ -1,7 +1,7 @@
-"""Results of one gear pair, whatever its tooth form: figures of its motion and losses, verdict, rows of tables.
+"""Results of one gear pair, whatever its tooth form: figures of motion and losses, verdict, rows of tables.
 
-Each figure has its keys here only: reports of trains and pages of one pair share them. Angles are in degrees in tables
-and in rad in figures.
+The JSON keys of each figure are defined only here, and are shared by reports of trains and pages of one pair. Angles
+are in degrees in tables and in rad in figures.
 """
 
 from __future__ import annotations
@@ -37,37 +37,37 @@ class SpeedRatio(Result):
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
 
     mean: Fraction
-    """The ratio of tooth numbers, or the winding number of a pin."""
+    """Ratio of tooth numbers, or the winding number of a pin."""
     minimum: float
-    """Least ratio at any angle."""
+    """Minimum ratio at any angle."""
     maximum: float
-    """Greatest ratio at any angle."""
+    """Maximum ratio at any angle."""
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> SpeedRatio:
-        """Of a transmission function.
+        """Return the speed ratio of a transmission function.
 
         Parameters
         ----------
         transmission : TransmissionFunction
-            Any.
+            Transmission function of any pair or pin.
 
         Returns
         -------
         SpeedRatio
-            Over its period.
+            Mean and range over one period.
         """
         return cls(transmission.ratio, *transmission.speed_range())
 
     @property
     def relative(self) -> tuple[float, float]:
-        """Least and greatest over the mean."""
+        """Minimum and maximum over the mean."""
         return self.minimum / float(self.mean), self.maximum / float(self.mean)
 
 
 @dataclass(frozen=True, slots=True)
 class TransmissionError(Result):
-    """Transmission error of a pair over a period, positive where the driven side is ahead of uniform motion.
+    """Transmission error of a pair over a period, positive if the driven side is ahead of uniform motion.
 
     See Also
     --------
@@ -85,25 +85,25 @@ class TransmissionError(Result):
     KEYS = ("peak_to_peak", "rms", "mean")
 
     peak_to_peak: float
-    """Greatest less least [rad of the driven side]."""
+    """Difference of maximum and minimum [rad of the driven side]."""
     rms: float
-    """About the mean [rad]."""
+    """Root mean square about the mean [rad]."""
     mean: float
-    """A lag that depends on where angles are counted from [rad]."""
+    """Mean, a constant lag that depends on the zero of the angles [rad]."""
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> TransmissionError:
-        """Of a transmission function.
+        """Return the transmission error of a transmission function.
 
         Parameters
         ----------
         transmission : TransmissionFunction
-            Any.
+            Transmission function of any pair or pin.
 
         Returns
         -------
         TransmissionError
-            Over its period.
+            Peak to peak, rms and mean over one period.
         """
         low, high = transmission.error_range()
         mean, rms = transmission.error_moments()
@@ -111,24 +111,25 @@ class TransmissionError(Result):
 
     @property
     def text(self) -> str:
-        """Peak to peak, in degrees."""
+        """Peak-to-peak transmission error in degrees."""
         return f"{degrees(self.peak_to_peak):.6g}"
 
 
 @dataclass(frozen=True, slots=True)
 class SlidingEfficiency(Result):
-    """Power out over power in of a pair with friction, read off its transmission function when asked.
+    """Power out over power in of a pair with friction, computed from its transmission function on request.
 
-    Over a turn the torques of both sides cannot be constant at once: `mean` is at constant torque of the driver,
-    `at_constant_load` at constant torque of the driven side. All are None where friction locks the pair.
+    The torques of both sides cannot be constant over a turn at the same time. `mean` is the efficiency at constant
+    torque of the driver, `at_constant_load` the efficiency at constant torque of the driven side. All values are None
+    if friction locks the pair.
 
     See Also
     --------
-    geartrain.teeth.GearMesh.efficiency : that of a pair of a train, either wheel driving.
+    geartrain.teeth.GearMesh.efficiency : the efficiency of a pair of a train, either wheel driving.
 
     Examples
     --------
-    A slot that drives its pin locks from sqrt(r^2 - e^2)/e on.
+    A slot that drives its pin locks at a friction of sqrt(r^2 - e^2)/e or more.
 
     >>> from geartrain.teeth import SlotToPinTransmission
     >>> efficiency = SlidingEfficiency(SlotToPinTransmission(5, 3, 0.1))
@@ -139,16 +140,16 @@ class SlidingEfficiency(Result):
     KEYS = ("friction", "mean", "at_constant_load", Key("min", "minimum"), Key("locks_at", "locking_friction"))
 
     transmission: TransmissionFunction
-    """Of the pair."""
+    """Transmission function of the pair."""
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction; its mean over the driver's angle where it depends on speed."""
+        """Coefficient of friction; its mean over the driver's angle if it depends on speed."""
         return self.transmission.friction
 
     @property
     def locks(self) -> bool:
-        """True if friction locks the pair somewhere."""
+        """True if friction locks the pair at some angle."""
         return self.transmission.locks
 
     @property
@@ -158,27 +159,27 @@ class SlidingEfficiency(Result):
 
     @property
     def at_constant_load(self) -> float | None:
-        """Work done on a constant torque of the driven side over the work put in; None where none is done."""
+        """Work done on a constant torque of the driven side over the work put in; None if no work is done."""
         return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property
     def minimum(self) -> float | None:
-        """Least efficiency at any angle."""
+        """Minimum efficiency at any angle."""
         return None if self.locks else finite(self.transmission.efficiency_minimum())
 
     @property
     def locking_friction(self) -> float | None:
-        """The least friction that locks; None where none does."""
+        """Smallest coefficient of friction that locks the pair; None if none does."""
         return finite(self.transmission.locking_friction)
 
     @property
     def text(self) -> str:
-        """The mean, or that friction locks."""
+        """Mean efficiency as text, or "locks"."""
         return "locks" if self.mean is None else f"{self.mean:.6f}"
 
 
-def _which(gear: int) -> int | None:
-    """None for the pair as a whole."""
+def _gear_or_none(gear: int) -> int | None:
+    """Return None instead of 0, the gear number of the pair as a whole."""
     return gear or None
 
 
@@ -189,30 +190,30 @@ def _which(gear: int) -> int | None:
 class ToothFault(Result):
     """One reason why teeth cannot run."""
 
-    KEYS = ("kind", Key("gear", to=_which), "what", "why", "fix")
+    KEYS = ("kind", Key("gear", to=_gear_or_none), "what", "why", "fix")
 
     kind: str
     """Kind of fault, such as `jam`, `clash` or `undercut`."""
     gear: int
-    """1 or 2; 0 for the pair."""
+    """Number of the faulty gear, 1 or 2; 0 for the pair as a whole."""
     X: float
-    """Pitch-line displacement at which it begins; NaN for the pair."""
+    """Pitch-line displacement at which the fault begins; NaN for the pair as a whole."""
     what: str
-    """The fault in words."""
+    """Statement of the fault."""
     why: str
-    """Its reason in words."""
+    """Reason of the fault."""
     fix: str
-    """Its remedy in words."""
+    """Remedy of the fault."""
 
     @property
     def problem(self) -> Problem:
-        """The fault as a problem that has no place yet."""
+        """Fault as a problem without a place."""
         return Problem(self.what, self.why, self.fix)
 
 
 @dataclass(frozen=True, slots=True)
 class PairVerdict(Result):
-    """Whether a pair of wheels can turn; true if it can.
+    """Verdict on a pair of wheels; its truth value is True if the pair can turn.
 
     See Also
     --------
@@ -231,63 +232,62 @@ class PairVerdict(Result):
     kind: str
     """"runs", or the kind of the first fault."""
     text: str
-    """What is the case."""
+    """Statement of the verdict."""
     backlash: float
-    """Least play of the teeth over a pitch [rad of the driven wheel]."""
+    """Minimum backlash of the teeth over a pitch [rad of the driven wheel]."""
     faults: tuple[ToothFault, ...] = ()
-    """All reasons why they cannot, each with what, why and what to do."""
+    """All reasons why the teeth cannot run, each with its fix."""
 
     def __bool__(self) -> bool:
         return self.kind == "runs"
 
     @property
     def why(self) -> str:
-        """Why they cannot, for the first reason; empty if they can."""
+        """Reason of the first fault; empty if the teeth can run."""
         return self.faults[0].why if self.faults else ""
 
     @property
     def fix(self) -> str:
-        """What would let them, for the first reason; empty if they can."""
+        """Remedy of the first fault; empty if the teeth can run."""
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """The verdict with its one reason told in full.
+        """Return the verdict with its single fault and the explanation of it.
 
         Parameters
         ----------
         why, fix : str
-            The reason, and what would let the pair turn.
+            Reason of the fault, and its remedy.
 
         Returns
         -------
         PairVerdict
-            With one fault, of the pair as a whole.
+            A copy with one fault, of the pair as a whole.
         """
         return replace(self, faults=(ToothFault(self.kind, 0, float("nan"), self.text, why, fix),))
 
 
 def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVerdict:
-    """The verdict on teeth with these faults; `backlash` in rad of the driven wheel."""
+    """Return the verdict on teeth with these faults; `backlash` is in rad of the driven wheel."""
     text = "; ".join(fault.what for fault in faults) or "the teeth run"
     return PairVerdict(faults[0].kind if faults else "runs", text, backlash, faults)
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """The fault of teeth that lock from a friction of `locking` on."""
+    """Return the fault of teeth that lock at a coefficient of friction of `locking` or more."""
     return Problem(
         f"a friction of {friction:g} locks these teeth",
-        f"from {locking:.6g} on the driver pushes somewhere against more sliding than it can overcome",
+        f"at {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
         f"give a friction below {locking:.4g}, or let the other wheel drive",
     )
 
 
 def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
-    """The fault of teeth that lock somewhere at the speed at which they run under a law of friction."""
+    """Return the fault of teeth that lock at some angle at their speed under a friction law."""
     return Problem(
-        f"friction by the law '{transmission}' locks these teeth",
-        f"somewhere the driver pushes against more sliding than it can overcome: a constant friction of {locking:.6g} "
-        "would",
-        "give less friction, another speed, or let the other wheel drive",
+        f"the friction law '{transmission}' locks these teeth at this speed",
+        f"the driver cannot overcome the sliding friction at some angle, as with a constant friction of {locking:.6g}",
+        "give a law with less friction or another speed, or let the other wheel drive",
     )
 
 
@@ -299,21 +299,21 @@ class PinFigures(Result):
     """Figures of a pin in a slot."""
 
     pin_radius: float
-    """Distance of the pin from its axis [m, or plain]."""
+    """Distance of the pin from its axis [m, or without unit]."""
     offset: float
-    """Distance of the two axes [m, or plain]."""
+    """Distance of the two axes [m, or without unit]."""
     speed_ratio: SpeedRatio
-    """Of the driven side over the driver."""
+    """Speed ratio, driven side over driver."""
     amplitude: float
-    """Greatest transmission error (rad)."""
+    """Maximum transmission error [rad]."""
     transmission_error: TransmissionError
-    """Of the driven side."""
+    """Transmission error of the driven side."""
     efficiency: SlidingEfficiency
-    """Of the pin sliding along its slot."""
+    """Efficiency of the pin sliding along its slot."""
 
 
 def pin_figures(transmission: PinTransmission) -> PinFigures:
-    """Of one coupling, whichever side drives."""
+    """Return the figures of one coupling, with either side driving."""
     error = TransmissionError.of(transmission)
     return PinFigures(
         transmission.r,
@@ -327,7 +327,7 @@ def pin_figures(transmission: PinTransmission) -> PinFigures:
 
 @dataclass(frozen=True)
 class PairFigures(Result):
-    """Figures of one pair, in one way of being driven; a form may add its own."""
+    """Figures of one pair with one of its wheels driving. A form may add its own."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
         *("teeth", "verdict", Key("backlash", "verdict.backlash", finite)),
@@ -335,32 +335,32 @@ class PairFigures(Result):
     )
 
     teeth: tuple[int, int]
-    """Of the driver and of the driven wheel."""
+    """Tooth numbers of the driver and of the driven wheel."""
     verdict: PairVerdict
-    """Whether they can turn."""
+    """Verdict on the pair: whether its teeth can turn."""
     speed_ratio: SpeedRatio | None
-    """Driven over driver; None for teeth without a motion."""
+    """Speed ratio, driven over driver; None for teeth that cannot turn."""
     transmission_error: TransmissionError | None
-    """Of the driven wheel; None likewise."""
+    """Transmission error of the driven wheel; None for teeth that cannot turn."""
     efficiency: SlidingEfficiency | None
-    """Of sliding; None likewise."""
+    """Efficiency of sliding teeth; None for teeth that cannot turn."""
 
     @property
     def error_text(self) -> str:
-        """Transmission error peak to peak (deg); a dash for teeth without a motion."""
+        """Peak-to-peak transmission error in degrees; a dash for teeth that cannot turn."""
         return self.transmission_error.text if self.transmission_error else "-"
 
 
 def motion_figures(
     transmission: TransmissionFunction, moves: bool = True
 ) -> tuple[SpeedRatio | None, TransmissionError | None]:
-    """Speed ratio and transmission error; None for teeth that have no motion."""
+    """Return speed ratio and transmission error, both None if the teeth cannot turn (`moves` is False)."""
     return (SpeedRatio.of(transmission), TransmissionError.of(transmission)) if moves else (None, None)
 
 
 @dataclass(frozen=True)
 class AccountTable:
-    """The header of a table, and the row of one pair; `wide` where it needs the width of a page."""
+    """Header of a table and the row of one pair. `wide` is True for a table that needs the width of a page."""
 
     header: tuple[str, ...]
     row: tuple[str, ...]
@@ -369,11 +369,11 @@ class AccountTable:
 
 @dataclass(frozen=True)
 class PairAccount:
-    """Of one pair, in one way of being driven."""
+    """Report of one pair with one of its wheels driving."""
 
     words: str
-    """What the tables of all pairs of this kind mean."""
+    """Text that explains the tables of all pairs of this kind."""
     tables: tuple[AccountTable, ...]
-    """One row of each."""
+    """Tables, each with the row of this pair."""
     figures: PairFigures
-    """For JSON."""
+    """Figures for JSON."""

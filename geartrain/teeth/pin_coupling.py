@@ -1,10 +1,10 @@
-"""Pins in slots and pins in holes as a train declares them: couplings whose mean motion is a winding number.
+"""Pins in slots and pins in holes as a train declares them: couplings whose mean ratio is a winding number.
 
-A pin on one link works in a slot of another whose axis lies `offset` away. In the frame of their carrier the
-slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e: over one turn
-of the pin the slot turns m times, m = 1 where the pin's circle encloses the slot's axis (r > e), else m = 0.
+A pin on one link works in a slot of another link, whose axis is at the distance `offset`. In the frame of their
+carrier, the slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e. Over
+one turn of the pin the slot turns m times: m = 1 if the pin's circle encloses the slot's axis (r > e), else m = 0.
 
-Three pins or more in round holes, each wider than its pin by 2 e, keep two links parallel: m = 1 at every instant.
+Three or more pins in round holes, each wider than its pin by 2 e, keep two links parallel: m = 1 at every instant.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
 
 
-def _whole(raw: object) -> object:
-    """A declaration gives numbers as text."""
+def _integer(raw: object) -> object:
+    """Convert decimal text to an integer, since a declaration gives numbers as text."""
     return int(raw) if isinstance(raw, str) and raw.isdecimal() else raw
 
 
@@ -31,45 +31,46 @@ def _not_negative(length: Quantity) -> Quantity:
     if length.value < 0:
         raise PydanticCustomError(
             "pin",
-            "a clearance of {text} is none",
-            {"text": length.text, "fix": "a slot is as wide as its pin or wider: give 0 or more"},
+            "a clearance of {text} is negative",
+            {"text": length.text, "fix": "give 0 or more: a slot is as wide as its pin or wider"},
         )
     return length
 
 
 class _Coupling(BaseModel):
-    """A coupling of two links by pins."""
+    """Coupling of two links by pins."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
     id: str = Field("", description="Name of the coupling; default pin~slot")
-    pin: str = Field(description="The link that carries the pin")
-    slot: str = Field(description="The link that has the slot")
-    pin_radius: Length | None = Field(None, description="Distance of the pin from its own link's axis")
-    offset: Length | None = Field(None, description="Distance of the two links' axes")
+    pin: str = Field(description="Link that carries the pin")
+    slot: str = Field(description="Link that has the slot")
+    pin_radius: Length | None = Field(None, description="Distance of the pin from the axis of its own link")
+    offset: Length | None = Field(None, description="Distance between the axes of the two links")
     clearance: Annotated[Length, AfterValidator(_not_negative)] | None = Field(
-        None, description="Width of the slot less the diameter of the pin: the pin's play; default 0"
+        None, description="Width of the slot less the diameter of the pin; default 0"
     )
     friction: DeclaredCoulombFriction | None = Field(
-        None, description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}"
+        None,
+        description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}; default none",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Speed of parting over speed of meeting where the pin strikes its slot; default the train's"
+        None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default the train's"
     )
     source: str | None = Field(None, description="Key of the source of the dimensions")
     status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
-        None, description="Whether the device survives, is forced by surviving parts, or is a proposal"
+        None, description="Evidence: the device survives, is reconstructed from surviving parts, or is a hypothesis"
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for the reader")
 
     @property
     def name(self) -> str:
-        """The declared id, or pin~slot."""
+        """Declared id, or pin~slot."""
         return self.id or f"{self.pin}~{self.slot}"
 
     @property
     def transmission(self) -> PinToSlotTransmission | None:
-        """The law of motion with the pin driving; None where the dimensions are not declared."""
+        """Transmission function with the pin driving; None if the dimensions are not declared."""
         if self.pin_radius is None or self.offset is None:
             return None
         from geartrain.teeth.pin_transmission import PinToSlotTransmission
@@ -79,78 +80,83 @@ class _Coupling(BaseModel):
 
 
 class PinAndSlot(_Coupling):
-    """A pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
+    """Pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
 
-    kind: Literal["pin_and_slot"] = Field(description="The pin's circle encloses the slot's axis: mean ratio 1")
+    kind: Literal["pin_and_slot"] = Field(description="Pin whose circle encloses the slot's axis: mean ratio 1")
 
     @model_validator(mode="after")
     def _encloses(self) -> PinAndSlot:
-        _refuse_unless_winding(self, 1)
+        _check_winding(self, 1)
         return self
 
 
 class PinFollower(_Coupling):
-    """A pin in a slotted follower whose axis lies outside the pin's circle: the follower swings about its carrier."""
+    """Pin in a slotted follower whose axis lies outside the pin's circle: the follower oscillates about its carrier."""
 
-    kind: Literal["pin_follower"] = Field(description="The pin's circle leaves the slot's axis out: mean ratio 0")
+    kind: Literal["pin_follower"] = Field(description="Pin whose circle does not enclose the slot's axis: mean ratio 0")
 
     @model_validator(mode="after")
     def _leaves_out(self) -> PinFollower:
-        _refuse_unless_winding(self, 0)
+        _check_winding(self, 0)
         return self
 
 
-class _Uniform(_Coupling):
-    """What keeps two links parallel, so that both turn alike at every instant."""
+class _ParallelCoupling(_Coupling):
+    """Coupling that keeps two links parallel, so that both turn at the same speed at every instant."""
 
     @model_validator(mode="after")
-    def _has_no_friction(self) -> _Uniform:
+    def _has_no_friction(self) -> _ParallelCoupling:
         if self.friction is not None:
             raise PydanticCustomError(
                 "pin",
-                "friction of a {kind} coupling is not worked out",
-                {"kind": self.kind, "fix": "give the gear pair of its disc an `efficiency` that has it"},  # type: ignore[attr-defined]
+                "friction of a {kind} coupling is not modelled",
+                {"kind": self.kind, "fix": "declare its loss as the `efficiency` of the gear pair of its disc"},  # type: ignore[attr-defined]
             )
         for name in ("pin_radius", "offset", "pin_diameter"):
             length = getattr(self, name, None)
             if length is not None and length.value <= 0:
-                said = {"name": name, "text": length.text, "fix": "give it above 0"}
-                raise PydanticCustomError("pin", "{name} {text} is not a distance", said)
+                said = {"name": name, "text": length.text, "fix": "give a length above 0"}
+                raise PydanticCustomError("pin", "{name} {text} is not above 0", said)
         return self
 
     @property
     def transmission(self) -> None:
-        """None: the ratio at every instant is that of the means."""
+        """None, since the ratio at every instant is the mean ratio."""
         return None
 
 
-class PinsInHoles(_Uniform):
-    """Pins in round holes that keep two links parallel, as those of a cycloidal reducer.
+class PinsInHoles(_ParallelCoupling):
+    """Pins in round holes that keep two links parallel, as the output pins of a cycloidal reducer do.
 
-    Both turn alike at every instant about axes that are `offset` apart: holes are wider than their pins by twice that.
-    `slot` is the link with the holes, `pin_radius` the radius of the circle on which pins stand.
+    Both links turn at the same speed at every instant about axes that are `offset` apart. Holes are wider than their
+    pins by twice that distance. `slot` is the link with the holes, `pin_radius` the radius of the circle through the
+    pins' centres.
     """
 
-    kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at all times")
-    pins: Annotated[int, BeforeValidator(_whole)] = Field(
-        6, ge=3, le=1000, description="How many pins stand evenly on their circle"
+    kind: Literal["pins_in_holes"] = Field(description="Pins in round holes: ratio 1 at every instant")
+    pins: Annotated[int, BeforeValidator(_integer)] = Field(
+        6, ge=3, le=1000, description="Number of pins, evenly spaced on their circle"
     )
-    pin_diameter: Length | None = Field(None, description="Of the pins; that of the holes is greater by twice `offset`")
+    pin_diameter: Length | None = Field(
+        None, description="Diameter of the pins; the diameter of the holes is larger by twice `offset`"
+    )
 
 
-class Parallel(_Uniform):
-    """Whatever else keeps two links parallel: cranks side by side, a cross between two slots, a flexible wall.
+class Parallel(_ParallelCoupling):
+    """Any other coupling that keeps two links parallel: parallel cranks, an Oldham cross, a flexible wall.
 
-    Which of the two is the `pin` and which the `slot` does not matter. It is not drawn.
+    The links `pin` and `slot` are interchangeable. The coupling is not drawn.
     """
 
-    kind: Literal["parallel"] = Field(description="Cranks side by side, or a cross: ratio 1 at all times")
+    kind: Literal["parallel"] = Field(
+        description="Parallel cranks, an Oldham cross or the like: ratio 1 at every instant"
+    )
 
     @model_validator(mode="after")
     def _has_no_pin(self) -> Parallel:
         if self.pin_radius is not None or self.clearance is not None:
-            said = {"fix": "leave pin_radius and clearance out, or take `kind: pins_in_holes`"}
-            raise PydanticCustomError("pin", "what keeps two links parallel has no pin of its own", said)
+            said = {"fix": "remove `pin_radius` and `clearance`, or give `kind: pins_in_holes`"}
+            raise PydanticCustomError("pin", "a coupling of kind parallel has no pin", said)
         return self
 
 
@@ -158,18 +164,18 @@ Coupling = Annotated[PinAndSlot | PinFollower | PinsInHoles | Parallel, Field(di
 
 
 def winding_number(kind: str) -> int:
-    """Mean ratio slot over pin in the carrier's frame: 0 for a pin and follower, 1 for all others."""
+    """Return the mean ratio slot over pin in the carrier's frame: 0 for a pin and follower, 1 for all others."""
     return 0 if kind == "pin_follower" else 1
 
 
-def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
+def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
     radius, offset = coupling.pin_radius, coupling.offset
     if radius is None or offset is None:
         return
     if radius.value <= 0 or offset.value < 0:
         raise PydanticCustomError(
             "pin",
-            "pin_radius {radius} or offset {offset} is not a distance",
+            "pin_radius {radius} or offset {offset} is out of range",
             {
                 "radius": radius.text,
                 "offset": offset.text,
@@ -187,7 +193,10 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
         raise PydanticCustomError(
             "pin",
             "pin_radius {radius} equals the offset: the pin would pass through the slot's axis",
-            {"radius": radius.text, "fix": "make them differ: the mean motion is 1 above and 0 below"},
+            {
+                "radius": radius.text,
+                "fix": "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one",
+            },
         )
     if (r > e) != bool(winding):
         other = "pin_follower" if winding else "pin_and_slot"
@@ -199,17 +208,17 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
                 "radius": radius.text,
                 "offset": offset.text,
                 "other": other,
-                "fix": f"write kind: {other}, or correct the dimensions",
+                "fix": f"give `kind: {other}`, or correct the dimensions",
             },
         )
     slack = coupling.clearance
     if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
         raise PydanticCustomError(
             "pin",
-            "with a clearance of {clearance} the pin passes beside the slot's axis without touching the slot",
+            "with a clearance of {clearance} the pin passes the slot's axis without touching the slot",
             {
                 "clearance": slack.text,
-                "fix": "give less than twice the difference of pin_radius and offset",
+                "fix": "give a clearance below twice the difference of pin_radius and offset",
             },
         )
 
@@ -217,15 +226,16 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
 def pin_transmission(
     pin_radius: float, offset: float, friction: float = 0.0, driver: Literal["pin", "slot"] = "pin"
 ) -> PinTransmission:
-    """The law of a pin in a slot, whichever drives, `offset` being the distance of the two axes.
+    """Return the transmission function of a pin in a slot with either side driving.
 
-    Raises `RangeError` where it does not turn; its place is `driver` or `friction` where that one is to be changed.
+    `offset` is the distance of the two axes. Raise `RangeError` if the coupling cannot turn. The error's place is
+    `driver` or `friction` if that value is to be changed.
     """
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
     transmission = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(pin_radius, offset, friction)
     if friction >= transmission.locking_friction:
         what = f"a friction of {friction:g} locks the pin in its slot"
-        why = f"the pin locks from {transmission.locking_friction:.6g} on when the slot drives"
-        raise RangeError(Problem(what, why, "give less friction, or let the pin drive", "friction"))
+        why = f"a pin driven by its slot locks at a friction of {transmission.locking_friction:.6g} or more"
+        raise RangeError(Problem(what, why, "give a smaller friction, or let the pin drive", "friction"))
     return transmission

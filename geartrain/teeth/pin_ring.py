@@ -1,4 +1,4 @@
-"""Cycloidal reducers: a disc of lobes in a ring of round pins, one more than its lobes."""
+"""Cycloidal reducers: a lobed disc in a ring of round pins that has one pin more than the disc has lobes."""
 
 from __future__ import annotations
 
@@ -17,12 +17,25 @@ if TYPE_CHECKING:
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.pair_results import PairFigures
 
-_SHORTENING = 0.7  # pitch radius of the ring over that of the pins' circle, unless it is declared
-_CROWDED = 1.7  # distance of two pins over the diameter of one, unless that is declared
+_SHORTENING = 0.7  # default pitch radius of the ring over the radius of the pin circle
+_PIN_SPACING = 1.7  # default distance of two pins over the diameter of a pin
 
 
 class PinRing(ToothForm):
-    """A disc of lobes that rolls in a ring of round pins, one more than lobes: a cycloidal reducer's.
+    """Lobed disc of a cycloidal reducer in a ring of round pins, one pin more than lobes.
+
+    The ratio is exact at every instant, and half of all pins bear load. The module is twice the eccentricity, since the
+    centre of the disc is half a module from the centre of the ring (docs/reducers.md).
+
+    See Also
+    --------
+    geartrain.teeth.Lantern : pins on an external wheel.
+
+    Examples
+    --------
+    >>> disc = PinRing(form="pin_ring").disc(11)
+    >>> round(disc.circle, 3), round(disc.pin, 3), round(disc.maximum_load, 3)
+    (8.571, 1.305, 0.335)
 
     The ratio is exact at every instant, and half of all pins bear. The module is twice the eccentricity, for the disc's
     centre is half a module from that of the ring (docs/reducers.md).
@@ -40,50 +53,53 @@ class PinRing(ToothForm):
 
     ringed: ClassVar[bool] = True
 
-    form: Literal["pin_ring"] = Field(description="The name of this form")
+    form: Literal["pin_ring"] = Field(description="Name of the tooth form")
     pin_circle: Length | None = Field(
         None,
-        description="Radius of the circle on which pins stand, in modules or with a unit; default the ring's pitch "
-        "radius over 0.7",
+        description="Radius of the circle through the pins' centres, in modules or with a unit; default the ring's "
+        "pitch radius over 0.7",
     )
     pin_diameter: Length | None = Field(
-        None, description="Of the pins, in modules or with a unit; default the distance of two pins over 1.7"
+        None,
+        description="Diameter of the pins, in modules or with a unit; default the distance between two pins over 1.7, "
+        "or less if these would undercut the lobes",
     )
     clearance: Length = Field(
         "0",
         validate_default=True,
-        description="By how much the disc stands back from every pin, in modules or with a unit",
+        description="Distance by which the disc is set back from every pin, in modules or with a unit",
     )
     deflection: Length | None = Field(
         None,
-        description="By how much one pin would give way if it bore the whole force on the disc's pitch circle, in "
-        "modules or with a unit; it tells which pins a clearance leaves to bear. Default: half of all",
+        description="Deflection of one pin under the whole force on the disc's pitch circle, in modules or with a "
+        "unit; it determines the number of pins that bear load despite a clearance; default half of all pins bear "
+        "load",
     )
 
     @model_validator(mode="after")
-    def _lengths_are_lengths(self) -> PinRing:
+    def _check_lengths(self) -> PinRing:
         for name in ("pin_circle", "pin_diameter", "deflection"):
             length = getattr(self, name)
             if length is not None and length.value <= 0:
-                raise bad("length", f"{name} {length.text} is no length", "write it above 0")
+                raise bad("length", f"{name} {length.text} is not above 0", "give a length above 0")
         if self.clearance.value < 0:
-            raise bad("length", f"a clearance of {self.clearance.text} would jam the disc", "write 0 or more")
+            raise bad("length", f"a clearance of {self.clearance.text} would jam the disc", "give 0 or more")
         return self
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """With the loads of its pins."""
+        """Return the class of figures that includes the loads on the pins."""
         from geartrain.teeth.cycloidal_disc import DiscFigures
 
         return DiscFigures
 
     def disc(self, lobes: int, module: float | None = None) -> CycloidalDisc:
-        """The disc and its pins.
+        """Return the disc and its pins.
 
         Parameters
         ----------
         lobes : int
-            Of the disc, 3 or more.
+            Number of lobes of the disc, 3 or more.
         module : float, optional
             Module [m], for lengths with a unit.
 
@@ -95,23 +111,28 @@ class PinRing(ToothForm):
         Raises
         ------
         GearTrainError
-            Where these sizes give no disc.
+            If these sizes do not give a disc.
         """
         from geartrain.teeth.cycloidal_disc import CycloidalDisc
 
         pins = lobes + 1
         if lobes < 3:
-            raise refused(f"a disc of {lobes} lobes", "so few leave no pins that press", "give 3 lobes or more")
+            raise refused(
+                f"a disc of {lobes} lobes cannot run",
+                "with fewer lobes too few pins press on the disc",
+                "give 3 lobes or more",
+            )
         circle = pins / 2 / _SHORTENING if self.pin_circle is None else self._modules("pin_circle", module)
         if circle <= pins / 2:
             raise refused(
-                f"pins at {circle:.6g} modules from the axis stand on the pitch circle or within it",
-                f"its radius is {pins / 2:.6g} modules, and the path of a pin would have loops",
-                "give a greater pin_circle, or a smaller module (twice the eccentricity)",
+                f"pins at {circle:.6g} modules from the axis are on or inside the pitch circle",
+                f"its radius is {pins / 2:.6g} modules, and the path of a pin would have cusps or loops",
+                "give a larger pin_circle, or a smaller module (twice the eccentricity)",
             )
         apart = 2 * circle * sin(pi / pins)
         found = CycloidalDisc(lobes, circle, 0.0)
-        usual = min(apart / _CROWDED / 2, 0.9 * found.sharpest)
+        # a margin of 10 % keeps the default pins from undercutting the lobes
+        usual = min(apart / _PIN_SPACING / 2, 0.9 * found.sharpest)
         pin = usual if self.pin_diameter is None else self._modules("pin_diameter", module) / 2
         if 2 * pin >= apart:
             raise refused(
@@ -123,8 +144,8 @@ class PinRing(ToothForm):
         if pin + back >= found.sharpest:
             raise refused(
                 f"pins of {2 * pin:.6g} modules undercut the lobes",
-                f"the path of their centres is bent to a radius of {found.sharpest:.6g} modules",
-                f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a greater pin_circle",
+                f"the path of their centres has a minimum radius of curvature of {found.sharpest:.6g} modules",
+                f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a larger pin_circle",
             )
         yielding = None if self.deflection is None else self._modules("deflection", module)
         return CycloidalDisc(lobes, circle, pin, back, yielding)
@@ -135,94 +156,100 @@ class PinRing(ToothForm):
             return float(length.value)
         if module is None:
             raise refused(
-                f"the {name} {length.text} has nothing to be compared with",
+                f"the {name} {length.text} cannot be converted to modules",
                 "the wheels declare no module with a unit",
-                f"give the `module` of both wheels, or the {name} as a plain number of modules",
+                f"declare the `module` of both wheels with a unit, or give the {name} as a number of modules",
             )
         return length.si / module
 
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, module: float | None = None
     ) -> DiscTransmission:
-        """The transmission function of a pair.
+        """Return the transmission function of a pair.
 
         Parameters
         ----------
         z1, z2 : int
-            Lobes of the disc, and pins of the ring: one more.
+            Number of lobes of the disc, and number of pins of the ring, which is one more.
         friction : float
-            Coefficient of friction, 0 or more: of pins that do not roll.
+            Coefficient of friction of pins that do not roll, 0 or more.
         driver : {1, 2}
-            Which wheel drives, seen from the eccentric.
+            Number of the driving wheel in the frame of the eccentric.
         module : float, optional
             Module [m], for lengths with a unit.
 
         Returns
         -------
         DiscTransmission
-            Exact at every instant.
+            Exact ratio at every instant.
 
         Raises
         ------
         GearTrainError
-            Where these sizes give no disc.
+            If these sizes do not give a disc.
         """
         from geartrain.teeth.cycloidal_disc import DiscTransmission
 
         if z2 != z1 + 1:
             raise refused(
                 f"a disc of {z1} lobes does not roll in {z2} pins",
-                "these lobes reach round one pin each, so that a turn of the eccentric moves the disc on by one",
+                "the ring has one pin more than the disc has lobes: a turn of the eccentric moves the disc by one pin",
                 f"give the ring {z1 + 1} pins",
             )
         return DiscTransmission(self.disc(z1, module), friction, driver)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a disc and its ring, whichever the pair names first.
+        """Return the mesh of a disc and its ring, in either order.
 
         Returns
         -------
         GearMesh
-            What a train asks of the pair.
+            The pair as a train uses it.
         """
         from geartrain.teeth.cycloidal_disc import DiscMesh
 
         del shaft_angle
         if set(wheels.kinds) != {"spur"} or sum(wheels.internal) != 1:
-            why = "the disc is an external wheel and its ring an internal one, on parallel axes"
-            raise refused("it cannot have a ring of pins", why, f"write `internal: true` for the ring, or {IDEAL}")
+            why = "the disc is an external spur wheel and its ring an internal one"
+            raise refused(
+                "these wheels are not a disc and a ring", why, f"declare `internal: true` for the ring, or {IDEAL}"
+            )
         first = 2 if wheels.internal[0] else 1
         z1, z2 = wheels.counts[:: 3 - 2 * first]
         transmission = self.transmission(z1, z2, wheels.friction or 0.0, first, wheels.module)
         return DiscMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Why a maker's play does not hold for this pair: declared clearance wins.
+        """Return the reason why a requested backlash cannot be applied to this pair.
+
+        A declared clearance takes precedence over the backlash of the manufacturing options.
 
         Returns
         -------
         Problem or None
-            None where none is declared.
+            None if no clearance is declared.
         """
         if not self.clearance.value:
             return None
-        why = f"it declares a clearance of {self.clearance.text}, and what is declared wins"
+        why = f"the declared clearance of {self.clearance.text} takes precedence over --backlash"
         return Problem(
-            f"pair '{pair}' has a clearance of its own", why, "leave --backlash out, or take it out of the file"
+            f"pair '{pair}' has a clearance of its own",
+            why,
+            "omit --backlash, or remove `clearance` from the file",
         )
 
     def thinned(self, backlash: Quantity) -> PinRing:
-        """The same disc, so far back from its pins that it has this play.
+        """Return the same disc with the clearance from its pins that gives this backlash.
 
         Parameters
         ----------
         backlash : Quantity
-            On the pitch circle, in modules or with a unit.
+            Backlash on the pitch circle, in modules or with a unit.
 
         Returns
         -------
         PinRing
-            A copy.
+            A copy with this `clearance`.
         """
         half = f"{float(backlash.value) / 2!r} {backlash.unit or ''}".strip()
         return self.model_copy(update={"clearance": Quantity.parse(half, "length", plain=True)})

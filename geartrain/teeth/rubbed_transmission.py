@@ -19,15 +19,15 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.meshing_wheels import MeshingWheels
 
-_GAUSS = np.polynomial.legendre.leggauss(16)
-_ROUNDING = 1e-12  # of a period: what the integral over a stretch may be off by
-_DEEPEST = 40  # halvings: a coefficient may fall within a speed that is a small part of what the teeth slide at
-_END = 1e-9  # of a stretch: how near to its ends the least efficiency is looked for
-_NARROW = 1e-13  # of a period: a stretch that is none
+_GAUSS = np.polynomial.legendre.leggauss(16)  # nodes and weights on [-1, 1]
+_ROUNDING = 1e-12  # periods: tolerance of the integral over an interval
+_MAXIMUM_DEPTH = 40  # bisections: a coefficient may fall within a small fraction of the sliding speeds
+_END = 1e-9  # of an interval: distance from its ends at which the efficiency is evaluated for its minimum
+_NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 
 
 class _Nodes(NamedTuple):
-    """Driver angles, their weights in an integral, and at each efficiency and mean coefficient of friction."""
+    """Quadrature nodes: driver angles, weights, and efficiency and mean coefficient of friction at each."""
 
     S: Floats
     weights: Floats
@@ -36,17 +36,18 @@ class _Nodes(NamedTuple):
 
 
 class RubbedTransmission(DerivedTransmission):
-    """A law with friction that depends on speed: its motion is the law's own, its losses those of each contact.
+    """Transmission function with friction that depends on speed.
 
-    At a driver angle where teeth slide at v the coefficient is mu(v), and a contact passes (1 + mu out) / (1 + mu into)
-    of its power (docs/shapes.md, section 15); contacts at once take equal shares of the driver's torque.
+    The motion is that of the given transmission function. Losses are computed at each contact: at a driver angle at
+    which teeth slide at the speed v, the coefficient is mu(v), and a contact transmits (1 + mu out) / (1 + mu into) of
+    its power (docs/shapes.md, section 15). Simultaneous contacts take equal shares of the driver's torque.
 
     Parameters
     ----------
     transmission : TransmissionFunction
-        Of the pair, whatever its own friction.
+        Transmission function of the pair. Its own friction is ignored.
     by : PairFriction
-        The friction, and the speed of the pitch line.
+        Friction law and pitch-line speed.
 
     Examples
     --------
@@ -64,25 +65,25 @@ class RubbedTransmission(DerivedTransmission):
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """The law's own."""
+        """Return the transmission error of the underlying transmission function."""
         return self.transmission.error(S)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """The law's own."""
+        """Return the speed ratio of the underlying transmission function."""
         return self.transmission.speed(S)
 
     def reversed_motion(self) -> RubbedTransmission:
-        """The law of the other flanks, rubbed by the same friction."""
+        """Return the transmission function of the coast flanks with the same friction."""
         return RubbedTransmission(self.transmission.reversed_motion(), self.by)
 
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """The law's own."""
+        """Return the sliding of the underlying transmission function."""
         return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
-        """Coefficient of friction at each contact; NaN where there is none.
+        """Return the coefficient of friction at each contact; NaN for no contact.
 
         Parameters
         ----------
@@ -92,16 +93,22 @@ class RubbedTransmission(DerivedTransmission):
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Power out over power in at driver angles S (rad); NaN where nothing touches or friction locks."""
-        return self._passed(self.rubbing(S))[0]
+        """Return power out over power in at driver angles S (rad); NaN where teeth are not in contact or friction
+        locks.
+        """
+        return self._contact_means(self.rubbing(S))[0]
 
-    def _passed(self, rubbing: ContactRubbing) -> tuple[Floats, Floats]:
-        """Mean efficiency and coefficient of contacts at once; NaN where there is none, the first where one locks."""
+    def _contact_means(self, rubbing: ContactRubbing) -> tuple[Floats, Floats]:
+        """Return mean efficiency and mean coefficient of simultaneous contacts.
+
+        Both are NaN without a contact. The efficiency is NaN if one of the contacts locks.
+        """
         sliding, into, out = rubbing
         mu = self.by(sliding)
         touching = ~np.isnan(out)
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + mu * into, 1 + mu * out
+            # a factor of 0 or less means that friction absorbs all power of the contact
             each = np.where(touching, np.where((out > 0) & (into > 0), out / into, nan), 0.0)
             count = touching.sum(axis=0)
             return each.sum(axis=0) / count, np.where(touching, mu, 0.0).sum(axis=0) / count
@@ -109,80 +116,93 @@ class RubbedTransmission(DerivedTransmission):
     @property
     def friction(self) -> float:  # type: ignore[override]
         """Mean coefficient over the driver's angle and the contacts."""
-        return float(self._sampled.weights @ self._sampled.coefficient)
+        return float(self._period_nodes.weights @ self._period_nodes.coefficient)
 
     @property
     def locks(self) -> bool:
-        """True if the coefficient of the moment locks the pair at some driver angle."""
-        return self.transmission.locking_friction < inf and bool(np.isnan(self._sampled.efficiency).any())
+        """True if the coefficient of friction locks the pair at some driver angle."""
+        return self.transmission.locking_friction < inf and bool(np.isnan(self._period_nodes.efficiency).any())
 
     @cached_property
-    def _stretches(self) -> list[tuple[float, float]]:
-        """The smooth stretches of one period, in driver angle."""
+    def _smooth_intervals(self) -> list[tuple[float, float]]:
+        """Intervals of driver angle [rad] in one period on which the transmission function is smooth."""
         cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
     @cached_property
-    def _sampled(self) -> _Nodes:
-        """Nodes of a whole period where teeth touch, with weights whose sum is 1."""
+    def _period_nodes(self) -> _Nodes:
+        """Nodes of a whole period at which teeth are in contact, with weights whose sum is 1."""
         if (given := self.transmission.rubbing_nodes()) is not None:
             S, weights, rubbing = given
-            parts = [_Nodes(S, weights, *self._passed(rubbing))]
+            parts = [_Nodes(S, weights, *self._contact_means(rubbing))]
         else:
-            parts = [part for low, high in self._stretches for part in self._graded(self._nodes(low, high), low, high)]
+            parts = [
+                part
+                for low, high in self._smooth_intervals
+                for part in self._adaptive_nodes(self._nodes(low, high), low, high)
+            ]
         S, weights, efficiency, coefficient = (np.concatenate(column) for column in zip(*parts, strict=True))
         touching = ~np.isnan(coefficient)
         weights = weights[touching]
         return _Nodes(S[touching], weights / weights.sum(), efficiency[touching], coefficient[touching])
 
-    def _graded(self, whole: _Nodes, low: float, high: float, depth: int = 0) -> Iterator[_Nodes]:
-        """Nodes on one stretch, halved until the power put in for a constant load is integrated to rounding."""
+    def _adaptive_nodes(self, whole: _Nodes, low: float, high: float, depth: int = 0) -> Iterator[_Nodes]:
+        """Yield nodes on one interval by adaptive Gauss-Legendre quadrature.
+
+        The interval is bisected until the work put in for a constant load is integrated to rounding error.
+        """
         middle = (low + high) / 2
         ends = ((low, middle), (middle, high))
         halves = [self._nodes(*each) for each in ends]
         off = sum(half.weights @ (1 / half.efficiency) for half in halves) - whole.weights @ (1 / whole.efficiency)
-        # NaN where it stands or locks: no finer nodes would tell more
-        if not abs(off) > _ROUNDING * self.period or depth == _DEEPEST:
+        # NaN at a dwell or where friction locks, which finer nodes do not change
+        if not abs(off) > _ROUNDING * self.period or depth == _MAXIMUM_DEPTH:
             yield from halves
             return
         for half, each in zip(halves, ends, strict=True):
-            yield from self._graded(half, *each, depth + 1)
+            yield from self._adaptive_nodes(half, *each, depth + 1)
 
     def _nodes(self, low: float, high: float) -> _Nodes:
         x, w = _GAUSS
         S = (low + high) / 2 + (high - low) / 2 * x
-        return _Nodes(S, (high - low) / 2 * w, *self._passed(self.rubbing(S)))
+        return _Nodes(S, (high - low) / 2 * w, *self._contact_means(self.rubbing(S)))
 
     def efficiency_mean(self) -> float:
-        """Mean over the driver's angle in contact at constant driver torque; NaN where friction locks."""
-        return nan if self.locks else float(self._sampled.weights @ self._sampled.efficiency)
+        """Return the mean efficiency over the driver's angle in contact, at constant driver torque; NaN if friction
+        locks.
+        """
+        return nan if self.locks else float(self._period_nodes.weights @ self._period_nodes.efficiency)
 
     def efficiency_at_constant_load(self) -> float:
-        """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
+        """Return the work done on a constant load torque over the work put in, per pitch; NaN if friction locks."""
         if self.locks:
             return nan
-        speed, at = self.speed(self._sampled.S), self._sampled
+        speed, at = self.speed(self._period_nodes.S), self._period_nodes
         return float((at.weights @ speed) / (at.weights @ (speed / at.efficiency)))
 
     def efficiency_minimum(self) -> float:
-        """Least efficiency among the nodes of all stretches and at their ends; NaN where friction locks."""
+        """Return the minimum efficiency at the nodes and the ends of all smooth intervals; NaN if friction locks."""
         if self.locks:
             return nan
         if self.transmission.rubbing_nodes() is not None:
-            return float(self._sampled.efficiency.min())
-        # at an end itself another pair of teeth may be in contact, or the other side of the pitch point
-        ends = np.array([low + share * (high - low) for low, high in self._stretches for share in (_END, 1 - _END)])
-        return float(min(np.nanmin(self.efficiency(ends)), self._sampled.efficiency.min()))
+            return float(self._period_nodes.efficiency.min())
+        # at the end itself another tooth pair may be in contact, or the contact be on the other side of the pitch point
+        ends = np.array(
+            [low + share * (high - low) for low, high in self._smooth_intervals for share in (_END, 1 - _END)]
+        )
+        return float(min(np.nanmin(self.efficiency(ends)), self._period_nodes.efficiency.min()))
 
 
 def rubbed(transmission: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
-    """The law of a pair with the friction that its wheels declare, where that depends on speed; else as it is."""
+    """Return the transmission function with the declared friction of its wheels if that depends on speed, else
+    unchanged.
+    """
     by = pair_friction(wheels)
     return transmission if by is None else RubbedTransmission(transmission, by)
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
-    """The law of friction of a pair at its speed; None where friction is a number, or no speed is known."""
+    """Return the friction law of a pair at its pitch-line speed; None if friction is a number or no speed is known."""
     declared, at = wheels.friction_law, wheels.pitch_line
     return None if declared is None or at is None else PairFriction(declared, at)

@@ -1,6 +1,6 @@
-"""Standard teeth where none are declared: involutes without shift, as tall as run with every mate.
+"""Standard teeth for pairs that declare none: involutes without profile shift, as tall as they run with every mate.
 
-What is drawn, what turns on the screen, what is kept free in a layout and what is cut all come from here.
+Drawings, the viewer, layouts and exports of wheels all take their teeth from here.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.involute import Involute
 
-ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: those of the tallest, and the depth of all
-BACKLASH = 0.05  # modules, of a pair of such wheels as they are cut where nothing else is said
-_ANGLES = (20, 25, 30, 32)  # deg: the flattest at which all wheels that are connected run is taken
-_ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the tallest that run are taken
+ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: maximum addendum, and dedendum of all wheels
+BACKLASH = 0.05  # modules: default backlash of a pair of such wheels when they are cut
+_ANGLES = (20, 25, 30, 32)  # deg: the smallest at which all connected wheels run is used
+_ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the largest with which a pair runs is used
 MOST_TEETH = 10_000
 
 
 @dataclass(frozen=True, slots=True)
 class UndeclaredWheel:
-    """A wheel that declares no teeth: its tooth number, and whether it is a ring."""
+    """Wheel that declares no tooth form: its tooth number, and whether it is a ring."""
 
     z: int
     internal: bool = False
@@ -31,22 +31,23 @@ class UndeclaredWheel:
 
 @dataclass(frozen=True, slots=True)
 class StandardTeeth:
-    """Standard teeth of a wheel: pressure angle (deg) and addendum (modules)."""
+    """Standard teeth of a wheel: pressure angle [deg] and addendum [module]."""
 
     angle: int
     addendum: float
 
     @property
     def words(self) -> str:
-        """What they are."""
+        """Description of the teeth in prose."""
         return f"involute, {self.angle} degrees (no form is declared)"
 
 
 def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[str, str]]) -> dict[str, StandardTeeth]:
-    """The teeth of all wheels: of those that are connected by `pairs` the same pressure angle, of each its addendum.
+    """Return the standard teeth of all wheels by name.
 
-    A wheel is as tall as it runs with the worst of its mates. Where no pressure angle lets all run, 20 degrees is kept,
-    and the pair that does not run says why.
+    Wheels that are connected by `pairs` have the same pressure angle, and each has the largest addendum with which it
+    runs with all its mates. If no pressure angle lets all pairs run, 20 degrees is used, and the verdict on a pair that
+    does not run gives the reason.
     """
     mates: dict[str, list[str]] = {name: [] for name in gears}
     for first, second in pairs:
@@ -55,14 +56,14 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
     found: dict[str, StandardTeeth] = {}
     for name in gears:
         if name not in found:
-            group = _hanging_together(name, mates)
+            group = _connected(name, mates)
             designs = (_design(group, gears, mates, angle) for angle in _ANGLES)
             runs = next((design for design in designs if design is not None), None)
             found |= runs or {each: StandardTeeth(_ANGLES[0], ADDENDUM) for each in group}
     return found
 
 
-def _hanging_together(first: str, mates: Mapping[str, list[str]]) -> list[str]:
+def _connected(first: str, mates: Mapping[str, list[str]]) -> list[str]:
     known, waiting = {first: None}, [first]
     while waiting:
         for mate in mates[waiting.pop()]:
@@ -75,14 +76,16 @@ def _hanging_together(first: str, mates: Mapping[str, list[str]]) -> list[str]:
 def _design(
     group: Iterable[str], gears: Mapping[str, UndeclaredWheel], mates: Mapping[str, list[str]], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """The teeth of wheels that are connected; None if at this pressure angle some pair of them does not run."""
+    """Return the teeth of connected wheels; None if at this pressure angle some pair of them does not run."""
     addenda: dict[str, float] = {}
+    # each pair once, whichever of its wheels is visited first
     edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
     for name in group:
-        heights = [_tallest(*_turned(gears[name], gears[mate]), angle) for mate in mates[name]]
+        heights = [_tallest(*_ring_last(gears[name], gears[mate]), angle) for mate in mates[name]]
         if None in heights:
             return None
         addenda[name] = min((height for height in heights if height is not None), default=ADDENDUM)
+    # each addendum is the minimum over all mates of a wheel, so that pairs must be checked with both addenda
     for first, second in edges:
         own, mate = (first, second) if not gears[first].internal else (second, first)
         if not _runs(gears[own], gears[mate], angle, addenda[own], addenda[mate]):
@@ -90,16 +93,17 @@ def _design(
     return {name: StandardTeeth(angle, addendum) for name, addendum in addenda.items()}
 
 
-def _turned(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
-    """The two wheels of a pair, a ring last."""
+def _ring_last(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
+    """Return the two wheels of a pair, a ring last."""
     return (second, first) if first.internal else (first, second)
 
 
 def _tallest(first: UndeclaredWheel, second: UndeclaredWheel, angle: int) -> float | None:
-    """The tallest teeth with which a pair runs."""
+    """Return the largest addendum (modules) with which a pair runs; None if it runs with none."""
     return next((height for height in _ADDENDA if _runs(first, second, angle, height, height)), None)
 
 
+# pairs with equal tooth numbers recur in a train and in a search
 @lru_cache(maxsize=65536)
 def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda: float) -> bool:
     try:
@@ -111,20 +115,23 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """A mate for a wheel that meshes with none: an equal one, or a pinion half as large as a ring."""
+    """Return a mate for a wheel that meshes with none: an equal wheel, or for a ring a pinion of half its teeth."""
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 
 def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) -> Involute:
-    """The form of a pair of standard wheels with some play (modules); both have one pressure angle."""
+    """Return the form of a pair of standard wheels with some backlash (modules). Both have the same pressure angle."""
     return _form(first.angle, first.addendum, second.addendum, backlash)
 
 
 def check_size(z: int) -> None:
-    """Raise `GearTrainError` for a wheel of more teeth than are ever cut."""
+    """Raise `GearTrainError` for a wheel of more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
-        what, why = f"a wheel of {z} teeth is not cut tooth by tooth", f"a wheel has {MOST_TEETH} at most"
-        raise GearTrainError(Problem(what, why, "take a disc for a likeness"))
+        what, why = (
+            f"the teeth of a wheel of {z} are not modelled",
+            f"wheels of at most {MOST_TEETH} teeth are modelled",
+        )
+        raise GearTrainError(Problem(what, why, "use a plain disc to represent it"))
 
 
 @lru_cache(maxsize=4096)

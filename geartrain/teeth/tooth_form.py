@@ -1,4 +1,4 @@
-"""The base class of tooth forms, which makes a gear mesh of two wheels; and the field types that forms declare."""
+"""Base class of tooth forms, which makes a gear mesh of two wheels, and the field types that forms declare."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 IDEAL = "give this pair `tooth_form: {form: ideal}`"
 
 ShaftAngle = Callable[[], float | None]
-"""The angle (rad) under which the axes of a pair meet; None where they are parallel."""
+"""Function that returns the shaft angle of a pair [rad], or None for parallel axes."""
 
 
 def twice(raw: object) -> object:
-    """One value for both wheels, or the two as they are."""
+    """Return one value as a pair for both wheels, and a pair unchanged."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
@@ -35,47 +35,52 @@ def _schema(kind: str) -> WithJsonSchema:
 
 
 TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(twice), _schema("number")]
-"""One number for both, or a list of two."""
+"""Field type: one number for both wheels, or a list of two."""
 
 TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("length")]
-"""One length for both, or a list of two; plain numbers are modules."""
+"""Field type: one length for both wheels, or a list of two; plain numbers are modules."""
 
 
 class ToothForm(BaseModel, ABC):
-    """The teeth of a gear pair as declared: what makes a mesh of two wheels, whatever the form.
+    """Tooth form of a gear pair as declared. Its method `mesh` makes a mesh of two wheels.
 
     See Also
     --------
-    geartrain.teeth.GearMesh : what it makes.
+    geartrain.teeth.GearMesh : the mesh.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     any_distance: ClassVar[bool] = False
-    """True for teeth that run at any centre distance, not at that of their design only."""
+    """True for teeth that run at any centre distance, not only at the one of their design."""
 
     conjugate: ClassVar[bool] = False
-    """True for teeth designed by a path of contact: for rings and cones too, their roots left to who cuts them."""
+    """True for teeth designed by a path of contact, which are possible for rings and bevel wheels too.
+
+    Their form does not prescribe the roots.
+    """
 
     more_contact: ClassVar[str] = "declare longer `arcs`"
-    """What raises the contact ratio of conjugate teeth, as a fix."""
+    """Fix that raises the contact ratio of conjugate teeth."""
 
     ringed: ClassVar[bool] = False
     """True for teeth whose second wheel is a ring."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
-    """Fields that say nothing of a shape: how teeth of this form yield in trains that move in time."""
+    """Fields that do not describe a shape: stiffness and damping of the teeth in dynamic simulations."""
 
     if TYPE_CHECKING:
         form: str
 
     stiffness: PairStiffness | None = Field(
         None,
-        description="Of teeth in mesh, where their pair has none of its own: torque on the driven wheel for each "
-        "radian that it yields, or force along the line of action for each length",
+        description="Mesh stiffness of pairs that declare none: torque on the driven wheel per radian of deflection, "
+        "or force along the line of action per length",
     )
     damping: PairDamping | None = Field(
-        None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length"
+        None,
+        description="Mesh damping of pairs that declare none: torque on the driven wheel per angular speed, or force "
+        "along the line of action per speed",
     )
 
     def __repr__(self) -> str:
@@ -84,59 +89,59 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def declared(cls, parameters: Mapping[str, object]) -> Self:
-        """The form with these parameters.
+        """Return the form with these parameters.
 
         Parameters
         ----------
         parameters : mapping
-            As a declaration writes them, without `form`.
+            Parameters as a declaration writes them, without `form`.
 
         Raises
         ------
         GearTrainError
-            For parameters that make no form, its place the name of the one at fault where it is one alone.
+            For invalid parameters. Its place is the name of the parameter if only one is at fault.
         """
         (form,) = get_args(cls.model_fields["form"].annotation)
         try:
             return cls.model_validate({"form": form, **parameters})
         except ValidationError as error:
-            # one value given for both wheels would be complained of twice
+            # one invalid value given for both wheels is reported once
             raise GearTrainError(dict.fromkeys(map(cls._problem, error.errors(include_url=False)))) from None
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """What pydantic complains of, with what to do where the form says so."""
+        """Return the problem of a validation error of pydantic, with the fix that the form gives, if any."""
         context = item.get("ctx") or {}
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
-        what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
+        what = item["msg"] if "fix" in context else f"'{item['input']}' is not a valid value"
         return Problem(what, "", str(context.get("fix", "")), str(place))
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Return parameters with defaults for those that a declaration of the form must have.
+        """Return parameters with defaults for those that a declaration of the form requires.
 
         Parameters
         ----------
         parameters : mapping
-            As a declaration writes them, without `form`.
+            Parameters as a declaration writes them, without `form`.
         """
         return dict(parameters)
 
     @property
     def words(self) -> str:
-        """The name of the form as prose has it."""
+        """Name of the form in prose."""
         return self.form.replace("_", " ")
 
     @abstractmethod
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh | None:
-        """The mesh of a gear pair, its first wheel driving.
+        """Return the mesh of a gear pair, its first wheel driving.
 
         Parameters
         ----------
         wheels : MeshingWheels
             The two wheels as declared.
         shaft_angle : callable
-            Gives the angle of the axes [rad], None where they are parallel; called only where the form needs it.
+            Returns the shaft angle [rad], None for parallel axes. It is called only if the form needs it.
 
         Returns
         -------
@@ -146,28 +151,28 @@ class ToothForm(BaseModel, ABC):
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, without naming pair or place.
+            If these wheels cannot have such teeth. The error does not name the pair or its place.
         """
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """The class of what a mesh of this form tells of itself, from which the schema of answers is read."""
+        """Return the class of the figures that a mesh of this form reports, from which the JSON schema is generated."""
         from geartrain.teeth.pair_results import PairFigures
 
         return PairFigures
 
     @property
     def has_lengths(self) -> bool:
-        """True for teeth declared in units of length, where others are so many modules."""
+        """True for teeth declared in units of length, False for teeth declared in modules."""
         return False
 
     @property
     def rack_angle(self) -> float | None:
-        """Pressure angle (rad) of the rack that cuts these teeth; None where no rack does."""
+        """Pressure angle of the rack that cuts these teeth [rad]; None if no rack does."""
         return None
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Why a maker's play does not hold for this pair.
+        """Return the reason why a requested backlash cannot be applied to this pair.
 
         Parameters
         ----------
@@ -177,33 +182,33 @@ class ToothForm(BaseModel, ABC):
         Returns
         -------
         Problem or None
-            None where it does hold.
+            None if the backlash can be applied.
         """
         del pair
         return None
 
     def thinned(self, backlash: Quantity) -> Self:
-        """The form with this much play; itself where it has no play to declare.
+        """Return the form with this backlash, or the form unchanged if it has no parameter for backlash.
 
         Parameters
         ----------
         backlash : Quantity
-            On the pitch circle, in modules or with a unit.
+            Backlash on the pitch circle, in modules or with a unit.
 
         Returns
         -------
         ToothForm
-            A copy.
+            A copy with this backlash.
         """
         del backlash
         return self
 
 
 def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
-    """An error of a declaration, with what to do."""
+    """Return a validation error of a declaration with its fix."""
     return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
 
 
 def refused(what: str, why: str, fix: str) -> GearTrainError:
-    """A pair that a form does not give."""
+    """Return the error for a pair that a tooth form cannot make."""
     return GearTrainError(Problem(what, why, fix))

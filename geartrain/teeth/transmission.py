@@ -1,8 +1,8 @@
 """Transmission functions of pairs: the interface of every tooth form and pin, the exact ratio, and derived functions.
 
-Angles are forward angles: S of the driver and q of the driven side both grow as the pair turns forward, and S = 0 has a
-driver's tooth on the line of centres (a pin: pointing at the other axis). The sign that an external mesh gives to the
-driven speed belongs to the train, not to these functions.
+Angles are forward angles: S of the driver and q of the driven side both increase as the pair turns forwards. At S = 0 a
+tooth of the driver is on the line of centres (a pin points at the other axis). The sign that an external mesh gives to
+the driven speed belongs to the train, not to these functions.
 """
 
 from __future__ import annotations
@@ -23,59 +23,69 @@ if TYPE_CHECKING:
 
 
 def check_friction(friction: float) -> float:
-    """A coefficient of friction. Raises `RangeError` below 0 and for infinity and NaN."""
+    """Return a coefficient of friction after checking it.
+
+    Raise `RangeError` if it is negative, infinite or NaN.
+    """
     if not 0 <= friction < inf:
-        raise RangeError(Problem(f"a friction of {friction:g}", "it would push", "give 0 or more, such as 0.1"))
+        raise RangeError(
+            Problem(
+                f"a friction of {friction:g} is out of range",
+                "a coefficient of friction is finite and not negative",
+                "give 0 or more, such as 0.1",
+            )
+        )
     return friction
 
 
 class SpeedLeap(NamedTuple):
-    """A collision of teeth: the speed ratio before it, and the greater one after."""
+    """Jump of the speed ratio at a collision of teeth: the ratio before it, and the larger ratio after it."""
 
     before: float
     after: float
 
     @property
     def size(self) -> float:
-        """By how much it leaps."""
+        """Increase of the speed ratio."""
         return self.after - self.before
 
 
 class ContactRubbing(NamedTuple):
-    """How the teeth of a pair rub at some driver angles: arrays of one row for each contact; NaN where none is."""
+    """Sliding of the teeth of a pair at some driver angles: arrays with one row for each contact, NaN for no contact.
+
+    The efficiency of a contact with a coefficient of friction f is (1 + f out) / (1 + f into).
+    """
 
     sliding: Floats
-    """Speed of sliding over that of the pitch line, 0 or more."""
+    """Sliding speed over pitch-line speed, 0 or more."""
     into: Floats
-    """What a unit of friction adds to the power that enters at a contact, and to that which leaves it, over both
-    without friction: the efficiency of a contact is (1 + f out) / (1 + f into)."""
+    """Power added per unit of friction to the power that enters a contact, over the power without friction."""
     out: Floats
-    """What a unit of friction adds to the power that enters at a contact, and to that which leaves it, over both
-    without friction: the efficiency of a contact is (1 + f out) / (1 + f into)."""
+    """Power added per unit of friction to the power that leaves a contact, over the power without friction."""
 
 
 class TransmissionFunction(Shown, ABC):
     """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle S.
 
-    The transmission error is q - ratio S, positive where the driven side is ahead of uniform motion. Its mean, a lag
-    that depends on where angles are counted from, is left in the error and out of its rms.
+    The transmission error is q - ratio S, positive if the driven side is ahead of uniform motion. Its mean is a
+    constant lag that depends on the zero of the angles. It is included in the error, but not in the rms.
 
     Attributes
     ----------
     ratio : Fraction
         Exact mean of the speed ratio, driven over driver, without sign.
     period : float
-        Driver's angle after which the law repeats [rad].
+        Period of the transmission function [rad of the driver].
     friction : float
         Coefficient of friction, 0 or more.
 
     See Also
     --------
-    geartrain.teeth.GearMesh : a pair with such a law; every tooth form has a method `transmission`.
+    geartrain.teeth.GearMesh : a pair with a transmission function; every tooth form has a method `transmission`.
 
     Examples
     --------
-    A pin at 2 from its axis in a slot whose axis is 1 away: its greatest error is asin(1/2).
+    A pin at 2 from its axis in a slot whose axis is 1 away has the maximum error asin(1/2).
 
     >>> from math import degrees, pi
     >>> from geartrain.teeth import PinToSlotTransmission
@@ -95,7 +105,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission error q - ratio S.
+        """Return the transmission error q - ratio S.
 
         Parameters
         ----------
@@ -105,12 +115,12 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ndarray
-            Of that shape [rad of the driven side].
+            Transmission error [rad of the driven side], of the shape of S.
         """
 
     @abstractmethod
     def speed(self, S: ArrayLike) -> Floats:
-        """Instantaneous speed ratio dq/dS.
+        """Return the instantaneous speed ratio dq/dS.
 
         Parameters
         ----------
@@ -120,12 +130,12 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ndarray
-            Of that shape.
+            Speed ratio, of the shape of S.
         """
 
     @abstractmethod
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Power out over power in.
+        """Return power out over power in.
 
         Parameters
         ----------
@@ -135,36 +145,36 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ndarray
-            Of that shape, 0 to 1; NaN where nothing is in contact.
+            Efficiency, 0 to 1, of the shape of S; NaN where teeth are not in contact.
         """
 
     @abstractmethod
     def speed_range(self) -> tuple[float, float]:
-        """Least and greatest speed ratio."""
+        """Return the minimum and maximum speed ratio."""
 
     @abstractmethod
     def error_range(self) -> tuple[float, float]:
-        """Least and greatest transmission error (rad of the driven side)."""
+        """Return the minimum and maximum transmission error (rad of the driven side)."""
 
     @abstractmethod
     def error_moments(self) -> tuple[float, float]:
-        """Mean of the transmission error, and its rms about that mean (rad of the driven side)."""
+        """Return the mean of the transmission error, and its rms about that mean (rad of the driven side)."""
 
     @abstractmethod
     def efficiency_mean(self) -> float:
-        """Mean efficiency over the driver's angle, at constant driver torque."""
+        """Return the mean efficiency over the driver's angle, at constant driver torque."""
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
-        """Work done on a constant torque of the driven side over the work put in; NaN where friction locks."""
+        """Return the work done on a constant torque of the driven side over the work put in; NaN if friction locks."""
 
     @abstractmethod
     def efficiency_minimum(self) -> float:
-        """Least efficiency at any driver angle; NaN where friction locks."""
+        """Return the minimum efficiency at any driver angle; NaN if friction locks."""
 
     @property
     def locking_friction(self) -> float:
-        """The least friction that locks at some driver angle; infinite where none does."""
+        """Smallest coefficient of friction that locks the pair at some driver angle; infinite if none does."""
         return inf
 
     @property
@@ -173,7 +183,7 @@ class TransmissionFunction(Shown, ABC):
         return self.friction >= self.locking_friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """How the teeth rub, whatever their friction.
+        """Return the sliding of the teeth, whatever their friction.
 
         Parameters
         ----------
@@ -183,38 +193,43 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ContactRubbing
-            Speed of sliding and shares of power, of S's shape behind the contacts.
+            Sliding speed and shares of power, of shape (contacts, *shape of S).
 
         Raises
         ------
         RangeError
-            For laws without an account of it.
+            For transmission functions whose sliding is not known.
         """
         what = "the sliding of this pair is not known"
-        raise RangeError(Problem(what, "it is no pair of teeth", "give a coefficient of friction as a plain number"))
+        why = "sliding speeds are computed for pairs of teeth only"
+        raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing] | None:
-        """Driver angles of a period, weights, and `rubbing` there, for laws that would be slow to ask at any others."""
+        """Return driver angles of a period, quadrature weights, and `rubbing` at these angles.
+
+        It is meant for functions that are slow to evaluate at other angles. None: evaluate `rubbing` at any angles.
+        """
         return None
 
     def kinks(self) -> list[float]:
-        """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
+        """Return the driver angles (rad) at which the function or a derivative is not smooth; none by default."""
         return []
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Every collision of a pitch; None for laws without an account of them."""
+        """Return all collisions of a pitch; None for functions whose collisions are not known."""
         return None
 
     def steepest_fall(self) -> float | None:
-        """Greatest rate -d(speed ratio)/dS at which the speed falls between collisions (1/rad), 0 if it never does.
+        """Return the maximum rate -d(speed ratio)/dS between collisions (1/rad), 0 if the speed never falls.
 
-        As it falls the driven inertia J runs ahead of a slack drive: the law holds at a driver's speed w while the load
-        torque is at least J w^2 times this. None for laws without an account of it.
+        While the speed ratio falls, a driven inertia J tends to run ahead of the driver. The teeth stay in contact at a
+        driver speed w if the load torque is at least J w^2 times this rate. Return None for functions for which it is
+        not known.
         """
         return None
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Transmission error and speed ratio, for less than the two apart where a law can.
+        """Return transmission error and speed ratio, computed together where that is cheaper.
 
         Parameters
         ----------
@@ -224,32 +239,34 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         tuple of ndarray
-            As of `error` and `speed`.
+            Results of `error` and `speed`.
         """
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """The law while the driver's angle decreases: the same, but for teeth with play."""
+        """Return the transmission function while the driver turns backwards, which differs for teeth with backlash."""
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
-        """The law for some of the angles it was asked at: the same, but where each angle has a law of its own.
+        """Return the transmission function for some columns of the angles.
+
+        It differs only if each column of angles has a transmission function of its own.
 
         Parameters
         ----------
         columns : ndarray of int
-            Which of them, by number.
+            Indices of the columns.
 
         Returns
         -------
         TransmissionFunction
-            For these.
+            Transmission function for these columns.
         """
         del columns
         return self
 
     def angle(self, S: ArrayLike) -> Floats:
-        """Driven angle q.
+        """Return the driven angle q.
 
         Parameters
         ----------
@@ -259,7 +276,7 @@ class TransmissionFunction(Shown, ABC):
         Returns
         -------
         ndarray
-            Of that shape [rad].
+            Driven angle [rad], of the shape of S.
         """
         import numpy as np
 
@@ -269,12 +286,13 @@ class TransmissionFunction(Shown, ABC):
 
 
 def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """`out` = S less whole periods, in half the time of numpy.mod.
+    """Write S modulo the period into `out`, in half the time of numpy.mod.
 
-    The period is taken in two parts, so that the first product is exact up to some 10^8 periods.
+    The period is split into two parts, so that the first product is exact up to about 10^8 periods.
     """
     import numpy as np
 
+    # 24 bits: the product with a number of periods below 2^29 is exact in a float of 53 bits
     coarse = float(np.float32(period))
     np.multiply(S, 1 / period, out=scratch)
     np.floor(scratch, out=scratch)
@@ -285,49 +303,49 @@ def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
 
 
 class ExactRatio(TransmissionFunction):
-    """A law without error or loss: the ratio of tooth counts at every instant."""
+    """Transmission function without error or loss: the ratio of tooth counts at every instant."""
 
     def __init__(self, ratio: Fraction, period: float) -> None:
         self.ratio, self.period = ratio, period
 
     def error(self, S: ArrayLike) -> Floats:
-        """0 everywhere."""
+        """Return 0 at every angle."""
         return self._constant(S, 0.0)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """The mean ratio everywhere."""
+        """Return the mean ratio at every angle."""
         return self._constant(S, float(self.ratio))
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """1 everywhere."""
+        """Return 1 at every angle."""
         return self._constant(S, 1.0)
 
     def speed_range(self) -> tuple[float, float]:
-        """The mean ratio twice."""
+        """Return the mean ratio as both minimum and maximum."""
         return float(self.ratio), float(self.ratio)
 
     def error_range(self) -> tuple[float, float]:
-        """0 twice."""
+        """Return 0 as both minimum and maximum."""
         return 0.0, 0.0
 
     def error_moments(self) -> tuple[float, float]:
-        """0 twice."""
+        """Return 0 as both mean and rms."""
         return 0.0, 0.0
 
     def efficiency_mean(self) -> float:
-        """1."""
+        """Return 1 as the mean efficiency."""
         return 1.0
 
     def efficiency_at_constant_load(self) -> float:
-        """1."""
+        """Return 1 as the mean efficiency."""
         return 1.0
 
     def efficiency_minimum(self) -> float:
-        """1."""
+        """Return 1 as the minimum efficiency."""
         return 1.0
 
     def steepest_fall(self) -> float:
-        """0."""
+        """Return 0, since the speed is constant."""
         return 0.0
 
     @staticmethod
@@ -338,43 +356,43 @@ class ExactRatio(TransmissionFunction):
 
 
 class DerivedTransmission(TransmissionFunction):
-    """A law that moves as `transmission` does, and differs in how it is worked out or in what it loses."""
+    """Transmission function with the motion of another one, and with other losses or another method of evaluation."""
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
 
     def speed_range(self) -> tuple[float, float]:
-        """The law's own."""
+        """Return the minimum and maximum speed ratio of the underlying function."""
         return self.transmission.speed_range()
 
     def error_range(self) -> tuple[float, float]:
-        """The law's own."""
+        """Return the minimum and maximum transmission error of the underlying function."""
         return self.transmission.error_range()
 
     def error_moments(self) -> tuple[float, float]:
-        """The law's own."""
+        """Return the mean and the rms of the transmission error of the underlying function."""
         return self.transmission.error_moments()
 
     def kinks(self) -> list[float]:
-        """The law's own."""
+        """Return the kinks of the underlying function."""
         return self.transmission.kinks()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """The law's own."""
+        """Return the collisions of the underlying function."""
         return self.transmission.speed_leaps()
 
     def steepest_fall(self) -> float | None:
-        """The law's own."""
+        """Return the maximum rate of fall of the underlying function."""
         return self.transmission.steepest_fall()
 
     @property
     def locking_friction(self) -> float:
-        """The law's own."""
+        """Locking friction of the underlying function."""
         return self.transmission.locking_friction
 
 
 class ConstantLag(ExactRatio):
-    """A law that keeps its ratio, its driven side always by `mean` (rad) ahead of uniform motion."""
+    """Transmission function with its exact ratio and a constant transmission error `mean` [rad]."""
 
     def __init__(self, ratio: Fraction, period: float, mean: float) -> None:
         super().__init__(ratio, period)
@@ -382,17 +400,17 @@ class ConstantLag(ExactRatio):
 
     @classmethod
     def at(cls, transmission: TransmissionFunction, S: float) -> ConstantLag:
-        """What another law does where its driver stands at S (rad), whatever S is."""
+        """Return the constant transmission error that another function has at the driver angle S (rad)."""
         return cls(transmission.ratio, transmission.period, float(transmission.error(S)))
 
     def error(self, S: ArrayLike) -> Floats:
-        """The same everywhere."""
+        """Return the constant transmission error at every angle."""
         return self._constant(S, self.mean)
 
     def error_range(self) -> tuple[float, float]:
-        """The same twice."""
+        """Return the constant transmission error as both minimum and maximum."""
         return self.mean, self.mean
 
     def error_moments(self) -> tuple[float, float]:
-        """The mean, and 0."""
+        """Return the constant transmission error as the mean, and 0 as the rms."""
         return self.mean, 0.0

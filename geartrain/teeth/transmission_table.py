@@ -1,12 +1,12 @@
-"""Periodic transmission functions as tables: polynomials of low degree on uniform cells, cut at their kinks.
+"""Periodic transmission functions as tables: piecewise polynomials of low degree on uniform cells, cut at the kinks.
 
-A table answers several times faster than the formula it was made from. It is made from the function's own values at
-Chebyshev nodes strictly inside each cell, so that on either side of a kink it follows that side only; it knows nothing
-of teeth or pins.
+A table is evaluated several times faster than the formula from which it was made. It interpolates the function at
+Chebyshev nodes strictly inside each cell, so that on either side of a kink it follows that side only. Tables do not
+depend on teeth or pins.
 
-`join_transmission_tables` puts the tables of many functions (error and speed of each, which follow it to rounding, or
-are those from which it is read anyway) into one set of arrays, which the kernel `transmission_along` reads at many
-angles.
+`join_transmission_tables` packs the tables of error and speed of many functions into one set of arrays. The compiled
+kernel `transmission_along` evaluates them at many angles. A table either follows its function to rounding error, or is
+the table from which the function is evaluated anyway.
 """
 
 from __future__ import annotations
@@ -29,36 +29,40 @@ if TYPE_CHECKING:
 
     Flags = NDArray[np.bool_]
 
-DEGREE = 4  # each degree costs a tenth more time an angle; below 4 tables of few teeth outgrow the caches
-_BLOCK = 8192  # angles worked on at once: their arrays and the table stay in a cache
-_FEWEST, _MOST = 32, 1 << 16  # cells
-_PATIENCE = 8  # times as many cells without half the error: it is rounding
-_THIN = 1e-12  # of a period: a narrower cell is a constant
-_SAFETY = 2.0  # stated error over the greatest found
-# for the kernel: follows a law to rounding in 32 to 512 cells; above, the fit itself rounds more; below, tables leave
-# the cache
+# each degree costs 10 % more time per angle; below 4, tables of wheels with few teeth do not fit into the caches
+DEGREE = 4
+_BLOCK = 8192  # angles evaluated at once: their arrays and the table fit into a cache
+_FEWEST, _MOST = 32, 1 << 16  # minimum and maximum number of cells
+_PATIENCE = 8  # an error not halved by this factor of cells is rounding error
+_THIN = 1e-12  # periods: in narrower cells the table is constant
+_SAFETY = 2.0  # stated uncertainty over the maximum error found
+# degree 6 follows a function to rounding error in 32 to 512 cells: with a higher degree the fit itself has larger
+# rounding errors, with a lower degree the tables do not fit into the cache
 KERNEL_DEGREE = 6
-# numbers of a cell, side by side: two lines of a cache, where columns would take one a number
+# numbers of a cell are adjacent and fill two cache lines; in columns each number would load a cache line
 CELL = 2 * (KERNEL_DEGREE + 2)
-_WANTED = 1e-15  # of a driven pitch, or of the speed: as finely as the law itself is known
-_GOOD = 1e-12  # of the same: a law that no table follows so well is asked itself
+_WANTED = 1e-15  # driven pitches, or of the mean speed: rounding error of the function itself
+_GOOD = 1e-12  # in the same units: if no table is as accurate, the function itself is evaluated
 
 
 class HasKinks(Protocol):
-    """A law of some period (rad)."""
+    """Periodic function with known kinks."""
 
     @property
     def period(self) -> float:
-        """Driver's angle (rad)."""
+        """Period [rad of the driver]."""
 
     def kinks(self) -> list[float]:
-        """Driver's angles (rad) where the law or a slope of it is not smooth."""
+        """Return the driver angles (rad) at which the function or a derivative is not smooth."""
 
 
 class CellTable:
-    """A function of the driver's angle with period `period` (rad), on `cells` cells cut at `kinks` (rad).
+    """Table of a periodic function of the driver's angle, on `cells` uniform cells cut at the kinks.
 
-    uncertainty   bound on the difference from the function, in its own unit: twice the greatest found between nodes
+    Attributes
+    ----------
+    uncertainty : float
+        Bound on the difference from the function, in its own unit: twice the maximum found between the nodes.
     """
 
     def __init__(
@@ -67,14 +71,15 @@ class CellTable:
         self.period, self.kinks, self.cells, self.degree = period, kinks, cells, degree
         breaks = self.breaks
         self.middles, halves = (breaks[1:] + breaks[:-1]) / 2, (breaks[1:] - breaks[:-1]) / 2
+        # Chebyshev nodes of the first kind lie strictly inside the cell, on one side of every kink
         nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
         values = function(self.middles[:, None] + halves[:, None] * nodes)
         wide = halves > _THIN * period
-        # over an infinite half width only the constant term is left: thin cells are constants
+        # an infinite half width leaves the constant term only, which avoids overflow in thin cells
         powers = np.where(wide, halves, np.inf)[:, None] ** np.arange(degree + 1)
         monomials = np.linalg.inv(np.vander(nodes, increasing=True))
         self.coefficients = np.ascontiguousarray((values @ monomials.T / powers).T)
-        # the error is greatest between the nodes and at the ends of a cell; an end itself may be beyond a corner
+        # the maximum error is between the nodes or at the ends of a cell; an end itself may be beyond a kink
         checks = np.cos(np.pi * np.arange(degree + 2) / (degree + 1)) * (1 - 1e-9)
         S = self.middles[wide, None] + halves[wide, None] * checks
         off = np.abs(self(S) - function(S))
@@ -82,12 +87,15 @@ class CellTable:
 
     @property
     def breaks(self) -> Floats:
-        """Where cells begin and end (rad): at uniform steps, and at corners."""
+        """Boundaries of the cells [rad]: the uniform steps and the kinks, in order."""
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
         return np.sort(np.concatenate((uniform, self.kinks)))
 
     def derivative(self) -> CellTable:
-        """Its derivative by the driver's angle, on the same cells; `uncertainty` stays that of the function."""
+        """Return the table of the derivative by the driver's angle on the same cells.
+
+        Its `uncertainty` is still that of the function.
+        """
         found = copy(self)
         found.degree = self.degree - 1
         found.coefficients = np.ascontiguousarray(self.coefficients[1:] * np.arange(1, self.degree + 1)[:, None])
@@ -95,11 +103,11 @@ class CellTable:
 
     @property
     def nbytes(self) -> int:
-        """Memory of the table (bytes)."""
+        """Memory of the table [bytes]."""
         return int(self.coefficients.nbytes + self.middles.nbytes)
 
     def __call__(self, S: ArrayLike) -> Floats:
-        """The function at driver angles S (rad), any shape."""
+        """Return the function at driver angles S (rad), any shape."""
         S = np.asarray(S, dtype=float)
         flat = S.ravel()
         found = np.empty_like(flat)
@@ -111,17 +119,19 @@ class CellTable:
         return found.reshape(S.shape)
 
     def _block(self, S: Floats, found: Floats, u: Floats, other: Floats, cell: Indices, passed: Flags) -> None:
-        """`found` at S; the other arrays are scratch."""
+        """Write the function at S into `found`; the other arrays are scratch."""
         u, other, cell, passed = u[: len(S)], other[: len(S)], cell[: len(S)], passed[: len(S)]
         behind(S, self.period, u, other)
         np.multiply(u, self.cells / self.period, out=other)
         np.copyto(cell, other, casting="unsafe")
+        # every kink below the angle adds a cell to the count of uniform cells
         for kink in self.kinks:
             np.greater_equal(u, kink, out=passed)
             np.add(cell, passed, out=cell)
-        # clipped: rounding may lead past the last cell, NaN anywhere; in mode `raise` numpy fills `out` through a copy
+        # clipped, since rounding may lead past the last cell and NaN anywhere; mode `raise` would fill `out` via a copy
         np.take(self.middles, cell, out=other, mode="clip")
         np.subtract(u, other, out=u)
+        # Horner's method
         np.take(self.coefficients[-1], cell, out=found, mode="clip")
         for coefficients in self.coefficients[-2::-1]:
             np.multiply(found, u, out=found)
@@ -130,14 +140,17 @@ class CellTable:
 
 
 def folded_kinks(transmission: HasKinks) -> Floats:
-    """The corners of a law (rad) within its first period, each once, in order."""
+    """Return the distinct kinks of a function (rad) folded into its first period, in ascending order."""
     return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
 
 def fit(
     function: Callable[[Floats], Floats], period: float, kinks: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
-    """The coarsest table within `tolerance`, or the last to gain where rounding keeps it from that."""
+    """Return the coarsest table within `tolerance`.
+
+    If rounding error prevents that, return the last table that halved the uncertainty.
+    """
     best = table = CellTable(function, period, kinks, _FEWEST, degree)
     while best.uncertainty > tolerance and table.cells < min(_MOST, _PATIENCE * best.cells):
         table = CellTable(function, period, kinks, 2 * table.cells, degree)
@@ -147,10 +160,19 @@ def fit(
 
 
 class TabulatedTransmission(DerivedTransmission):
-    """A law read from tables, each made when first asked for.
+    """Transmission function evaluated from tables, each made on first use.
 
-    transmission         the law itself, which still answers what is asked of a whole period
-    tolerance   of the error in driven pitches (or periods), of the speed over its mean, of the efficiency
+    Results over a whole period are those of the underlying function.
+
+    Parameters
+    ----------
+    transmission : TransmissionFunction
+        Underlying transmission function.
+    tolerance : float
+        Maximum error of the tables: of the transmission error in driven pitches (or periods), of the speed ratio over
+        its mean, and of the efficiency.
+    degree : int
+        Degree of the polynomials.
     """
 
     def __init__(self, transmission: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
@@ -177,31 +199,31 @@ class TabulatedTransmission(DerivedTransmission):
         return self._fit(self.transmission.efficiency, 1.0)
 
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission error (rad of the driven side) at driver angles S (rad)."""
+        """Return the transmission error (rad of the driven side) at driver angles S (rad)."""
         return self.error_table(S)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Speed ratio at driver angles S (rad)."""
+        """Return the speed ratio at driver angles S (rad)."""
         return self.speed_table(S)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Efficiency at driver angles S (rad); NaN where the law has none."""
+        """Return the efficiency at driver angles S (rad); NaN where the underlying function has none."""
         return self.efficiency_table(S)
 
     def efficiency_mean(self) -> float:
-        """The law's own."""
+        """Return the mean efficiency of the underlying function at constant driver torque."""
         return self.transmission.efficiency_mean()
 
     def efficiency_at_constant_load(self) -> float:
-        """The law's own."""
+        """Return the efficiency of the underlying function at constant load torque."""
         return self.transmission.efficiency_at_constant_load()
 
     def efficiency_minimum(self) -> float:
-        """The law's own."""
+        """Return the minimum efficiency of the underlying function."""
         return self.transmission.efficiency_minimum()
 
     def reversed_motion(self) -> TabulatedTransmission:
-        """Tables of the law turned back."""
+        """Return tables of the underlying function while the driver's angle decreases."""
         back = self.transmission.reversed_motion()
         return self if back is self.transmission else TabulatedTransmission(back, self.tolerance, self.degree)
 
@@ -210,46 +232,49 @@ class TabulatedTransmission(DerivedTransmission):
 
 
 class TransmissionTables(NamedTuple):
-    """Laws by number."""
+    """Tables of many transmission functions, packed into arrays that are indexed by the number of the function."""
 
     period: Floats
-    """Of each law: the driver's angle (rad), and 1 / it."""
+    """Period of each function [rad of the driver]."""
     inverse: Floats
-    """Of each law: the driver's angle (rad), and 1 / it."""
+    """1 over the period of each function [1/rad]."""
     coarse: Floats
-    """The period as the sum of two floats, the first of 24 bits."""
+    """Period rounded to 24 bits [rad]; with `rest` it is the period as a sum of two floats."""
     rest: Floats
-    """The period as the sum of two floats, the first of 24 bits."""
+    """Period less `coarse` [rad]."""
     density: Floats
-    """Of each law: uniform cells of a period over it (1/rad)."""
+    """Number of uniform cells of each function over its period [1/rad]."""
     first: Ints
-    """Of each law: its first and last cell, cut at corners."""
+    """Index of the first cell of each function, with cells cut at kinks."""
     last: Ints
-    """Of each law: its first and last cell, cut at corners."""
+    """Index of the last cell of each function."""
     cuts: Ints
-    """Of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)."""
+    """Indices into `kinks`: function k has the kinks `kinks[cuts[k]:cuts[k + 1]]`."""
     kinks: Floats
-    """Of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)."""
+    """Kinks of all functions, one function after another [rad]."""
     cells: Floats
-    """`CELL` numbers a cell, error and speed in turns: middle (rad), then the highest power first."""
+    """Cells of all functions, `CELL` numbers each: middle [rad] and coefficients from the highest power.
+
+    Numbers of error and speed alternate.
+    """
 
 
 class PeriodicTransmission(HasKinks, Protocol):
-    """What a table is made from: a transmission function is one."""
+    """Function from which a table can be made, such as a transmission function."""
 
     @property
     def ratio(self) -> Fraction:
         """Mean speed ratio."""
 
     def error(self, S: Floats) -> Floats:
-        """Transmission error (rad) at the driver's angles (rad)."""
+        """Return the transmission error (rad) at the driver's angles (rad)."""
 
     def speed(self, S: Floats) -> Floats:
-        """Speed ratio there."""
+        """Return the speed ratio at the driver's angles (rad)."""
 
 
 class TransmissionTable(NamedTuple):
-    """Error and speed of one law over its period (rad)."""
+    """Tables of error and speed of one transmission function over its period [rad]."""
 
     period: float
     error: CellTable
@@ -257,9 +282,10 @@ class TransmissionTable(NamedTuple):
 
 
 def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionTable | None:
-    """Tables of a law: those from which it is read anyway, or else such as follow it to rounding.
+    """Return tables of error and speed of a transmission function that follow it to rounding error.
 
-    None where there are none: for a law with gaps, or one that changes from angle to angle.
+    The tables of a `TabulatedTransmission` are used as they are. Return None if no table follows the function: if it
+    has gaps, or if each column of angles has a transmission function of its own.
     """
     if isinstance(transmission, TransmissionFunction) and type(transmission).picked is not TransmissionFunction.picked:
         return None
@@ -271,7 +297,7 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
         cuts = folded_kinks(transmission)
         error = fit(transmission.error, transmission.period, cuts, _WANTED * ratio * transmission.period, KERNEL_DEGREE)
         speed = fit(transmission.speed, transmission.period, cuts, _WANTED * ratio, KERNEL_DEGREE)
-        # of both in the same cells an angle is looked up once
+        # with both tables on the same cells, the kernel looks up an angle once
         if error.cells < speed.cells:
             error = CellTable(transmission.error, transmission.period, cuts, speed.cells, KERNEL_DEGREE)
         elif speed.cells < error.cells:
@@ -280,13 +306,13 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
         good = (
             found.error.uncertainty <= _GOOD * ratio * transmission.period and found.speed.uncertainty <= _GOOD * ratio
         )
-    # where a gap begins depends on which side of it rounding falls
+    # the boundary of a gap depends on rounding, so that functions with gaps are not tabulated
     whole = all(np.isfinite(table.coefficients).all() for table in (found.error, found.speed))
     return found if good and whole else None
 
 
 def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> TransmissionTables:
-    """Tables of laws by their numbers."""
+    """Pack the tables of several transmission functions into one set of arrays."""
     period = np.array([transmission.period for transmission in transmissions])
     coarse = period.astype(np.float32).astype(float)
     kinks = [transmission.error.kinks for transmission in transmissions]
@@ -312,7 +338,10 @@ def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> Tran
 
 
 def _cells(transmission: TransmissionTable) -> Floats:
-    """Cells of a law, (n, `CELL`): those of the finer of its two tables, each with the cell of the other it lies in."""
+    """Return the cells of a function, shape (n, `CELL`).
+
+    They are the cells of the finer of its two tables, each with the cell of the other table in which it lies.
+    """
     finer = max(transmission.error, transmission.speed, key=lambda table: table.cells)
     found = np.zeros((len(finer.middles), CELL))
     for part, table in enumerate((transmission.error, transmission.speed)):
@@ -320,7 +349,7 @@ def _cells(transmission: TransmissionTable) -> Floats:
         if table.cells < finer.cells:
             at = np.clip(np.searchsorted(table.breaks, finer.middles, side="right") - 1, 0, len(table.middles) - 1)
         found[:, part] = table.middles[at]
-        # a lower degree begins with coefficients 0, which changes no bit
+        # leading zero coefficients of a lower degree do not change a bit of the result
         found[:, part + 2 * (KERNEL_DEGREE + 1 - table.degree) :: 2] = table.coefficients[::-1, at].T
     return found
 
@@ -335,9 +364,10 @@ def transmission_along(
     u: Floats,
     cell: NDArray[np.int32],
 ) -> None:
-    """Transmission error (rad) and speed ratio of a law at its driver's angles (rad).
+    """Compute transmission error (rad) and speed ratio of a function at its driver's angles (rad).
 
-    `u` and `cell` are scratch. `CellTable` operation by operation, in loops most of which become vector operations.
+    The results are written into `error` and `speed`; `u` and `cell` are scratch. The operations are those of
+    `CellTable`, in loops most of which the compiler vectorizes.
     """
     inverse, coarse, rest = tables.inverse[transmission], tables.coarse[transmission], tables.rest[transmission]
     density, first, last = tables.density[transmission], tables.first[transmission], tables.last[transmission]
@@ -351,7 +381,7 @@ def transmission_along(
         for at in range(len(angle)):
             cell[at] += np.int32(u[at] >= kink)
     for at in range(len(angle)):
-        # clipped: rounding may lead past either end
+        # clipped, since rounding may lead past either end
         cell[at] = min(max(cell[at], 0), last - first)
     for at in range(len(angle)):
         error[at], speed[at] = _polynomials(tables.cells, np.uint64(CELL) * np.uint64(first + cell[at]), u[at])
@@ -359,7 +389,7 @@ def transmission_along(
 
 @kernel
 def _polynomials(cells: Floats, begin: np.uint64, u: float) -> tuple[float, float]:
-    """Error and speed from the numbers of a cell by Horner's rule, side by side."""
+    """Evaluate error and speed from the numbers of a cell by Horner's method, in parallel."""
     x, y = u - cells[begin], u - cells[begin + np.uint64(1)]
     at, one, two = begin + np.uint64(2), np.uint64(1), np.uint64(2)
     error, speed = cells[at], cells[at + one]

@@ -1,4 +1,4 @@
-"""Teeth of uniform Hertz stress: the shortest for a given limit of contact pressure."""
+"""Teeth of uniform Hertz stress: the shortest teeth for a given limit of contact pressure."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 
 class UniformStress(ConjugateToothForm):
-    """Teeth of uniform Hertz stress: the shortest for a given limit of contact pressure.
+    """Teeth of uniform Hertz stress: the shortest teeth for a given limit of contact pressure.
 
-    The pressure is the same at every instant while one pair bears the load (docs/shapes.md).
+    The pressure is the same at every instant while one tooth pair bears the load (docs/shapes.md).
 
     See Also
     --------
-    geartrain.teeth.LeastFriction, geartrain.teeth.UniformTemperature : the other optima of that source.
+    geartrain.teeth.LeastFriction, geartrain.teeth.UniformTemperature : the other optima of the same source.
 
     Examples
     --------
@@ -32,25 +32,29 @@ class UniformStress(ConjugateToothForm):
     1.0
     """
 
-    form: Literal["uniform_stress"] = Field(description="The name of this form")
+    form: Literal["uniform_stress"] = Field(description="Name of the tooth form")
     pressure_angle: Angle = Field(
         "20 deg", validate_default=True, description="Pressure angle at the pitch point, below 45 deg"
     )
-    arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
+    arcs: TwoFigures = Field(
+        "1/2",
+        validate_default=True,
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess)",
+    )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> UniformStress:
+    def _check_parameters(self) -> UniformStress:
         check_angle("pressure_angle", self.pressure_angle, 0.125)
         check_arcs(self.arcs)
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, with what would let them.
+            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
         """
         from geartrain.teeth.conjugate.optimal_sides import uniform_stress
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact, none

@@ -1,4 +1,6 @@
-"""Teeth of uniform temperature: the frictional heat on each bit of profile, all of it carried off by the lubricant."""
+"""Teeth of uniform temperature: uniform frictional heat per area of profile, removed by the lubricant where it is
+produced.
+"""
 
 from __future__ import annotations
 
@@ -18,19 +20,20 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _USUAL = Quantity.parse("12 deg", "angle", False)
-_INVOLUTE = pi / 9  # 20 deg, whose working depth is the default
+_INVOLUTE = pi / 9  # 20 deg: the working depth of this involute is the default
 
 
 class UniformTemperature(ConjugateToothForm):
-    """Teeth of uniform temperature: the heat of friction per area of profile is the same at every instant.
+    """Teeth of uniform temperature: the frictional heat per area of profile is the same at every instant.
 
-    Three readings of the source: a, on the first wheel only; b, on the hotter of the two, which is always the
-    dedendum; c, as b, but a constant pressure angle from the pitch point until that heat is reached, which keeps the
-    stress there finite (docs/shapes.md).
+    There are three readings of the source. In reading a, the heat is uniform on the first wheel. In reading b, it is
+    uniform on the hotter profile of the two, which is always the dedendum. Reading c is reading b with a constant
+    pressure angle from the pitch point until that heat is reached, which keeps the stress finite there
+    (docs/shapes.md).
 
     See Also
     --------
-    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : the other optima of that source.
+    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : the other optima of the same source.
 
     Examples
     --------
@@ -39,42 +42,54 @@ class UniformTemperature(ConjugateToothForm):
     'the teeth run'
     """
 
-    matched: ClassVar[str] = "of uniform temperature also the working depth"
+    matched: ClassVar[str] = "for uniform temperature the working depth too"
 
-    form: Literal["uniform_temperature"] = Field(description="The name of this form")
-    reading: Literal["a", "b", "c"] = Field("b", description="Which surface is kept uniform: a, b or c")
+    form: Literal["uniform_temperature"] = Field(description="Name of the tooth form")
+    reading: Literal["a", "b", "c"] = Field(
+        "b",
+        description="Reading of the source: a (uniform heat on the first wheel), b (on the hotter dedendum) or c (as "
+        "b, with a minimum pressure angle)",
+    )
     heat: Figure | None = Field(
-        None, description="Heat per area over friction times tangential force; less makes taller teeth"
+        None, description="Heat per area over friction times tangential force; a smaller value makes taller teeth"
     )
     depth: Figure | None = Field(
-        None, description="In place of heat: working depth in modules; default that of the 20 deg involute"
+        None, description="Working depth in modules, instead of heat; default that of the 20 deg involute"
     )
     minimum_angle: Angle | None = Field(
-        None, description="Pressure angle at the pitch point in reading c; default 12 deg"
+        None, description="Minimum pressure angle, which is at the pitch point, in reading c; default 12 deg"
     )
-    arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
+    arcs: TwoFigures = Field(
+        "1/2",
+        validate_default=True,
+        description="Arcs of contact in pitches, one value, or a list of two (approach, recess)",
+    )
 
     @model_validator(mode="after")
-    def _parameters_make_sense(self) -> UniformTemperature:
+    def _check_parameters(self) -> UniformTemperature:
         if self.heat is not None and self.depth is not None:
-            raise bad("heat", "heat and depth are both given", "give one of them: each follows from the other")
+            raise bad("heat", "heat and depth are both given", "remove `heat` or `depth`: each determines the other")
         for name, figure in (("heat", self.heat), ("depth", self.depth)):
             if figure is not None and figure.value <= 0:
-                raise bad(name, f"a {name} of {figure.text} is none", "write a number above 0")
+                raise bad(name, f"{name} {figure.text} is not above 0", "give a number above 0")
         if self.minimum_angle is not None:
             if self.reading != "c":
-                raise bad("pressure_angle", "only reading c has a least_angle", "give `reading: c`")
+                raise bad(
+                    "pressure_angle",
+                    "minimum_angle is for reading c only",
+                    "give `reading: c`, or remove `minimum_angle`",
+                )
             check_angle("minimum_angle", self.minimum_angle)
         check_arcs(self.arcs)
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance.
+        """Return the pair at its design centre distance.
 
         Raises
         ------
         GearTrainError
-            Where these wheels cannot have such teeth, with what would let them.
+            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
         """
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
@@ -82,11 +97,11 @@ class UniformTemperature(ConjugateToothForm):
         if self.heat is not None:
             approach, recess = self._sides(pitch, (pitch.A + pitch.B) / float(self.heat.value))
         else:
-            approach, recess = self._deep(pitch)
+            approach, recess = self._sides_of_depth(pitch)
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
-        """Approach and recess with gamma = (A + B) / heat."""
+        """Return approach and recess with gamma = (A + B) / heat."""
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
         from geartrain.teeth.conjugate.path_of_contact import none
 
@@ -99,13 +114,13 @@ class UniformTemperature(ConjugateToothForm):
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
             elif b + gamma <= 0:
-                raise _cold(pitch, gamma)
+                raise _heat_error(pitch, gamma)
             else:
                 found.append(uniform_heat(pitch, b, gamma, X))
         return found[0], found[1]
 
-    def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
-        """The sides with the wanted working depth, which grows with gamma."""
+    def _sides_of_depth(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
+        """Return approach and recess with the requested working depth, which increases with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
         from geartrain.teeth.conjugate.path_losses import depth, to_depth
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
@@ -123,9 +138,9 @@ class UniformTemperature(ConjugateToothForm):
         return self._sides(pitch, gamma)
 
 
-def _cold(pitch: PitchSurfaces, gamma: float) -> Exception:
+def _heat_error(pitch: PitchSurfaces, gamma: float) -> Exception:
     return refused(
-        f"a heat of {(pitch.A + pitch.B) / gamma:.6g} is more than these teeth can have",
-        "the contact would stand still beside the pitch point",
-        "give less heat or more depth",
+        f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
+        "the contact would stop near the pitch point",
+        "give a smaller heat or a larger depth",
     )

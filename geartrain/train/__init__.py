@@ -1,17 +1,17 @@
-"""The declaration of a train: frozen models, and the checks that need nothing but the declaration itself.
+"""Declaration of a train: immutable models, and the checks that need only the declaration itself.
 
-In: plain data with the keys of the YAML format (docs/reference.md), or a file. Out: a `Train`, whose parts remember the
-lines on which they were written, or `DeclarationError` with every problem that could be collected. Nothing is worked
-out here; `geartrain.GearTrain` does that.
+Input is plain data with the keys of the YAML format (docs/reference.md), or a file. The result is a `Train`, whose
+parts keep their line numbers, or a `DeclarationError` with every problem that could be collected. Nothing is calculated
+here; `geartrain.GearTrain` does that.
 
-declaration                      the whole model, and what follows from it alone: friction in force, epoch
-mechanism                        links, wheels, axes, pairs; doubtful tooth counts, efficiencies, bearing friction
-outputs, states                  outputs, dials and targets; clutches, cases, and what drives a train in time
-manufacturing, wheel_stock, reconstruction   materials and errors of cutting; blanks; what may be added
-fields, validation, references   strict fields, short forms and problems, names and units that conflict
-yaml_nodes, declaration_style    YAML with line numbers; the style in which declarations are written
-declaration_files, inheritance   files, JSON and shipped trains; `extends`, and other values of a declaration
-periods                          the table of periods of the sky
+declaration                      complete model, friction in force, epoch
+mechanism                        links, wheels, axes, pairs; uncertain tooth counts, efficiencies, bearing friction
+outputs, states                  outputs, dials and targets; clutches, cases, and drives in time
+manufacturing, wheel_stock, reconstruction   materials and cutting errors; blanks; constraints of a reconstruction
+fields, validation, references   strict fields; short forms and problems; conflicting names and units
+yaml_nodes, declaration_style    YAML with line numbers; rewriting in short or long forms
+declaration_files, inheritance   files, JSON and shipped trains; `extends`, and changed copies of a declaration
+periods                          table of astronomical periods
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The whole declaration of a train as one model.
+"""Complete declaration of a train as one model.
 
-With the epoch (a date, and the turns of the input at that date) and the friction in force at a pair or coupling:
-sliding, at rest, and its uncertainty.
+Also the epoch (a date, and the turns of the input at that date) and the friction in force at a pair or coupling
+(sliding, static, and its standard deviation).
 """
 
 from __future__ import annotations
@@ -46,14 +46,14 @@ if TYPE_CHECKING:
 
 
 class Epoch(Declared):
-    """A date, and the turns that the input has made by then since all pointers stood at the start of their scales.
+    """A date, and the turns that the input has made by then since all pointers were at the start of their scales.
 
-    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are of the Julian calendar, later ones of
-    the Gregorian, unless `calendar` says otherwise. A bare text is the date.
+    Years are astronomical: 0 is 1 BC, -204 is 205 BC. Dates before 1582-10-15 are in the Julian calendar and later
+    ones in the Gregorian calendar, unless `calendar` is given. A plain text is the date.
 
     See Also
     --------
-    Train : holds it as `epoch`
+    Train : has it as `epoch`
 
     Examples
     --------
@@ -62,21 +62,21 @@ class Epoch(Declared):
     """
 
     date: str = Field(
-        description="Year, month, day, such as -204-05-12 for 12 May 205 BC, with an hour or not: `2000-01-01 18:30`; "
-        "without one it is noon"
+        description="Year, month, day, such as -204-05-12 for 12 May 205 BC, optionally with a time such as "
+        "`2000-01-01 18:30`; default noon"
     )
     calendar: Literal["julian", "gregorian"] | None = Field(
         None, description="Calendar of the date; default Julian before 1582-10-15, Gregorian from then on"
     )
     turns: Figure = Field(
         Figure.parse(0),
-        description="Turns that the input has made at the date, since all pointers stood at the start of their scales",
+        description="Turns of the input from the state with all pointers at the start of their scales to the date",
     )
-    source: Id | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    source: Id | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _is_a_day(self) -> Epoch:
+    def _check_date(self) -> Epoch:
         try:
             self._read()
         except ValueError as error:
@@ -95,7 +95,7 @@ class Epoch(Declared):
 
     @cached_property
     def julian_day(self) -> Fraction:
-        """Julian day of the date [d]: 0 is noon of -4712-01-01 in the Julian calendar."""
+        """Julian day of the date [d]; day 0 begins at noon of -4712-01-01 in the Julian calendar."""
         return julian_day(self._read())
 
     @classmethod
@@ -104,7 +104,7 @@ class Epoch(Declared):
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
-"""An epoch, or its date."""
+"""An epoch, or its date as a plain text."""
 
 
 # ---------------------------------------------------------------------------------------------------- friction in force
@@ -123,22 +123,22 @@ class FrictionInForce:
     """
 
     sliding: float | None
-    """Coefficient while surfaces slide; None where it follows a law of speed."""
+    """Coefficient of sliding friction; None if it follows a friction law."""
     static: float
-    """Coefficient at rest; that of a law is its value at speed 0."""
+    """Coefficient of static friction; for a friction law, its value at speed 0."""
     deviation: float = 0.0
-    """Standard deviation of `sliding`; `static` keeps its ratio to it."""
+    """Standard deviation of `sliding`; `static` keeps its ratio to `sliding`."""
     law: FrictionLaw | None = None
-    """The law of speed, where one is declared."""
+    """Friction law (coefficient as a function of sliding speed), if one is declared."""
 
     @property
     def rubs(self) -> bool:
-        """True for a law, and for a coefficient above 0."""
+        """True for a friction law, and for a coefficient above 0."""
         return self.law is not None or bool(self.sliding) or self.static > 0
 
 
 def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> FrictionInForce | None:
-    """A declared friction as numbers."""
+    """Convert declared friction to numbers; None stays None."""
     if declared is None:
         return None
     if not isinstance(declared, CoulombFriction):
@@ -151,12 +151,12 @@ def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> Frictio
 # ---------------------------------------------------------------------------------------------------------- declaration
 
 
-def _cited(raw: object) -> object:
+def _read_source(raw: object) -> object:
     return {"cite": raw} if isinstance(raw, str) else raw
 
 
 class Train(Declared):
-    """A gear train as declared: links, turning pairs, gear pairs, couplings, and what is asked of them.
+    """A gear train as declared: links, turning pairs, gear pairs, couplings, and its required outputs.
 
     See Also
     --------
@@ -164,77 +164,92 @@ class Train(Declared):
     geartrain.GearTrain : answers questions about one
     """
 
-    name: str = Field("train", description="A short name, best that of the file")
-    title: str = Field("", description="One line for a reader")
-    note: str | None = Field(None, description="A remark for the reader")
+    name: str = Field("train", description="Short name, preferably that of the file")
+    title: str = Field("", description="Title on one line, for readers")
+    note: str | None = Field(None, description="Remark for readers")
     extends: str | None = Field(
-        None, description="The train this one changes: a file beside it, or a shipped train or evidence by name"
+        None,
+        description="Parent declaration to change: a file in the same folder, or a shipped train or evidence by name",
     )
-    remove: Remove | None = Field(None, description="What is taken away from the parent, before anything is added")
-    sources: ByName[Annotated[Source, BeforeValidator(_cited)]] = Field(
-        {}, validate_default=True, description="Citations by key"
+    remove: Remove | None = Field(None, description="Parts of the parent to remove, before other parts are added")
+    sources: ByName[Annotated[Source, BeforeValidator(_read_source)]] = Field(
+        {}, validate_default=True, description="Sources by key"
     )
-    errata: tuple[Erratum, ...] = Field((), description="What the sources print that is not so")
-    frame: Id = Field("frame", description="The link whose speed is 0")
-    unit: SpeedUnit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
-    epoch: DeclaredEpoch | None = Field(None, description="When its pointers stood where; for a unit of time")
-    view: View = Field(View(), description="From where the train is seen, and which sense is positive")
-    links: ByName[Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
+    errata: tuple[Erratum, ...] = Field((), description="Errors in published sources")
+    frame: Id = Field("frame", description="Fixed link, whose speed is 0")
+    unit: SpeedUnit | None = Field(None, description="Unit of speeds; default plain numbers")
+    epoch: DeclaredEpoch | None = Field(
+        None, description="Date at which the positions of all pointers are known; needs a `unit` of time"
+    )
+    view: View = Field(View(), description="Side from which the train is viewed, and positive sense of rotation")
+    links: ByName[Annotated[Link, Nothing]] = Field(description="All links with their wheels, by name")
     axes: ByName[Axis] = Field(
-        {}, validate_default=True, description="Directions and positions of axes; without them all axes are parallel"
+        {},
+        validate_default=True,
+        description="Directions and positions of axes, by label; default all axes are parallel",
     )
-    revolutes: Revolutes = Field((), description="Turning pairs; together they form a tree")
-    gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
-    couplings: tuple[Coupling, ...] = Field((), description="Pins in slots and in holes, links that turn alike")
-    tooth_form: DeclaredToothForm | None = Field(
-        None, description="Form of the teeth of every pair that has none of its own"
+    revolutes: Revolutes = Field((), description="Turning pairs of the links, which form a tree")
+    gears: tuple[GearPair, ...] = Field((), description="Gear pairs in mesh")
+    couplings: tuple[Coupling, ...] = Field(
+        (), description="Couplings: pins in slots, pins in holes, links kept parallel"
     )
+    tooth_form: DeclaredToothForm | None = Field(None, description="Default tooth form of all gear pairs")
     friction: DeclaredFriction | None = Field(
         None,
-        description="Friction of the teeth of every pair that has none of its own: a coefficient, or {sliding, static, "
-        "deviation}, or a law of speed",
+        description="Default friction of all gear pairs: a coefficient, {sliding, static, "
+        "deviation}, or a friction law",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Of every pair and coupling that has none of its own: speed of parting over that of meeting"
+        None, description="Default coefficient of restitution of all pairs and couplings, 0 to 1"
     )
-    stiffness: PairStiffness | None = Field(None, description="Of the teeth of every pair that has none of its own")
-    damping: PairDamping | None = Field(None, description="Of the teeth of every pair that has none of its own")
-    thickness: Thickness | None = Field(None, description="Of every wheel that has none of its own")
-    density: MaterialDensity | None = Field(None, description="Of every wheel that has none of its own")
-    face_width: FaceWidth | None = Field(None, description="Width of the teeth of every wheel that has none of its own")
-    material: Id | None = Field(None, description="Of every wheel that has none of its own: a name of the table")
-    materials: ByName[Material] = Field({}, validate_default=True, description="By name, beside those of the table")
-    cutting: WheelManufacture | None = Field(
-        None, description="How far the teeth of every wheel are off that says nothing of its own"
+    stiffness: PairStiffness | None = Field(None, description="Default mesh stiffness of all gear pairs")
+    damping: PairDamping | None = Field(None, description="Default mesh damping of all gear pairs")
+    thickness: Thickness | None = Field(None, description="Default thickness of all wheels")
+    density: MaterialDensity | None = Field(None, description="Default density of all wheels")
+    face_width: FaceWidth | None = Field(None, description="Default face width of all wheels")
+    material: Id | None = Field(
+        None, description="Default material of all wheels: a name of the table or of `materials`"
     )
-    fitting: PairMounting | None = Field(
-        None, description="How far the axes of every pair are off that says nothing of its own"
+    materials: ByName[Material] = Field(
+        {}, validate_default=True, description="Further materials besides those of the table, by name"
     )
+    cutting: WheelManufacture | None = Field(None, description="Default manufacturing errors of all wheels")
+    fitting: PairMounting | None = Field(None, description="Default mounting errors of all gear pairs")
     inputs: ByName[Speed] = Field(
-        {}, validate_default=True, description="Prescribed speeds by link, in `unit`, else in that of the first one"
+        {}, validate_default=True, description="Prescribed speeds by link, in `unit`, else in the unit of the first one"
     )
-    crank: Id | None = Field(None, description="The link where power enters; default the inputs")
-    rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")
-    drive: Drive | None = Field(None, description="What drives the train in time; default `rate`")
-    escapement: Escapement | None = Field(None, description="What lets one link pass half a tooth a beat")
-    fixed: tuple[Id, ...] = Field((), description="Links held to the frame, one body with it")
-    locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that are one body")
+    crank: Id | None = Field(None, description="Link at which power enters the train; default the inputs")
+    rate: Speed | None = Field(
+        None, description="Speed of the input in real time, for powers and impacts, such as 30 rpm"
+    )
+    drive: Drive | None = Field(None, description="Drive of the train in time; default `rate`")
+    escapement: Escapement | None = Field(
+        None, description="Escapement, which lets one link advance by half a tooth per beat"
+    )
+    fixed: tuple[Id, ...] = Field((), description="Links fixed to the frame")
+    locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that are locked together")
     clutches: ByName[Clutch] = Field(
-        {}, validate_default=True, description="Brakes and clutches by name, engaged by states"
+        {}, validate_default=True, description="Brakes and clutches by name; states engage them"
     )
     loads: ByName[Torque] = Field(
-        {}, validate_default=True, description="Torques on links; power into the train is positive"
+        {}, validate_default=True, description="External torques by link; positive if power enters the train"
     )
-    solve_for: Id | None = Field(None, description="The link whose torque is unknown")
+    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown")
     states: ByName[Annotated[State, Nothing]] = Field(
-        {}, validate_default=True, description="Ways the train is run, each solved on its own"
+        {}, validate_default=True, description="Modes of operation by name, each solved separately"
     )
-    expect: ExpectedVerdict | None = Field(None, description="The verdict that holds and is no failure, of all states")
-    dials: ByName[Annotated[Dial, Nothing]] = Field({}, validate_default=True, description="Dials by name")
+    expect: ExpectedVerdict | None = Field(
+        None, description="Expected verdict of all states, which does not count as a failure; default `determined`"
+    )
+    dials: ByName[Annotated[Dial, Nothing]] = Field(
+        {}, validate_default=True, description="Dials with their scales, by name"
+    )
     outputs: ByName[Annotated[Output, Nothing]] = Field(
-        {}, validate_default=True, description="What the train is asked for, by name"
+        {}, validate_default=True, description="Required outputs of the train, by name"
     )
-    reconstruct: Reconstruction | None = Field(None, description="Makes this evidence, of a train that is to be found")
+    reconstruct: Reconstruction | None = Field(
+        None, description="Constraints of a reconstruction; they make the declaration evidence of an unknown train"
+    )
 
     _marks: Marks | None = PrivateAttr(None)
 
@@ -244,22 +259,22 @@ class Train(Declared):
         return summary_line("Train", f"{self.name}: {counts}{more}")
 
     def place(self, *loc: str | int) -> str:
-        """Where a declared thing was written: `file.yaml:12`, or its path if it came from no file.
+        """Return the place where a value was written: `file.yaml:12`, or its path if it did not come from a file.
 
         Parameters
         ----------
         *loc : str or int
-            Keys and positions in lists that lead to it.
+            Keys and list indices that lead to the value.
         """
         return self._marks(loc) if self._marks else dotted(loc)
 
     @cached_property
     def wheels(self) -> Mapping[str, tuple[str, Wheel]]:
-        """Every wheel by id, with its link."""
+        """Every wheel by id, as a pair of the name of its link and the wheel."""
         return {name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()}
 
     def form_of(self, gear: GearPair) -> DeclaredToothForm | None:
-        """The tooth form in force at a gear pair: its own, else the train's; None where neither is declared.
+        """Return the tooth form of a gear pair, by default the train's; None if neither is declared.
 
         Parameters
         ----------
@@ -269,60 +284,60 @@ class Train(Declared):
         return gear.tooth_form or self.tooth_form
 
     def friction_of(self, part: GearPair | Coupling) -> FrictionInForce | None:
-        """Friction of a pair's teeth, its own, else the train's; or of a coupling's pin. None where none is declared.
+        """Return the friction of a pair's teeth, by default the train's, or of a coupling's pin; None if not declared.
 
         Parameters
         ----------
         part : GearPair or PinAndSlot or PinFollower
-            Of this train.
+            A pair or coupling of this train.
         """
         return friction_in_force(part.friction or (self.friction if isinstance(part, GearPair) else None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
-        """Stiffness of a pair's teeth: its own, else that of the form in force there, else the train's.
+        """Return the stiffness of a pair's teeth: the pair's, else the tooth form's, else the train's.
 
         Parameters
         ----------
         gear : GearPair
-            Of this train.
+            A pair of this train.
         """
         form = self.form_of(gear)
         return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
-        """Damping of a pair's teeth: its own, else that of the form in force there, else the train's.
+        """Return the damping of a pair's teeth: the pair's, else the tooth form's, else the train's.
 
         Parameters
         ----------
         gear : GearPair
-            Of this train.
+            A pair of this train.
         """
         form = self.form_of(gear)
         return gear.damping or (form.damping if form is not None else None) or self.damping
 
     def restitution_of(self, part: GearPair | Coupling) -> float | None:
-        """Restitution of a gear pair or coupling: its own, else the train's; None where none is declared.
+        """Return the coefficient of restitution of a pair or coupling, by default the train's; None if not declared.
 
         Parameters
         ----------
         part : GearPair or PinAndSlot or PinFollower
-            Of this train.
+            A pair or coupling of this train.
         """
         found = self.restitution if part.restitution is None else part.restitution
         return None if found is None else float(found.value)
 
     @property
     def cases(self) -> tuple[StateCase, ...]:
-        """What is prescribed in each state, or once for a train without states."""
+        """Prescriptions in each state; one case for a train without states."""
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
     def case(self, state: str | None) -> StateCase:
-        """What is prescribed in one state.
+        """Return everything that is prescribed in one state.
 
         Parameters
         ----------
         state : str or None
-            A declared state; None for the train without any.
+            A declared state; None for a train without states.
         """
         own = self.states[state] if state is not None else State()
         inputs = self.inputs if own.inputs is None else own.inputs
@@ -362,35 +377,37 @@ class Train(Declared):
         )
 
     def check_state(self, state: str | None) -> None:
-        """Raise `QuestionError` for a state that is not declared.
+        """Raise `QuestionError` if a state is not declared.
 
         Parameters
         ----------
         state : str or None
-            Its name; None is always declared.
+            Name of the state; None is always accepted.
         """
         if state is not None and state not in self.states:
             fix = suggest(state, self.states) if self.states else "leave the state out"
-            raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
+            raise QuestionError(
+                Problem(f"'{self.name}' has no state '{state}'", "a state must be declared under `states`", fix)
+            )
 
     def single_state(self, state: str | None) -> str | None:
-        """The state to be asked: the one given, or the only one. Raises `QuestionError` where there are several.
+        """Return the given state, or the only one. Raises `QuestionError` if there are several and none is given.
 
         Parameters
         ----------
         state : str or None
-            Its name; None for the only one, or a train without states.
+            Name of a state; None for the only one, or for a train without states.
         """
         if state is None and len(self.states) > 1:
             names = ", ".join(self.states)
             raise QuestionError(
-                Problem(f"'{self.name}' has states", "speeds differ between them", f"name one of: {names}")
+                Problem(f"'{self.name}' has several states", "the result depends on the state", f"name one of: {names}")
             )
         self.check_state(state)
         return next(iter(self.states), None) if state is None else state
 
     def state_or_first(self, state: str | None) -> str | None:
-        """A state that was named, else the first declared; None for a train that has none.
+        """Return the given state, else the first declared one; None for a train without states.
 
         Parameters
         ----------
@@ -401,39 +418,39 @@ class Train(Declared):
 
     @property
     def has_placed_axes(self) -> bool:
-        """True if an axis has a position, or a direction of its own."""
+        """True if a position or a direction is declared for at least one axis."""
         return any(axis.position is not None or "direction" in axis.model_fields_set for axis in self.axes.values())
 
     @property
     def has_inertia(self) -> bool:
-        """True if some link has a moment of inertia, declared or from the density of its wheels."""
+        """True if at least one link has a moment of inertia, declared or from the density of its wheels."""
         wheels = (wheel.density is not None for _, wheel in self.wheels.values())
         return self.density is not None or any(link.inertia for link in self.links.values()) or any(wheels)
 
     def has_torque_units(self, state: str | None) -> bool:
-        """Return True if the loads and bearings of one state are given in units.
+        """Return True if the loads and bearings of one state are given with units.
 
         Parameters
         ----------
         state : str or None
-            A declared state; None for the train without any.
+            A declared state; None for a train without states.
         """
         bearings = (part.bearing.sliding for part in self.links.values() if part.bearing is not None)
         torques = [torque for torque in (*self.case(state).loads.values(), *bearings) if torque.value]
         return bool(torques) and all(torque.unit is not None for torque in torques)
 
     def is_loaded(self, state: str | None) -> bool:
-        """True if torques follow from something declared: loads, or friction of bearings.
+        """Return True if the declaration determines torques, by loads or by friction of bearings.
 
         Parameters
         ----------
         state : str or None
-            A declared state; None for the train without any.
+            A declared state; None for a train without states.
         """
         return bool(self.case(state).loads) or any(link.bearing for link in self.links.values())
 
     def _speed(self, speed: Quantity) -> Fraction:
-        """A prescribed speed in the train's unit."""
+        """Convert a prescribed speed to the train's unit."""
         if speed.unit is None:
             return speed.value
         if self.unit is not None:
@@ -441,12 +458,12 @@ class Train(Declared):
         return in_unit(speed, self.input_unit)
 
     def _is_exact(self, speed: Quantity) -> bool:
-        """False where a speed is an irrational number of the train's units."""
+        """Return False if the speed is an irrational number of the train's units."""
         return not speed.value or same_kind(speed.unit, None if self.unit is not None else self.input_unit or None)
 
     @cached_property
     def input_unit(self) -> str:
-        """The unit in which named inputs are shown: that of the first one that turns, else of the first; or nothing."""
+        """Unit in which inputs with a unit are shown: that of the first one that is not 0, else of the first; or ""."""
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         if len(groups) == len(self.states) and groups:
             speeds = [speed for group in groups for speed in group.values()]
@@ -457,14 +474,14 @@ class Train(Declared):
 
     @property
     def unit_speed(self) -> Fraction | None:
-        """A speed of 1 in turns per second; None for plain numbers, and where the unit is a length."""
+        """A speed of 1 [turn/s]; None for plain numbers, and if the unit is a length."""
         if self.unit is not None:
             return None if self.unit_days is None else 1 / (self.unit_days * 86400)
         return Quantity(Fraction(1), self.input_unit, "1").base if self.input_unit else None
 
     @cached_property
     def unit_days(self) -> Fraction | None:
-        """Length of the unit in days, where it is a time."""
+        """Length of the unit [d]; None if the unit is not a time."""
         if self.unit is None:
             return None
         row = period_table().get(self.unit.per)
@@ -475,7 +492,7 @@ class Train(Declared):
 
     @property
     def unit_base(self) -> Fraction | None:
-        """The unit in seconds or metres."""
+        """The unit in seconds or metres; None if no unit is declared."""
         quantity = self.unit_quantity
         if quantity is not None:
             return quantity.base
@@ -483,7 +500,7 @@ class Train(Declared):
 
     @property
     def unit_quantity(self) -> Quantity | None:
-        """The unit where it is declared as a quantity (a time or a length)."""
+        """The unit as a quantity (a time or a length); None if it is a named period or not declared."""
         if self.unit is None or self.unit.per in period_table():
             return None
         try:
@@ -493,12 +510,12 @@ class Train(Declared):
 
     @property
     def unit_name(self) -> str:
-        """The unit of speeds, for a reader: `turns per tropical year`, `rpm`, or nothing for plain numbers."""
+        """Unit of speeds for readers, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
         if self.unit is not None:
             row = period_table().get(self.unit.per)
             return f"turns per {(row.what if row else '') or str(self.unit.per).removeprefix('1 ')}"
         return self.input_unit
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
-        """Wheels whose tooth count is declared with a range or choices."""
+        """Yield the name and wheel of every tooth count that is declared with a range or choices."""
         return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.doubt)

@@ -1,6 +1,7 @@
-"""From a path, a shipped name, text or plain data to a declaration, with what it inherits.
+"""Loading of declarations from a path, a shipped name, text or plain data, with everything that they inherit.
 
-JSON files are read by `json`: the data are as YAML would give them, and places are found only when somebody reads one.
+JSON files are read with `json`, which is faster and gives the same data as YAML would. Their line numbers are computed
+only if they are needed.
 """
 
 from __future__ import annotations
@@ -25,13 +26,13 @@ from geartrain.train.yaml_nodes import MOST_DEPTH, MOST_VALUES, YamlNode, as_yam
 # ------------------------------------------------------------------------------------------------------------ json text
 
 
-# other characters are escaped, or refused, in different ways by JSON and YAML
+# JSON and YAML escape or refuse other characters in different ways
 _PLAIN = re.compile(r"[\n\r -\[\]-~]*")
 
 
 @dataclass(frozen=True)
 class JsonMarks:
-    """The places in a JSON file, found by the YAML parser when the first one is read."""
+    """Line numbers of a JSON file, computed by the YAML parser on first use."""
 
     text: str
     name: str
@@ -43,16 +44,17 @@ class JsonMarks:
     def _node(self) -> YamlNode:
         try:
             return parse_yaml(self.text, self.name)
-        except DeclarationError:  # it is JSON, but for example a key is longer than YAML allows
+        except DeclarationError:  # valid JSON that is not valid YAML, for example with a very long key
             return YamlNode({}, self.name)
 
 
 def parse_json(text: str) -> dict[str, Any] | None:
-    """The mapping that `text` is as JSON, scalars as the text they were; None where YAML might read it otherwise.
+    """Parse `text` as a JSON mapping with scalars kept as text; None if YAML might read it differently.
 
-    Keys given twice, nan, infinity, deep nesting and too many values are left to the YAML parser, which places them.
+    Duplicate keys, nan, infinity, deep nesting and too many values also return None, so that the YAML parser
+    reports them with line numbers.
     """
-    values = sum(map(text.count, ",:{}[]{["))  # at least as many as the parser's events
+    values = sum(map(text.count, ",:{}[]{["))  # upper bound on the number of parser events
     if values >= MOST_VALUES or not _PLAIN.fullmatch(text):
         return None
     try:
@@ -65,7 +67,7 @@ def parse_json(text: str) -> dict[str, Any] | None:
 
 
 def _mapping(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """The entries of an object; `ValueError` for a key that is given twice."""
+    """Return the entries of a JSON object. Raises `ValueError` for a duplicate key."""
     found = {key: _BOOLEANS[value] if value is True or value is False else value for key, value in pairs}
     if len(found) < len(pairs):
         raise ValueError
@@ -80,7 +82,7 @@ def _refuse_constant(name: str) -> Any:
 
 
 def _is_shallow(data: Any) -> bool:
-    """True if the data are nested no deeper than a declaration may be, and no list holds true or false."""
+    """Return True if the nesting depth is within the limit and no list contains true or false."""
     level = [data]
     for _ in range(MOST_DEPTH):
         level = [part for each in level for part in (each.values() if type(each) is dict else each)
@@ -105,13 +107,13 @@ EVIDENCE = "evidence"
 
 @cache
 def shipped() -> Mapping[str, Path]:
-    """The trains that come with geartrain, by name."""
+    """Return the paths of the trains that are shipped with geartrain, by name."""
     return _shipped_files(lambda path: path.parent.name != EVIDENCE)
 
 
 @cache
 def shipped_evidence() -> Mapping[str, Path]:
-    """The evidence of trains to be found that comes with geartrain, by name."""
+    """Return the paths of the evidence for reconstructions that is shipped with geartrain, by name."""
     return _shipped_files(lambda path: path.parent.name == EVIDENCE)
 
 
@@ -123,9 +125,9 @@ def _shipped_files(chosen: Callable[[Path], bool]) -> Mapping[str, Path]:
 
 
 def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
-    """A train from a YAML file, the name of a shipped train, YAML text (of several lines), or plain data.
+    """Read a train from a YAML file, the name of a shipped train, YAML text of several lines, or plain data.
 
-    Wheels may be without a tooth count that is still to be found. Raises `DeclarationError`, also for evidence.
+    Tooth counts may still be undetermined (`search`). Raises `DeclarationError`, also for evidence.
     """
     train = _read_source(source, shipped())
     check_is_train(train)
@@ -147,7 +149,7 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     Raises
     ------
     DeclarationError
-        If it cannot be read; also for a train.
+        If it cannot be read, or if it is a train without `reconstruct`.
 
     Examples
     --------
@@ -157,18 +159,18 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     """
     evidence = _read_source(source, shipped_evidence())
     if evidence.reconstruct is None:
-        what = f"'{evidence.name}' is no evidence"
-        fix = "add `reconstruct:` with what may be added, such as `add: {wheels: 2, teeth: [12, 225]}`"
-        raise DeclarationError(Problem(what, "it does not say what is to be reconstructed", fix, evidence.place()))
+        what = f"'{evidence.name}' is not evidence"
+        fix = "add `reconstruct:` with the parts that may be added, such as `add: {wheels: 2, teeth: [12, 225]}`"
+        raise DeclarationError(Problem(what, "evidence has the key `reconstruct`", fix, evidence.place()))
     return evidence
 
 
 def check_is_train(train: Train) -> None:
-    """Raise `DeclarationError` for evidence of a train that is still to be found."""
+    """Raise `DeclarationError` if the declaration is evidence for a reconstruction."""
     if train.reconstruct is not None:
-        what = f"'{train.name}' is evidence, not yet a train"
-        why = "it says by `reconstruct` that who meshes with whom is to be found"
-        fix = "`geartrain reconstruct` finds the trains that explain it"
+        what = f"'{train.name}' is evidence, not a train"
+        why = "its key `reconstruct` leaves gear pairs to be found"
+        fix = "run `geartrain reconstruct`, which finds the trains that explain it"
         raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
 
 
@@ -179,46 +181,50 @@ def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Pat
         return _build(node_from_data(source), Path.cwd(), (), "train")
     if isinstance(source, str) and "\n" in source:
         return _build(parse_yaml(source, "text"), Path.cwd(), (), "train")
-    path = _find(source, known)
+    path = _find_file(source, known)
     if path.suffix == ".json" and (train := _read_json(path)) is not None:
         return train
     return _build(parse_yaml(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
 
 
 def _read_json(path: Path) -> Train | None:
-    """The train that a JSON file declares by itself; None where it inherits, has short forms, or has a problem."""
+    """Read a train from a JSON file; None if it inherits, has short forms, or has a problem."""
     text = _read(path)
     data = parse_json(text)
     if data is None or "extends" in data or "remove" in data or has_short_forms(data):
         return None
-    with suppress(DeclarationError):  # it is raised again by the YAML parser's nodes, which have places
+    with suppress(DeclarationError):  # the YAML parser raises it again with line numbers
         return declare({"name": path.stem, **data}, JsonMarks(text, str(path)))
     return None
 
 
 def write_declaration(train: Train) -> str:
-    """YAML text that is read back as the same declaration wherever it stands: with all that it inherits."""
+    """Return YAML text of the declaration, including all inherited parts, so that it does not depend on other files."""
     data = train.model_dump(mode="json", exclude_unset=True, by_alias=True, exclude={"extends", "remove"})
     return as_yaml({"name": train.name, **data})
 
 
 def formatted(path: Path, long: bool = False) -> tuple[str, str]:
-    """The text of a file, and the same declaration with turning pairs and gear pairs in short forms, or in long ones.
+    """Return the text of a file, and the same declaration with turning pairs and gear pairs in short or in long forms.
 
-    Raises `DeclarationError` for a file that cannot be read, or whose new text would declare something else.
+    Raises `DeclarationError` if the file cannot be read, or if the new text would change the declaration.
     """
     from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
     def declared(text: str) -> dict[str, Any]:
         data = _build(parse_yaml(text, str(path)), path.parent, (path.resolve(),), path.stem).model_dump()
-        return data | {"revolutes": sorted(map(str, data["revolutes"]))}  # by axis, they stand in another order
+        return data | {
+            "revolutes": sorted(map(str, data["revolutes"]))
+        }  # short forms group the turning pairs by axis, so their order changes
 
     text = _read(path)
     before = declared(text)
     new = with_long_forms(text) if long else with_short_forms(text)
     if declared(new) != before:
-        why = "its new text would declare another train"
-        raise DeclarationError(Problem("the file is left as it is", why, "please report it", str(path)))
+        why = "the new text would declare a different train"
+        raise DeclarationError(
+            Problem("the file cannot be rewritten", why, "report this as a bug; the file is unchanged", str(path))
+        )
     return text, new
 
 
@@ -230,7 +236,7 @@ def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> 
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """A file, and the files that it changes by `extends`, as far as they can be read.
+    """Return a file and all files that it extends, directly or indirectly.
 
     Parameters
     ----------
@@ -240,14 +246,14 @@ def files_of(path: Path) -> tuple[Path, ...]:
     Raises
     ------
     DeclarationError
-        If one of them cannot be read, or is not there.
+        If one of the files is missing or cannot be read.
     """
     child = parse_yaml(_read(path), str(path))
     return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))
 
 
 def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
-    """The child laid over its parent, which is laid over its own before."""
+    """Merge a declaration with the chain of its parents, the oldest parent first."""
     line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
     result = line.pop()
     if line:
@@ -258,7 +264,9 @@ def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Yam
 
 
 def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[tuple[Path, YamlNode]]:
-    """What it extends, what that extends, and so on; refused where they are too many, or go round in a circle."""
+    """Yield path and node of each ancestor by `extends`. Raises `DeclarationError` for a cycle or a chain that is too
+    long.
+    """
     met = dict.fromkeys(chain)
     for at in count():
         if "extends" not in node.mapping:
@@ -268,11 +276,13 @@ def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[
         if path.resolve() in met:
             loop = " -> ".join(step.name for step in (*met, path))
             raise DeclarationError(
-                Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place)
+                Problem("`extends` forms a cycle", loop, "remove `extends` from one of these files", place)
             )
         if at == _MOST_PARENTS:
-            why = f"a train may change another one that changes another one, {_MOST_PARENTS} at most"
-            raise DeclarationError(Problem("the chain of `extends` is too long", why, "write one of them out", place))
+            why = f"at most {_MOST_PARENTS} levels of inheritance are allowed"
+            raise DeclarationError(
+                Problem("the chain of `extends` is too long", why, "write one of the parents out in full", place)
+            )
         met[path.resolve()] = None
         folder, node = path.parent, parse_yaml(_read(path), str(path))
         yield path, node
@@ -282,9 +292,9 @@ def _parent(name: str, folder: Path, place: str) -> Path:
     if not name:
         raise DeclarationError(
             Problem(
-                "`extends` names nothing",
-                "it is the file, shipped train or shipped evidence to change",
-                "name one",
+                "`extends` is empty",
+                "it names the file, shipped train or shipped evidence to change",
+                "give a name, such as `extends: parent.yaml`, or remove the key",
                 place,
             )
         )
@@ -297,8 +307,8 @@ def _parent(name: str, folder: Path, place: str) -> Path:
     where = "this folder" if folder == Path() else folder
     raise DeclarationError(
         Problem(
-            f"`extends` names '{name}'",
-            f"there is no such file in {where}, and no shipped train or evidence has that name",
+            f"`extends` names the unknown parent '{name}'",
+            f"{where} contains no such file, and no shipped train or evidence has that name",
             suggest(name, siblings, otherwise="`geartrain list [--evidence]` shows what is shipped", wide=True),
             place,
         )
@@ -306,14 +316,14 @@ def _parent(name: str, folder: Path, place: str) -> Path:
 
 
 def _exists(path: Path) -> bool:
-    """True if something is there; a name that no file can have is none."""
+    """Return True if the path exists; False also for names that are not valid for a file."""
     try:
         return path.exists()
     except (OSError, ValueError):
         return False
 
 
-def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
+def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
     path = Path(source)
     if _exists(path):
         return path
@@ -326,26 +336,26 @@ def _find(source: str | Path, known: Mapping[str, Path]) -> Path:
     kind = "evidence" if evidence else "train"
     raise DeclarationError(
         Problem(
-            "there is no such file",
-            f"and no shipped {kind} is called '{path.stem}'",
-            _instead(path.stem, evidence),
+            "the file does not exist",
+            f"no shipped {kind} is called '{path.stem}' either",
+            _suggestion(path.stem, evidence),
             str(source),
         )
     )
 
 
-def _instead(name: str, evidence: bool) -> str:
-    """What to give instead of a name that is not shipped, as evidence or as a train."""
+def _suggestion(name: str, evidence: bool) -> str:
+    """Suggest a correction for a name that is not shipped as evidence or as a train."""
     if evidence and name in shipped():
-        return f"it is a shipped train: say by `--without ARBOR` what to take for lost, or give evidence: {_evidence()}"
+        return f"it is a shipped train: name lost arbors by `--without ARBOR`, or give evidence: {_evidence_names()}"
     if not evidence and name in shipped_evidence():
         return f"it is evidence: `geartrain reconstruct {name}` finds the trains that explain it"
     if evidence:
-        return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence()}", wide=True)
+        return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence_names()}", wide=True)
     return suggest(name, shipped(), otherwise="`geartrain list` shows the shipped trains", wide=True)
 
 
-def _evidence() -> str:
+def _evidence_names() -> str:
     return ", ".join(shipped_evidence())
 
 
@@ -354,21 +364,21 @@ def _read(path: Path) -> str:
     try:
         status = path.stat()
         if not S_ISREG(status.st_mode) and not S_ISDIR(status.st_mode):
-            why = "a device or a pipe may have no end, and is read once"
-            raise DeclarationError(Problem("this is no regular file", why, "save the declaration as a file", place))
+            why = "a device or a pipe may be endless, and cannot be read twice"
+            raise DeclarationError(Problem("this is not a regular file", why, "save the declaration as a file", place))
         if status.st_size > _MOST_BYTES:
             raise DeclarationError(
                 Problem(
                     "the file is too large",
                     f"a declaration has at most {_MOST_BYTES >> 20} MB",
-                    "build the train in Python",
+                    "build the train in Python with `GearTrain.declare`",
                     place,
                 )
             )
         raw = path.read_bytes()
     except IsADirectoryError:
         raise DeclarationError(
-            Problem("this is a directory", "a declaration is a file", "name a .yaml file in it", place)
+            Problem("this is a directory", "a declaration is read from a single file", "name a .yaml file in it", place)
         ) from None
     except OSError as error:
         raise DeclarationError(
@@ -387,6 +397,6 @@ def _read(path: Path) -> str:
         ) from None
     if "\0" in text:
         raise DeclarationError(
-            Problem("this is not a text file", "it holds zero bytes", "name a YAML declaration", place)
+            Problem("this is not a text file", "it contains NUL bytes", "name a YAML declaration", place)
         )
     return text

@@ -1,7 +1,7 @@
-"""The text of a declaration with its turning pairs and gear pairs in short forms, or in long ones.
+"""Rewriting of a declaration's turning pairs and gear pairs in short or in long forms.
 
-Only the two sections are written anew, entry by entry; all other lines stay as they are, and comments stay with their
-entries. What has more to say than its short form can hold stays long.
+Only these two sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their
+entries. An entry with keys that its short form cannot express stays long.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import yaml
 
 _WIDTH = 120
 _NAME = re.compile(r"[^\s~'\"\[\]{},:#&*!|>%@`][^\s~'\"\[\]{},:#]*")
-"""A name that needs no quotes, and none in a list."""
+"""Pattern of a name that needs no quotes, not even in a flow list."""
 _Loader: Any = yaml.SafeLoader
 
 
 @dataclass(frozen=True)
 class _Entry:
-    """An entry of a section as it is written, with comments on lines before it and behind it."""
+    """One entry of a section: its text, the comment lines before it, and the comment after it on its line."""
 
     text: str
     before: tuple[str, ...] = ()
@@ -29,7 +29,7 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    """Rewrite a declaration with turning pairs by axis and gear pairs as `a ~ b`, where they declare no more than that.
+    r"""Rewrite a declaration with turning pairs grouped by axis and gear pairs as `a ~ b`, if they have no other keys.
 
     Parameters
     ----------
@@ -43,14 +43,14 @@ def with_short_forms(text: str) -> str:
 
     Examples
     --------
-    >>> print(with_short_forms("gears:\\n  - {pair: [p, w]}"), end="")
+    >>> print(with_short_forms("gears:\n  - {pair: [p, w]}"), end="")
     gears: [p ~ w]
     """
     return _rewritten(text, {"revolutes": _short_joints, "gears": _short_pairs})
 
 
 def with_long_forms(text: str) -> str:
-    """Rewrite a declaration with every turning pair and every gear pair as a mapping of its own.
+    r"""Rewrite a declaration with every turning pair and every gear pair as a separate mapping.
 
     Parameters
     ----------
@@ -64,20 +64,20 @@ def with_long_forms(text: str) -> str:
 
     Examples
     --------
-    >>> print(*with_long_forms("gears:\\n  - p ~ w").splitlines(), sep=" /")
+    >>> print(*with_long_forms("gears:\n  - p ~ w").splitlines(), sep=" /")
     gears: /  - {pair: [p, w]}
     """
     return _rewritten(text, {"revolutes": _long_joints, "gears": _long_pairs})
 
 
-def _rewritten(text: str, writers: Mapping[str, Callable[[_Written], list[str] | None]]) -> str:
+def _rewritten(text: str, writers: Mapping[str, Callable[[_SectionSource], list[str] | None]]) -> str:
     lines = text.splitlines()
     root = yaml.compose(text, Loader=_Loader)
     if not isinstance(root, yaml.MappingNode) or root.flow_style:
         return text
     parts = [(key, value) for key, value in root.value if key.value in writers]
     for key, value in sorted(parts, key=lambda part: -part[0].start_mark.line):
-        written = _Written(text, key, value)
+        written = _SectionSource(text, key, value)
         found = writers[key.value](written)
         if found is not None:
             lines[written.first : written.last + 1] = found
@@ -85,15 +85,15 @@ def _rewritten(text: str, writers: Mapping[str, Callable[[_Written], list[str] |
 
 
 def _last_line(node: yaml.Node) -> int:
-    """Of what is written, without blank lines and comments after it."""
+    """Return the last line of a node, without blank lines and comments after it."""
     if not isinstance(node, yaml.CollectionNode) or node.flow_style or not node.value:
         return int(node.end_mark.line)
     last = node.value[-1]
     return _last_line(last[1] if isinstance(last, tuple) else last)
 
 
-class _Written:
-    """A section as it is written: its value, and comments behind what is written or on lines of their own."""
+class _SectionSource:
+    """Source text of a section: its value, comments at the end of lines, and comments on separate lines."""
 
     def __init__(self, text: str, key: yaml.Node, value: yaml.Node) -> None:
         self.text, self.value = text, value
@@ -112,24 +112,24 @@ class _Written:
 
     @property
     def head(self) -> str:
-        """The comment behind the section's key."""
+        """Comment on the line of the section's key."""
         return self._behind.get(self.first, "")
 
     @property
     def items(self) -> list[yaml.Node]:
-        """The entries of a list."""
+        """Entries of a list; empty for other values."""
         return list(self.value.value) if isinstance(self.value, yaml.SequenceNode) else []
 
     def source(self, node: yaml.Node) -> str:
-        """What is written there."""
+        """Return the source text of a node."""
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
-    def says(self, entries: Sequence[_Entry]) -> bool:
-        """Whether all entries of a list are written so already."""
+    def is_written_as(self, entries: Sequence[_Entry]) -> bool:
+        """Return whether all entries of a list are already written like this."""
         return [each.text for each in entries] == [self.source(node) for node in self.items]
 
     def entry(self, text: str, node: yaml.Node) -> _Entry:
-        """With the comments that stand before and behind a node, which are given out once."""
+        """Return an entry with the comments before and after a node. Each comment is used once."""
         start, end = node.start_mark.line, _last_line(node)
         before = tuple(each for at, each in self._alone.items() if self._after <= at < start)
         behind = [self._behind.pop(at) for at in range(max(start, self.first + 1), end + 1) if at in self._behind]
@@ -141,8 +141,8 @@ def _parts(node: yaml.Node) -> dict[str, yaml.Node]:
     return {key.value: value for key, value in node.value} if isinstance(node, yaml.MappingNode) else {}
 
 
-def _pair_of(written: _Written, node: yaml.Node, keys: set[str]) -> list[str]:
-    """Both names of a pair as they are written, where it has just these keys."""
+def _pair_of(written: _SectionSource, node: yaml.Node, keys: set[str]) -> list[str]:
+    """Return both names of a pair as written; empty if the node has other keys than `keys`."""
     parts = _parts(node)
     if set(parts) != keys or not isinstance(parts["pair"], yaml.SequenceNode) or len(parts["pair"].value) != 2:
         return []
@@ -152,7 +152,7 @@ def _pair_of(written: _Written, node: yaml.Node, keys: set[str]) -> list[str]:
 # ------------------------------------------------------------------------------------------------------------ to short
 
 
-def _short_joints(written: _Written) -> list[str] | None:
+def _short_joints(written: _SectionSource) -> list[str] | None:
     pairs = [_pair_of(written, node, {"pair", "axis"}) for node in written.items]
     if not pairs or not all(pairs):
         return None
@@ -160,7 +160,7 @@ def _short_joints(written: _Written) -> list[str] | None:
     for node, (first, other) in zip(written.items, pairs, strict=True):
         links, entries = axes.setdefault(written.source(_parts(node)["axis"]), ([first], []))
         if links[0] != first:
-            return None  # a chain of joints: no link carries all others
+            return None  # a chain of joints, in which no link carries all others
         links.append(other)
         entries.append(written.entry("", node))
     merged = [
@@ -174,16 +174,16 @@ def _short_joints(written: _Written) -> list[str] | None:
     return list(_section("revolutes", merged, written.head, "{}", ""))
 
 
-def _short_pairs(written: _Written) -> list[str] | None:
+def _short_pairs(written: _SectionSource) -> list[str] | None:
     entries = [written.entry(_short_pair(written, node), node) for node in written.items]
-    if written.says(entries) or any("\n" in each.text for each in entries):
+    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
         return None
     all_short = not any(each.text.startswith("{") for each in entries)
     return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))
 
 
-def _short_pair(written: _Written, node: yaml.Node) -> str:
-    """A pair in short, where it says no more than its wheels; else as it is written."""
+def _short_pair(written: _SectionSource, node: yaml.Node) -> str:
+    """Return the short form of a gear pair, or its source text if it has further keys."""
     wheels = _pair_of(written, node, {"pair"})
     if not all(_NAME.fullmatch(wheel) for wheel in wheels) or not wheels:
         return written.source(node)
@@ -193,7 +193,7 @@ def _short_pair(written: _Written, node: yaml.Node) -> str:
 # ------------------------------------------------------------------------------------------------------------- to long
 
 
-def _long_joints(written: _Written) -> list[str] | None:
+def _long_joints(written: _SectionSource) -> list[str] | None:
     if not isinstance(written.value, yaml.MappingNode):
         return None
     entries: list[_Entry] = []
@@ -209,14 +209,14 @@ def _long_joints(written: _Written) -> list[str] | None:
     return list(_section("revolutes", entries, written.head, "", "- "))
 
 
-def _long_pairs(written: _Written) -> list[str] | None:
+def _long_pairs(written: _SectionSource) -> list[str] | None:
     entries = [written.entry(_long_pair(written, node), node) for node in written.items]
-    if written.says(entries) or any("\n" in each.text for each in entries):
+    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
         return None
     return list(_section("gears", entries, written.head, "", "- "))
 
 
-def _long_pair(written: _Written, node: yaml.Node) -> str:
+def _long_pair(written: _SectionSource, node: yaml.Node) -> str:
     if isinstance(node, yaml.ScalarNode) and node.value.count("~") == 1:
         first, second = (wheel.strip() for wheel in node.value.split("~"))
         return f"{{pair: [{first}, {second}]}}"
@@ -224,7 +224,7 @@ def _long_pair(written: _Written, node: yaml.Node) -> str:
 
 
 def _section(key: str, entries: Sequence[_Entry], head: str, brackets: str, bullet: str) -> Iterator[str]:
-    """On one line, where that is short and there are no comments; else one line an entry."""
+    """Yield the lines of a section: one line if it is short and has no comments, else one line per entry."""
     if brackets and not head and not any(each.before or each.behind for each in entries):
         line = f"{key}: {brackets[0]}{', '.join(each.text for each in entries)}{brackets[1]}"
         if len(line) <= _WIDTH:

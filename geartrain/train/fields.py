@@ -1,4 +1,4 @@
-"""What the declared parts share: strictness, names, short forms."""
+"""Base class and field types of all declared parts: strict models, names, short forms."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ ExpectedVerdict = Literal["determined", "free", "locked"]
 
 
 class Declared(BaseModel):
-    """What all declared parts share: frozen, no unknown keys, numbers welcome as names."""
+    """Base class of all declared parts: frozen, without unknown keys, numbers accepted as names."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
@@ -46,41 +46,41 @@ class Declared(BaseModel):
         return summary_line(type(self).__name__, values_summary(self, given))
 
     def changed(self, **update: Any) -> Self:
-        """A copy with other fields, which remembers nothing that was derived from the old ones.
+        """Return a copy with changed fields; values cached from the old fields are not copied.
 
         Parameters
         ----------
         **update : object
-            Values by name of field, as a declaration has them or as they were read.
+            New values by field name, as in a declaration or already validated.
 
         Raises
         ------
         DeclarationError
-            For what the part cannot be. References to other parts are not checked: `GearTrain.with_changes` does that.
+            If a value is not valid. References to other parts are not checked; `GearTrain.with_changes` checks them.
         """
         given = {name: getattr(self, name) for name in self.model_fields_set}
         try:
             copy = type(self).model_validate(given | update)
         except ValidationError as error:
-            raise DeclarationError(map(_refused, error.errors(include_url=False))) from None
-        if self.__pydantic_private__ is not None:  # where it was written
+            raise DeclarationError(map(_replacement_problem, error.errors(include_url=False))) from None
+        if self.__pydantic_private__ is not None:  # line numbers
             copy.__pydantic_private__ = dict(self.__pydantic_private__)
         return copy
 
 
-def _refused(error: Mapping[str, Any]) -> Problem:
-    """What is wrong about a value that was to replace another."""
+def _replacement_problem(error: Mapping[str, Any]) -> Problem:
+    """Return the problem of a replacement value that was not valid."""
     if error["type"] == "missing":
         *parent, key = error["loc"]
         return Problem(f"key '{key}' is missing", f"`{dotted(tuple(parent))}` needs it", f"add `{key}:`")
     fix = error.get("ctx", {}).get("fix", "see docs/reference.md")
-    return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"it is {str(error['input'])[:60]!r}", fix)
+    return Problem(f"`{dotted(error['loc'])}`: {error['msg']}", f"the given value is {str(error['input'])[:60]!r}", fix)
 
 
 def read_count(raw: object) -> int:
-    """A tooth count: a positive integer up to 10^12."""
+    """Read a tooth count: an integer from 1 to 10^12."""
     try:
-        # True is an int of Python's; a text of thousands of digits would take minutes to read
+        # True is an int in Python; converting thousands of digits would take minutes
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
     except ValueError:
         number = None
@@ -90,12 +90,12 @@ def read_count(raw: object) -> int:
     raise PydanticCustomError(
         "teeth",
         "{shown} is not a tooth count",
-        {"shown": shown, "fix": "a tooth count is a whole number from 1 to 10^12"},
+        {"shown": shown, "fix": "give a whole number from 1 to 10^12"},
     )
 
 
 def _boolean(raw: object) -> bool:
-    """true or false, as YAML 1.2 writes them; `yes` and `no` are names there."""
+    """Read true or false as in YAML 1.2, where `yes` and `no` are ordinary text."""
     if isinstance(raw, bool):
         return raw
     if isinstance(raw, str) and raw.lower() in ("true", "false"):
@@ -106,12 +106,12 @@ def _boolean(raw: object) -> bool:
 
 
 def side(raw: object) -> object:
-    """1 or -1, also from text."""
+    """Convert the texts "1" and "-1" to integers; return other values unchanged."""
     return int(raw) if raw in ("1", "+1", "-1") else raw
 
 
 def short_for(key: str) -> BeforeValidator:
-    """A bare value stands for `{key: value}`; nothing stands for `{}`."""
+    """Return a validator that reads a plain value as `{key: value}`, and null as `{}`."""
 
     def expand(raw: object) -> object:
         if raw is None:
@@ -126,26 +126,26 @@ def _empty_for_nothing(raw: object) -> object:
 
 
 def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
-    """A JSON schema that accepts a short form too."""
+    """Return a JSON schema that accepts a short form as well."""
     return {"anyOf": [kind, schema]}
 
 
 @dataclass(frozen=True)
 class AlsoShort:
-    """A field whose short form is written out before it is read; for its JSON schema."""
+    """Annotation of a field with a short form that is expanded before validation; adds it to the JSON schema."""
 
     schema: Mapping[str, Any]
 
     def __get_pydantic_json_schema__(self, kind: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Either form."""
+        """Return the JSON schema of both forms."""
         return also(handler(kind), dict(self.schema))
 
 
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
-"""A name, as written: numbers are names too."""
+"""A name as written. Numbers are accepted as names."""
 Part = TypeVar("Part")
 ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
-"""Parts by name, frozen."""
+"""Immutable mapping of names to parts."""
 Count = Annotated[int, BeforeValidator(read_count)]
 Boolean = Annotated[bool, BeforeValidator(_boolean)]
 Nothing = BeforeValidator(_empty_for_nothing)
@@ -153,7 +153,7 @@ Nothing = BeforeValidator(_empty_for_nothing)
 
 @cache
 def _form_reader(*names: str) -> TypeAdapter[Any]:
-    """Return the reader of the union of these tooth forms, which imports no other form."""
+    """Return the validator of the union of these tooth forms; no other tooth form is imported."""
 
     class Forms:
         @classmethod
@@ -166,20 +166,20 @@ def _form_reader(*names: str) -> TypeAdapter[Any]:
 
 @cache
 def friction_laws() -> TypeAdapter[Any]:
-    """The reader of all laws of friction; most trains have numbers, and import none."""
+    """Return the validator of all friction laws, imported on first use because most trains declare numbers only."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
     return TypeAdapter(AnyFrictionLaw)
 
 
 def read_friction(raw: object) -> Any:
-    """Coulomb's friction from a coefficient or its keys, or a law of speed where there are keys of one."""
-    law = isinstance(raw, Mapping) and _names_a_law(raw)
+    """Read Coulomb friction from a coefficient or its keys, or a friction law if its keys are present."""
+    law = isinstance(raw, Mapping) and _has_law_keys(raw)
     return (friction_laws() if law else _coulomb_friction()).validate_python(raw)
 
 
-def _names_a_law(keys: Mapping[Any, Any]) -> bool:
-    """True for `law`, and where `law` is forgotten or misspelt beside more keys of laws than of Coulomb's friction."""
+def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
+    """Return True for the key `law`, and if it is missing or misspelt but most keys belong to friction laws."""
     if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
         return True
     if all(key in CoulombFriction.model_fields for key in keys):
@@ -189,21 +189,21 @@ def _names_a_law(keys: Mapping[Any, Any]) -> bool:
     return sum(key in law_keys() for key in keys) > sum(key in CoulombFriction.model_fields for key in keys)
 
 
-def _tell_friction(friction: Any) -> Any:
-    """As it was declared."""
+def _serialize_friction(friction: Any) -> Any:
+    """Return friction as it was declared, for serialization."""
     return friction.model_dump(mode="json") if isinstance(friction, BaseModel) else str(friction)
 
 
 def _read_tooth_form(raw: Any) -> Any:
     """Return a tooth form from its keys, or from its name only, with default values.
 
-    An unknown name is validated by all forms, whose error lists their names.
+    An unknown name is validated against all forms, so that the error lists their names.
     """
     keys = {"form": raw} if isinstance(raw, str) else raw
     name = keys.get("form") if isinstance(keys, dict) else getattr(keys, "form", None)
     known = isinstance(name, str) and name in TOOTH_FORMS
     form = _form_reader(*([name] if known else TOOTH_FORMS)).validate_python(keys)
-    # of a union, pydantic builds the members' validators only; writing a form needs its serializer
+    # pydantic builds only the validators of a union's members; writing a form needs its serializer
     type(form).model_rebuild()
     return form
 
@@ -226,8 +226,8 @@ else:
 
         @classmethod
         def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
-            told = core_schema.plain_serializer_function_ser_schema(_tell_friction)
-            return core_schema.no_info_plain_validator_function(read_friction, serialization=told)
+            as_declared = core_schema.plain_serializer_function_ser_schema(_serialize_friction)
+            return core_schema.no_info_plain_validator_function(read_friction, serialization=as_declared)
 
         @classmethod
         def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:

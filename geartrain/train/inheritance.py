@@ -1,4 +1,4 @@
-"""`extends`: a child train laid over its parent. First `remove`, then merge; marks follow every value."""
+"""Inheritance by `extends`: a child declaration is merged into its parent, after `remove`. Line numbers are kept."""
 
 from __future__ import annotations
 
@@ -20,15 +20,16 @@ _SHORT = {"wheels": "teeth", "sources": "cite"}
 
 
 def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
-    """The child laid over its parent, as a new node.
+    """Merge a child declaration into its parent and return the result as a new node.
 
-    Raises `DeclarationError` for removals that remove nothing, and for wheels of the parent on another link.
+    Raises `DeclarationError` if `remove` names a part that does not exist, or if a wheel of the parent is declared on
+    another link.
     """
     base = {key: node for key, node in parent.mapping.items() if key not in _NOT_INHERITED}
     keys = {key: parent.keys[key] for key in base}
     root = YamlNode(base, child.place, keys)
     if "remove" in child.mapping:
-        root = _without(root, child.mapping["remove"])
+        root = _apply_remove(root, child.mapping["remove"])
     result = dict(root.mapping)
     for key, node in child.mapping.items():
         keys[key] = child.keys[key]
@@ -36,47 +37,47 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
         if node.value is None:
             result.pop(key, None)
         elif old is not None and key in _BY_NAME:
-            result[key] = _overlay(old, node, key)
+            result[key] = _merge_mappings(old, node, key)
         elif old is not None and key in ("gears", "couplings", "revolutes"):
-            result[key] = _overlay_list(old, node, _identity(key))
+            result[key] = _merge_lists(old, node, _identity(key))
         else:
             result[key] = node
     merged = YamlNode(result, child.place, keys)
-    if problems := list(_on_another_link(root, child, merged)):
+    if problems := list(_moved_wheels(root, child, merged)):
         raise DeclarationError(problems)
     return merged
 
 
 def change_declaration(declared: Train, changes: Mapping[str, Any]) -> Train:
-    """The declaration with other values, by the rules of `extends`. What is not changed keeps its place in a file."""
+    """Return a declaration with changed values by the rules of `extends`; unchanged values keep their line numbers."""
 
     def place(loc: Loc) -> str:
         return declared.place(*loc)
 
     merged = merge_parent(node_from_data(declared, marks=place), written_out(node_from_data(changes)))
     kept = {key: getattr(declared, key) for key in _OWN if key in declared.model_fields_set}
-    new = {key: value for key, value in merged.plain().items() if key != "remove"}  # it is done
+    new = {key: value for key, value in merged.plain().items() if key != "remove"}  # already applied
     return declare(kept | new, merged.place_of)
 
 
-def _on_another_link(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
-    """Wheels that a child declares on another link than its parent, where they still are."""
+def _moved_wheels(parent: YamlNode, child: YamlNode, merged: YamlNode) -> Iterator[Problem]:
+    """Yield a problem for each wheel that a child declares on another link although it is still on the parent's."""
     owner = {wheel: link for link, part in _child(parent, "links").items() for wheel in _child(part, "wheels")}
     for link, part in _child(child, "links").items():
         for wheel in _child(part, "wheels"):
             old = owner.get(wheel, link)
             if old != link and wheel in _child(merged, "links", old, "wheels"):
                 yield Problem(
-                    f"the parent has wheel '{wheel}' on link '{old}'",
-                    f"it is declared again on link '{link}', and wheel ids are unique over the train",
+                    f"wheel '{wheel}' is already on link '{old}' of the parent",
+                    f"link '{link}' declares it again, and wheel ids are unique in a train",
                     f"to change the parent's wheel, write it under `{old}`: `links: {{{old}: {{wheels: {{{wheel}: "
                     "...}}}`; give an additional wheel another id",
                     child.place_of(("links", link, "wheels", wheel)),
                 )
 
 
-def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """A mapping laid over a mapping, entry by entry; `null` unsets."""
+def _merge_mappings(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
+    """Merge two mappings entry by entry; null removes an entry."""
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):
         return new
     result, keys = dict(old.value), dict(old.keys)
@@ -88,22 +89,22 @@ def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
         elif node.value is None:
             del result[name]
         else:
-            result[name] = _entry(before, node, kind)
+            result[name] = _merge_entry(before, node, kind)
     return YamlNode(result, new.place, keys)
 
 
-def _entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
-    """One named entry laid over another of its kind; a short form is written out first."""
-    if kind == "clutches":  # one of `fixes` and `locks`: laid over each other they would be both
+def _merge_entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
+    """Merge two entries of the same kind; short forms are expanded first."""
+    if kind == "clutches":  # exactly one of `fixes` and `locks`: merging could give both
         return new
-    old, new = _long(old, kind), _long(new, kind)
+    old, new = _expanded(old, kind), _expanded(new, kind)
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):
         return new
     result, keys = dict(old.value), dict(old.keys)
     for key, node in new.value.items():
         keys[key] = new.keys[key]
         if key in result and ((kind == "links" and key == "wheels") or (kind == "states" and key == "outputs")):
-            result[key] = _overlay(result[key], node, key)
+            result[key] = _merge_mappings(result[key], node, key)
         elif node.value is None:
             result.pop(key, None)
         else:
@@ -111,7 +112,7 @@ def _entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
     return YamlNode(result, new.place, keys)
 
 
-def _long(node: YamlNode, kind: str) -> YamlNode:
+def _expanded(node: YamlNode, kind: str) -> YamlNode:
     key = _SHORT.get(kind)
     if key is None or isinstance(node.value, dict) or node.value is None:
         return YamlNode({}, node.place) if node.value is None else node
@@ -119,7 +120,7 @@ def _long(node: YamlNode, kind: str) -> YamlNode:
 
 
 def _identity(kind: str) -> Callable[[YamlNode], object]:
-    """What makes two entries of a list the same one."""
+    """Return the function whose value identifies an entry of a list."""
     if kind == "revolutes":
         return lambda node: frozenset(texts(node.mapping.get("pair")))
     return _pair_name if kind == "gears" else _coupling_name
@@ -135,7 +136,7 @@ def _coupling_name(node: YamlNode) -> str:
     return given.text if given else f"{pin.text if pin else ''}~{slot.text if slot else ''}"
 
 
-def _overlay_list(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], object]) -> YamlNode:
+def _merge_lists(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], object]) -> YamlNode:
     if not isinstance(old.value, list) or not isinstance(new.value, list):
         return new
     result = list(old.value)
@@ -145,12 +146,14 @@ def _overlay_list(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], o
         if position is None:
             result.append(node)
         else:
-            result[position] = _entry(result[position], node, "list")
+            result[position] = _merge_entry(result[position], node, "list")
     return YamlNode(result, new.place)
 
 
-def _without(root: YamlNode, remove: YamlNode) -> YamlNode:
-    """The parent less what `remove` names; a link takes its wheels, joints, pairs and couplings along."""
+def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
+    """Remove the parts named by `remove` from the parent; a link is removed with its wheels, joints, pairs and
+    couplings.
+    """
     gone = {key: list(texts(node)) for key, node in remove.mapping.items() if key != "revolutes"}
     joints = (
         [frozenset(texts(node)) for node in remove.mapping["revolutes"].items] if "revolutes" in remove.mapping else []
@@ -167,7 +170,7 @@ def _without(root: YamlNode, remove: YamlNode) -> YamlNode:
     if "links" in result:
         kept = _drop(result["links"], links)
         result["links"] = YamlNode(
-            {name: _bare(node, wheels) for name, node in kept.mapping.items()}, kept.place, kept.keys
+            {name: _without_wheels(node, wheels) for name, node in kept.mapping.items()}, kept.place, kept.keys
         )
     pairs, couplings = set(gone.get("gears", ())), set(gone.get("couplings", ()))
     _filter(
@@ -204,8 +207,8 @@ def _drop(node: YamlNode, names: Iterable[str]) -> YamlNode:
     return YamlNode({name: part for name, part in node.mapping.items() if name not in gone}, node.place, node.keys)
 
 
-def _bare(link: YamlNode, wheels: set[str]) -> YamlNode:
-    """A link without some of its wheels."""
+def _without_wheels(link: YamlNode, wheels: set[str]) -> YamlNode:
+    """Return a link without the given wheels."""
     if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
         return link
     return YamlNode({**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}, link.place, link.keys)
@@ -227,10 +230,10 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]]
     for key, names in gone.items():
         for at, name in enumerate(names):
             if key in known and name not in known[key]:
-                fix = suggest(name, known[key], otherwise="leave it out")
+                fix = suggest(name, known[key], otherwise="delete this entry")
                 problems.append(
                     Problem(
-                        f"`remove` names '{name}'",
+                        f"`remove` names the unknown '{name}'",
                         f"the parent has no such entry in {key}",
                         fix,
                         remove.place_of((key, at)),
@@ -243,9 +246,9 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]]
         if joint not in present:
             problems.append(
                 Problem(
-                    f"`remove` names the turning pair of {' and '.join(sorted(joint))}",
-                    "the parent has no such pair",
-                    "leave it out",
+                    f"`remove` names an unknown turning pair of {' and '.join(sorted(joint))}",
+                    "the parent does not declare it",
+                    "delete this entry",
                     remove.place_of(("revolutes", at)),
                 )
             )

@@ -1,8 +1,8 @@
-"""How wheels are made: their materials, and the errors of cutting by hand.
+"""Manufacture of wheels: their materials, and the errors of cutting and mounting by hand.
 
-Materials are a small shipped table and those that a train declares. Errors are fixed, distributed, or measured tooth by
-tooth. A plain number or a percentage is a fraction of the nominal: a placement of the wheel's own pitch, an aperture of
-the tooth's aperture, a length of the depth of the tooth.
+Materials are a shipped table and the materials that a train declares. Errors are fixed, drawn from a distribution, or
+measured tooth by tooth. A plain number or a percentage is a fraction of the nominal value: a pitch deviation refers to
+the pitch, an aperture deviation to the aperture of the tooth, and a length to the tooth depth.
 """
 
 from __future__ import annotations
@@ -31,25 +31,25 @@ from geartrain.train.fields import Declared, also, short_for
 if TYPE_CHECKING:
     pass
 
-_VICKERS = 9.80665e6  # Pa in one HV, which is kgf/mm2
+_VICKERS = 9.80665e6  # Pa per HV: 1 HV is 1 kgf/mm2
 
 
-def _contracts(figure: Figure) -> Figure:
+def _check_poisson(figure: Figure) -> Figure:
     if not 0 <= figure.value < 0.5:
         raise PydanticCustomError(
             "poisson",
-            "Poisson's ratio {text} is that of no material",
-            {"text": figure.text, "fix": "write a number from 0 to less than 0.5, for metals about 0.3"},
+            "Poisson's ratio {text} is out of range",
+            {"text": figure.text, "fix": "give a number from 0 to less than 0.5, about 0.3 for metals"},
         )
     return figure
 
 
-def _partly(figure: Figure) -> Figure:
+def _check_spread(figure: Figure) -> Figure:
     if not 0 <= figure.value < 1:
         raise PydanticCustomError(
             "spread",
-            "a spread of {text} is no part of a value",
-            {"text": figure.text, "fix": "write a part from 0 to less than 1: 0.3 for 30 % to either side"},
+            "a spread of {text} is out of range",
+            {"text": figure.text, "fix": "give a fraction from 0 to less than 1, such as 0.3 for 30 % to either side"},
         )
     return figure
 
@@ -58,11 +58,11 @@ _STRENGTH = "give for example 200 MPa"
 
 
 class Material(Declared):
-    """What a wheel is made of, as far as its strength asks.
+    """Properties of a material that strength calculations need.
 
     See Also
     --------
-    Train : holds those of its own as `materials`, by name
+    Train : has its own as `materials`, by name
 
     Examples
     --------
@@ -71,30 +71,32 @@ class Material(Declared):
     ('206 GPa', 1863)
     """
 
-    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(description="Young's modulus")
-    poisson: Annotated[Figure, AfterValidator(_contracts)] = Field(
+    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(
+        description="Young's modulus, such as 100 GPa"
+    )
+    poisson: Annotated[Figure, AfterValidator(_check_poisson)] = Field(
         Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5"
     )
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
         None,
-        description="Stress at which it gives way: 0.2 % proof stress of metals, tensile strength of what does not "
-        "yield; no safety is counted in it",
+        description="Strength: 0.2 % proof stress of metals, tensile strength of materials that do not "
+        "yield, such as 200 MPa; without safety factor",
     )
     hardness: Annotated[Figure, above_zero("give for example 120, in HV")] | None = Field(
-        None, description="Vickers hardness (HV), which wear goes by"
+        None, description="Vickers hardness (HV), for wear calculations"
     )
     density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
-        None, description="Density; `density` of a wheel goes before it"
+        None, description="Density, such as 8.5 g/cm3; the `density` of a wheel takes precedence"
     )
-    spread: Annotated[Figure, AfterValidator(_partly)] = Field(
-        Figure.parse("0.3"), description="How far the strength may be off to either side, as a part of it"
+    spread: Annotated[Figure, AfterValidator(_check_spread)] = Field(
+        Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
     )
-    what: str = Field("", description="What is meant by the name")
-    source: str = Field("", description="Where the values come from")
+    what: str = Field("", description="Description of the material")
+    source: str = Field("", description="Source of the values")
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Hardness as a pressure [Pa]: force over the area of the print."""
+        """Vickers hardness as a pressure [Pa]: force over the surface area of the indentation."""
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
 
@@ -102,28 +104,30 @@ FaceWidth = Annotated[MeasuredLength, above_zero("give a length such as 3 mm")]
 
 
 class ArborSizes(Declared):
-    """The arbor of a link between its two bearings.
+    """Dimensions and material of the arbor of a link between its two bearings.
 
     See Also
     --------
-    Link : holds it as `arbor`
+    Link : has it as `arbor`
     """
 
-    diameter: FaceWidth = Field(description="Diameter between its shoulders")
-    span: FaceWidth = Field(description="Length from the middle of one bearing to that of the other")
-    pivot: FaceWidth | None = Field(None, description="Diameter of its pivots; default its own")
-    pivot_length: FaceWidth | None = Field(None, description="Length of a pivot in its hole; default its diameter")
-    material: str = Field("steel", description="Name of its material")
+    diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
+    span: FaceWidth = Field(description="Distance of the bearings, from middle to middle")
+    pivot: FaceWidth | None = Field(None, description="Diameter of its pivots; default `diameter`")
+    pivot_length: FaceWidth | None = Field(
+        None, description="Length of a pivot in its hole; default the pivot's diameter"
+    )
+    material: str = Field("steel", description="Name of the material, in the table or in `materials`")
 
 
 @cache
 def material_table() -> Mapping[str, Material]:
-    """The materials that need no declaration, by name; a train's own of the same name go before them.
+    """Return the shipped table of materials by name. A material of the same name in a train takes precedence.
 
     Returns
     -------
     mapping of str to Material
-        With sources and spread, handbook means: no guarantee for any one sheet or bar.
+        Handbook means with source and spread. They do not guarantee the strength of an individual sheet or bar.
     """
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
@@ -134,16 +138,16 @@ AngleOff = Annotated[Quantity, Dimension("angle or fraction", plain=True)]
 LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 
 
-class _Off(Declared):
-    """A fixed error, or one drawn anew for each tooth, wheel or pair; a bare value is fixed."""
+class _DeclaredError(Declared):
+    """A fixed error, or one that is drawn for each tooth, wheel or pair. A plain value is fixed."""
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> _Off:
+    def _has_one_key(self) -> _DeclaredError:
         given = [key for key in ("value", "normal", "uniform") if getattr(self, key) is not None]
         if len(given) != 1:
             raise PydanticCustomError(
                 "error",
-                "an error is one thing, and this gives {given}",
+                "an error needs exactly one key; found: {given}",
                 {"given": " and ".join(given) or "nothing", "fix": "give exactly one of value, normal, uniform"},
             )
         for key in ("normal", "uniform"):
@@ -151,8 +155,8 @@ class _Off(Declared):
             if width is not None and width.value < 0:
                 raise PydanticCustomError(
                     "error",
-                    "{key}: {text} is no width of a distribution",
-                    {"key": key, "text": width.text, "fix": "write it 0 or greater"},
+                    "{key}: {text} is negative",
+                    {"key": key, "text": width.text, "fix": "give the width of the distribution, 0 or more"},
                 )
         return self
 
@@ -161,114 +165,122 @@ class _Off(Declared):
         return also({"type": ["number", "string"]}, handler(schema))
 
 
-class AngleError(_Off):
-    """How far an angle is off."""
+class AngleError(_DeclaredError):
+    """Error of an angle, fixed or random."""
 
-    value: AngleOff | None = Field(None, description="A fixed error")
+    value: AngleOff | None = Field(None, description="Fixed error")
     normal: AngleOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
-    uniform: AngleOff | None = Field(None, description="Greatest error, all up to it equally likely")
+    uniform: AngleOff | None = Field(None, description="Maximum magnitude of a uniform distribution about 0")
 
 
-class LengthError(_Off):
-    """How far a length is off."""
+class LengthError(_DeclaredError):
+    """Error of a length, fixed or random."""
 
-    value: LengthOff | None = Field(None, description="A fixed error")
+    value: LengthOff | None = Field(None, description="Fixed error")
     normal: LengthOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
-    uniform: LengthOff | None = Field(None, description="Greatest error, all up to it equally likely")
+    uniform: LengthOff | None = Field(None, description="Maximum magnitude of a uniform distribution about 0")
 
 
 class MeasuredTeeth(Declared):
-    """Errors measured on a real wheel, one for each tooth in the order of its turning."""
+    """Errors measured on a real wheel, one value for each tooth in the order of rotation."""
 
     pitch_deviation: tuple[AngleOff, ...] | None = Field(
-        None, fail_fast=True, description="How far each tooth is ahead of its place"
+        None,
+        fail_fast=True,
+        description="Pitch deviation of each tooth; positive if it is ahead of its nominal position",
     )
     tip: tuple[LengthOff, ...] | None = Field(
-        None, fail_fast=True, description="How far each tip stands out beyond its radius"
+        None, fail_fast=True, description="Deviation of each tip radius; positive if it is too large"
     )
     aperture_deviation: tuple[AngleOff, ...] | None = Field(
-        None, fail_fast=True, description="How much wider each tooth's aperture is"
+        None, fail_fast=True, description="Deviation of each tooth's aperture; positive if it is too wide"
     )
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:
-        """What is given, by name."""
+        """Measured values by name, without the quantities that were not measured."""
         names = ("pitch_deviation", "tip", "aperture_deviation")
         return {name: column for name in names if (column := getattr(self, name)) is not None}
 
 
 class WheelManufacture(Declared):
-    """How far the teeth of a wheel are off; what is not given is cut true.
+    """Manufacturing errors of the teeth of a wheel. Errors that are not declared are 0.
 
     See Also
     --------
-    Wheel : holds it as `cutting`
-    Train : holds that of all other wheels
+    Wheel : has it as `cutting`
+    Train : default of all other wheels
     """
 
     pitch_deviation: Annotated[AngleError, short_for("value")] | None = Field(
-        None, description="Of each tooth from its place about the axle; positive is ahead, the way the wheel turns"
+        None,
+        description="Pitch deviation of each tooth from its nominal position about the axis; positive in the direction "
+        "of rotation",
     )
     eccentricity: Annotated[LengthError, short_for("value")] | None = Field(
-        None, description="Distance of the axle from the middle of the teeth"
+        None, description="Distance of the axis of rotation from the centre of the teeth"
     )
     eccentricity_angle: Angle | None = Field(
         None,
-        description="Where the middle of the teeth lies from the axle, from the first tooth; positive is ahead, the "
-        "way the wheel turns, as of pitch_deviation; default anywhere",
+        description="Direction from the axis to the centre of the teeth, measured from the first tooth, positive in "
+        "the direction of rotation; default random",
     )
-    tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Of each tip along its radius")
+    tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Deviation of each tip radius")
     aperture_deviation: Annotated[AngleError, short_for("value")] | None = Field(
-        None, description="Of each tooth's aperture"
+        None, description="Deviation of each tooth's aperture"
     )
-    measured: MeasuredTeeth | None = Field(None, description="Tables of a real wheel, tooth by tooth")
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    measured: MeasuredTeeth | None = Field(None, description="Deviations measured on a real wheel, tooth by tooth")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
 
 class Filing(Declared):
-    """A pair is filed to fit: the flank that stands out farthest where it jams is filed until the couple passes.
+    """Fitting of a pair by filing: where it jams, the most protruding flank is filed until the tooth pair passes.
 
     See Also
     --------
-    PairMounting : holds it as `filing`
+    PairMounting : has it as `filing`
     """
 
     stroke: LengthOff = Field(
-        description="What one stroke of the file takes off a flank, along its normal; a fraction of the tooth's depth"
+        description="Thickness that one stroke of the file removes from a flank, as a length or a fraction of the depth"
     )
 
     @model_validator(mode="after")
-    def _takes_something(self) -> Filing:
+    def _check_stroke(self) -> Filing:
         if self.stroke.value <= 0:
             raise PydanticCustomError(
                 "error",
-                "a stroke of {text} takes nothing",
+                "a stroke of {text} is not above 0",
                 {
                     "text": self.stroke.text,
-                    "fix": "write a length above 0, such as 0.02 mm, or a fraction of the depth",
+                    "fix": "give a length above 0, such as 0.02 mm, or a fraction of the tooth depth",
                 },
             )
         return self
 
 
 class PairMounting(Declared):
-    """How far the axes of a gear pair are off; what is not given is fitted true.
+    """Mounting errors of the axes of a gear pair. Errors that are not declared are 0.
 
     See Also
     --------
-    GearPair : holds it as `fitting`
-    Train : holds that of all other pairs
+    GearPair : has it as `fitting`
+    Train : default of all other pairs
     """
 
     centre: Annotated[LengthError, short_for("value")] | None = Field(
-        None, description="Of the distance of the two axes; positive is further apart"
+        None, description="Error of the centre distance; positive if the axes are too far apart"
     )
     bearing: Annotated[LengthError, short_for("value")] | None = Field(
-        None, description="Play of the bearings: the distance moves by up to this, either way, from tooth to tooth"
+        None,
+        description="Bearing clearance: the centre distance varies by up to this length to either side, from tooth to "
+        "tooth",
     )
     filing: Filing | None = Field(
-        None, description="The pair is turned through its cycle, and what jams is filed until it passes; default not"
+        None,
+        description="Fitting by filing: the pair is turned through its cycle, and jamming teeth are filed until they "
+        "pass; default none",
     )
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")

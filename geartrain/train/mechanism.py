@@ -1,7 +1,7 @@
-"""Parts of the mechanism as declared: sources, wheels, links, axes, pairs.
+"""Parts of the mechanism as declared: sources, wheels, links, axes, gear pairs.
 
-With tooth counts that are in doubt (a best value and what the evidence allows), the basic efficiency of a pair by the
-wheel that drives, and the friction torque of a link's bearing, sliding and at rest.
+A tooth count may be uncertain (a best value and the counts that the evidence allows). A pair has a basic efficiency for
+each driving wheel, and the bearing of a link has a sliding and a static friction torque.
 """
 
 from __future__ import annotations
@@ -73,7 +73,9 @@ _JOINT_SCHEMA = {
 def _not_negative(torque: Quantity) -> Quantity:
     if torque.value < 0:
         raise PydanticCustomError(
-            "bearing", "a friction torque is not negative", {"fix": "give its magnitude: it acts against the turning"}
+            "bearing",
+            "a friction torque must not be negative",
+            {"fix": "give its magnitude: it is always opposed to the rotation"},
         )
     return torque
 
@@ -82,11 +84,11 @@ FrictionTorque = Annotated[Torque, AfterValidator(_not_negative)]
 
 
 class BearingFriction(Declared):
-    """Friction of a bearing, which does not depend on load or speed. A bare torque is `sliding`.
+    """Friction torque of a bearing, independent of load and speed. A plain torque is read as `sliding`.
 
     See Also
     --------
-    Link : holds it as `bearing`
+    Link : has it as `bearing`
 
     Examples
     --------
@@ -94,21 +96,21 @@ class BearingFriction(Declared):
     0.5
     """
 
-    sliding: FrictionTorque = Field(description="Friction torque while it turns, against its turning")
+    sliding: FrictionTorque = Field(description="Sliding friction torque, such as 0.5 mN m, opposed to the rotation")
     static: FrictionTorque | None = Field(
-        None, description="Torque that a start has to overcome; `sliding` or more, default `sliding`"
+        None, description="Static friction torque that must be exceeded to start; at least `sliding`, default `sliding`"
     )
 
     @model_validator(mode="after")
-    def _rests_no_easier(self) -> BearingFriction:
+    def _check_static(self) -> BearingFriction:
         if self.static is None:
             return self
         if (self.static.unit is None) != (self.sliding.unit is None) and self.static.value and self.sliding.value:
             what = "sliding {sliding} and static {static} mix a plain number and a torque with a unit"
             fix = "give both with a unit, or both without"
         elif self.static.base < self.sliding.base:
-            what = "a static friction torque of {static} is below the sliding one of {sliding}"
-            fix = "what turns is never harder to move than what rests: give `static` as `sliding` or more"
+            what = "the static friction torque {static} is below the sliding friction torque {sliding}"
+            fix = "give `static` as `sliding` or more: static friction is never less than sliding friction"
         else:
             return self
         raise PydanticCustomError(
@@ -117,7 +119,7 @@ class BearingFriction(Declared):
 
     @property
     def at_rest(self) -> Quantity:
-        """`static`, or `sliding` where that is not given."""
+        """Static friction torque: `static`, or `sliding` if `static` is not declared."""
         return self.sliding if self.static is None else self.static
 
     @classmethod
@@ -125,49 +127,56 @@ class BearingFriction(Declared):
         return also({"type": ["string", "number"]}, handler(schema))
 
 
-def _sliding(raw: object) -> object:
+def _read_bearing(raw: object) -> object:
     if isinstance(raw, dict | BearingFriction):
         return raw
     return {"sliding": _not_negative(Quantity.parse(raw, "torque", plain=True))}
 
 
-DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_sliding)]
-"""The same, or a bare torque."""
+DeclaredBearing = Annotated[BearingFriction, BeforeValidator(_read_bearing)]
+"""Friction of a bearing, or its sliding torque as a plain value."""
 
 
 # --------------------------------------------------------------------------------------------------------- efficiencies
 
 
-def _no_more_than_all(efficiency: Quantity) -> Quantity:
+def _at_most_one(efficiency: Quantity) -> Quantity:
     if efficiency.base > 1:
         meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
         raise PydanticCustomError(
             "efficiency",
-            "an efficiency of {text} makes power out of nothing",
-            {"text": efficiency.text, "fix": f"an efficiency is at most 1: write for example 0.98 or {meant}"},
+            "an efficiency of {text} is above 1",
+            {
+                "text": efficiency.text,
+                "fix": f"write for example 0.98 or {meant}; no pair transmits more power than it receives",
+            },
         )
     return efficiency
 
 
-Efficiency = Annotated[Share, AfterValidator(_no_more_than_all)]
+Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
 
 
 class Efficiencies(Declared):
-    """Basic efficiency of a pair, carrier held, by the wheel that drives: above 0 and at most 1, or a percentage.
+    """Basic efficiency of a pair (carrier fixed) for each driving wheel: a number up to 1, or a percentage.
 
-    A pair may lock in one direction, which 0 or less says, but not in both.
+    A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
     """
 
-    forward: Efficiency = Field(description="With the first wheel driving, at most 1; 0 or less locks")
-    backward: Efficiency = Field(description="With the second wheel driving, at most 1; 0 or less locks")
+    forward: Efficiency = Field(
+        description="Efficiency with the first wheel driving, at most 1; 0 or less means self-locking"
+    )
+    backward: Efficiency = Field(
+        description="Efficiency with the second wheel driving, at most 1; 0 or less means self-locking"
+    )
 
     @model_validator(mode="after")
-    def _passes_power_one_way(self) -> Efficiencies:
+    def _check_directions(self) -> Efficiencies:
         if self.forward.base <= 0 and self.backward.base <= 0:
             raise PydanticCustomError(
                 "efficiency",
-                "an efficiency of {text} lets no power through in either direction",
-                {"text": self.forward.text, "fix": "an efficiency is above 0 and at most 1, such as 0.98 or 98 %"},
+                "an efficiency of {text} transmits no power in either direction",
+                {"text": self.forward.text, "fix": "give an efficiency above 0 and at most 1, such as 0.98 or 98 %"},
             )
         return self
 
@@ -181,58 +190,60 @@ def _efficiency(raw: object) -> object:
 
 
 DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
-"""The same, or one number for both directions."""
+"""Basic efficiencies, or one number for both directions."""
 
 
 # --------------------------------------------------------------------------------------------------------- tooth counts
 
 
 class Teeth(Declared):
-    """A tooth count with its doubt: a best value, and a range or choices.
+    """An uncertain tooth count: a best value, and a range or a list of possible counts.
 
     See Also
     --------
     Wheel : an example
     """
 
-    value: Count | None = Field(None, description="The count used")
+    value: Count | None = Field(None, description="Tooth count used in calculations")
     range: tuple[Count, Count] | None = Field(
-        None, description="Least and greatest count the evidence allows, inclusive"
+        None, description="Minimum and maximum count that the evidence allows, inclusive"
     )
-    choices: tuple[Count, ...] | None = Field(None, fail_fast=True, description="The counts the evidence allows")
+    choices: tuple[Count, ...] | None = Field(None, fail_fast=True, description="Tooth counts that the evidence allows")
     weights: tuple[Figure, ...] | None = Field(
-        None, fail_fast=True, description="Relative weight of each count in range or choices"
+        None, fail_fast=True, description="Relative probability of each count in `range` or `choices`; default equal"
     )
-    source: str | None = Field(None, description="Key of the source")
+    source: str | None = Field(None, description="Key of the source in `sources`")
     search: tuple[Count, ...] | None = Field(
         None,
         min_length=2,
         fail_fast=True,
-        description="The count is to be found: within two bounds, inclusive, or among three or more counts",
+        description="Counts among which the tooth count is searched: two inclusive bounds, or a list of three or more",
     )
 
     def _brief(self) -> str:
-        """The count, in the line of a wheel."""
+        """Return the count as it is printed in the line of a wheel."""
         return str(self.value)
 
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _makes_sense(self) -> Teeth:
+    def _check_counts(self) -> Teeth:
         bounds = self.range or self.search
         if bounds and len(bounds) == 2 and bounds[0] > bounds[1]:
             raise PydanticCustomError(
                 "teeth",
                 "the range {low} to {high} is empty",
-                {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"},
+                {"low": bounds[0], "high": bounds[1], "fix": "write the smaller count first"},
             )
         if self.value is None and self.search is None:
-            raise PydanticCustomError("teeth", "the tooth count has no value", {"fix": "give `value`, or `search`"})
+            raise PydanticCustomError(
+                "teeth", "the tooth count has no value", {"fix": "give `value`, such as `value: 20`, or `search`"}
+            )
         counts = self.allowed
         if self.value is not None and counts and self.value not in counts:
             raise PydanticCustomError(
                 "teeth",
-                "the value {value} lies outside what its evidence allows",
+                "the value {value} is outside its range or choices",
                 {"value": self.value, "fix": "widen the range or choices, or correct the value"},
             )
         if self.weights is not None and len(self.weights) != len(counts):
@@ -245,7 +256,7 @@ class Teeth(Declared):
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All counts the evidence allows; empty where no doubt is declared."""
+        """All counts that the evidence allows; empty if the count is not declared as uncertain."""
         if self.choices is not None:
             return self.choices
         if self.range is None or self.range[1] - self.range[0] > 10**6:
@@ -254,17 +265,17 @@ class Teeth(Declared):
 
     @property
     def searched(self) -> Sequence[int]:
-        """The counts of `search`, ascending; empty without it."""
+        """Counts of `search` in ascending order; empty if `search` is not declared."""
         if self.search is None:
             return ()
         return range(self.search[0], self.search[1] + 1) if len(self.search) == 2 else sorted(set(self.search))
 
     @property
     def chances(self) -> dict[int, Fraction]:
-        """The chance of each count before anything else is known, as its `weights` say, ascending; the sum is 1.
+        """Prior probability of each count by `weights`, in ascending order of counts; the sum is 1.
 
-        All counts are alike where no weights are declared, and those of `search`; counts of weight 0 are left out.
-        Empty where no doubt is declared. Not to be asked where there is a `fault_of_weights`.
+        Without weights all counts of `range`, `choices` or `search` are equally probable. Counts of weight 0 are left
+        out. Empty if the count is not declared as uncertain. Undefined if there is a `fault_of_weights`.
 
         Examples
         --------
@@ -282,7 +293,7 @@ class Teeth(Declared):
 
     @property
     def fault_of_weights(self) -> str | None:
-        """Why its weights are no chances; None where they are."""
+        """Reason for which the weights do not define probabilities; None if they do."""
         weights = [figure.value for figure in self.weights or ()]
         if any(weight < 0 for weight in weights):
             return "one is negative"
@@ -292,20 +303,20 @@ class Teeth(Declared):
 # ------------------------------------------------------------------------------------------------------------ mechanism
 
 
-MOST_COPIES = 360  # more planets have room on no carrier
+MOST_COPIES = 360  # no carrier has space for more planets
 
 
 class Source(Declared):
-    """Where facts come from.
+    """Bibliographic source of facts in a declaration.
 
     See Also
     --------
-    Train : holds them as `sources`, by key
+    Train : has them as `sources`, by key
     """
 
-    cite: str = Field(description="The citation")
-    url: str | None = Field(None, description="Where it can be read")
-    note: str | None = Field(None, description="How it was reached, or how far it is trusted")
+    cite: str = Field(description="Bibliographic citation")
+    url: str | None = Field(None, description="Address (URL) of the source")
+    note: str | None = Field(None, description="Remark on access to the source or its reliability")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -317,14 +328,14 @@ def _teeth_kind(raw: object) -> str:
 
 
 HelixAngle = Annotated[
-    Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("give it from the axis")
+    Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("measure it from the axis")
 ]
 Thickness = Annotated[MeasuredLength, above_zero("give a length such as 2 mm")]
-MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3, that of bronze")]
+MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3 (bronze)")]
 
 
 class Wheel(Declared):
-    """A wheel on a link. A bare number is its tooth count.
+    """A gear wheel of a link. A plain number is its tooth count.
 
     Examples
     --------
@@ -336,91 +347,94 @@ class Wheel(Declared):
     """
 
     teeth: Annotated[Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)] = (
-        Field(description="Tooth count, or a count with its range; the starts of a worm")
+        Field(description="Tooth count, or an uncertain count with its range; for a worm, the number of starts")
     )
-    internal: Boolean = Field(False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense")
+    internal: Boolean = Field(
+        False, description="True for a ring (internal teeth); a mesh with it preserves the sense of rotation"
+    )
     flexible: Boolean = Field(
         False,
-        description="Bent into its ring by a wave generator: its teeth go in and out radially, and clear the ring's",
+        description="True for the flexible wheel of a strain wave gear, bent radially into its ring by a generator",
     )
-    kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="How the teeth stand")
+    kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="Kind of wheel")
     facing: Annotated[Literal[1, -1], BeforeValidator(side)] = Field(
-        1, description="Side of the axis to which the cone opens, -1 for the negative one (bevel, contrate)"
+        1, description="Side of the axis to which the cone opens: 1 positive, -1 negative (bevel, contrate)"
     )
     helix_angle: HelixAngle | None = Field(
-        None, description="Of helical teeth, and of a worm's thread: between its direction and the axis"
+        None,
+        description="Helix angle of helical teeth or of a worm's thread, measured from the axis; 0 to less than 90 deg",
     )
     hand: Literal["right", "left"] | None = Field(
-        None, description="Hand of a worm's thread or of helical teeth; a worm's is right by default"
+        None, description="Hand of helical teeth or of a worm's thread; a worm is right-handed by default"
     )
     module: Length | None = Field(
-        None, description="Pitch diameter over tooth count; of helical teeth across them, the normal module"
+        None, description="Module, pitch diameter over tooth count; for helical teeth the normal module"
     )
-    thickness: Thickness | None = Field(None, description="Of the wheel along its axis; default the train's")
-    density: MaterialDensity | None = Field(None, description="Of what it is made of; default the train's")
+    thickness: Thickness | None = Field(None, description="Thickness of the wheel along its axis; default the train's")
+    density: MaterialDensity | None = Field(None, description="Density of the material; default the train's")
     face_width: FaceWidth | None = Field(
-        None, description="Width of its teeth along the axis; default the train's, or its thickness"
+        None, description="Face width (width of the teeth along the axis); default the train's, or the thickness"
     )
     material: Id | None = Field(
-        None, description="What it is made of: a name of the table (docs/strength.md) or of `materials`"
+        None, description="Name of the material, in the table (docs/strength.md) or in `materials`; default the train's"
     )
-    cutting: WheelManufacture | None = Field(None, description="How far its teeth are off; default the train's")
-    status: Status | None = Field(None, description="surviving, reconstructed or hypothetical")
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    cutting: WheelManufacture | None = Field(None, description="Manufacturing errors of the teeth; default the train's")
+    status: Status | None = Field(None, description="Status of the wheel: surviving, reconstructed or hypothetical")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @property
     def count(self) -> int | None:
-        """The tooth count used; None while it is still to be found."""
+        """Tooth count that is used; None if it is still to be searched."""
         return self.teeth if isinstance(self.teeth, int) else self.teeth.value
 
     @property
     def doubt(self) -> Teeth | None:
-        """The declared range or choices, where the count is uncertain."""
+        """Declared range or choices of an uncertain tooth count; None for a certain one."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
     @model_validator(mode="after")
-    def _leans_where_it_may(self) -> Wheel:
+    def _check_helix_angle(self) -> Wheel:
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
             raise PydanticCustomError(
                 "helix_angle",
                 "a {kind} wheel has a helix angle",
-                {"kind": self.kind, "fix": "leave it out: teeth that lean are known of spur wheels, rings and worms"},
+                {"kind": self.kind, "fix": "remove `helix_angle`: only spur wheels, rings and worms have one"},
             )
         return self
 
     @model_validator(mode="after")
-    def _bends_where_it_may(self) -> Wheel:
+    def _check_flexible(self) -> Wheel:
         if self.flexible and (self.internal or self.kind != "spur"):
             raise PydanticCustomError(
                 "flexible",
                 "a {kind} is flexible",
                 {
                     "kind": "ring" if self.internal else f"{self.kind} wheel",
-                    "fix": "write it at the spur wheel that the wave bends into its ring",
+                    "fix": "write `flexible: true` at the spur wheel that is bent into its ring",
                 },
             )
         return self
 
     @property
     def is_helical(self) -> bool:
-        """Whether its teeth lean; a worm's thread does too, and is no such tooth."""
+        """True for a spur wheel or ring with helical teeth. A worm does not count as helical."""
         return self.kind == "spur" and self.helix_angle is not None and self.helix_angle.value > 0
 
     @property
     def helix(self) -> float:
-        """Helix angle (rad), of a right hand above 0; 0 of straight teeth, and where it is not declared."""
+        """Helix angle [rad], positive for a right hand; 0 for straight teeth and if no angle is declared."""
         angle = 0.0 if self.helix_angle is None else self.helix_angle.si
         return -angle if self.hand == "left" else angle
 
     @property
     def slant(self) -> float:
-        """Transverse module over normal module: 1 over the cosine of the helix angle."""
+        """Transverse module over normal module, 1 / cos(helix angle); 1 for wheels that are not helical."""
         return 1 / cos(self.helix) if self.is_helical else 1.0
 
     @property
     def transverse_module(self) -> float | None:
-        """Pitch diameter over tooth count (m); None where no module is declared with a unit."""
+        """Pitch diameter over tooth count [m]; None if no module with a unit is declared."""
         declared = self.module is not None and self.module.unit is not None
         return self.module.si * self.slant if self.module is not None and declared else None
 
@@ -434,32 +448,32 @@ class Link(Declared):
 
     See Also
     --------
-    Train : holds them as `links`, by name
+    Train : has them as `links`, by name
     """
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
-        {}, validate_default=True, description="The wheels fixed on this link, by id"
+        {}, validate_default=True, description="Wheels fixed on this link, by id"
     )
     copies: Annotated[int, Field(le=MOST_COPIES), BeforeValidator(read_count)] = Field(
-        1, description="So many equal links, evenly spaced about the axis of the carrier that bears this one"
+        1, description="Number of equal links, evenly spaced about the axis of the carrier of this link"
     )
-    inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
-        None, description="Moment of inertia about its axis; default from its wheels, where their `density` is given"
+    inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(
+        None, description="Moment of inertia about its axis; default from its wheels, if their `density` is given"
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
-        None, description="Mass of a link that a carrier takes round; default from its wheels, as `inertia`"
+        None, description="Mass of a link on a moving carrier; default from its wheels, like `inertia`"
     )
     bearing: DeclaredBearing | None = Field(
-        None, description="Friction torque of its bearing, against its turning, or {sliding, static}"
+        None, description="Friction torque of its bearing, opposed to the rotation, or {sliding, static}; default none"
     )
-    drag: Annotated[TorsionalDamping, not_below_zero("it acts against the turning: give its magnitude")] | None = Field(
-        None, description="Viscous drag: torque against its turning for each radian a second"
-    )
+    drag: (
+        Annotated[TorsionalDamping, not_below_zero("give its magnitude: drag is always opposed to the rotation")] | None
+    ) = Field(None, description="Coefficient of viscous drag: torque opposed to the rotation per rad/s; default none")
     arbor: ArborSizes | None = Field(
-        None, description="Its arbor between two bearings, where its strength is asked for"
+        None, description="Dimensions of its arbor between two bearings, for strength calculations"
     )
-    angle: Angle | None = Field(None, description="Angle at the start")
-    note: str | None = Field(None, description="A remark for the reader")
+    angle: Angle | None = Field(None, description="Angle at the start; default follows from the meshes")
+    note: str | None = Field(None, description="Remark for readers")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -467,37 +481,41 @@ class Link(Declared):
 
 
 class Axis(Declared):
-    """Where an axis lies; moving axes in the pose where all angles are zero.
+    """Direction and position of an axis; for a moving axis, in the pose in which all angles are 0.
 
     See Also
     --------
-    Train : holds them as `axes`, by label
+    Train : has them as `axes`, by label
     """
 
     direction: tuple[Figure, Figure, Figure] = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
-        description="Direction vector, default z; speeds are positive about it",
+        description="Direction vector about which speeds are positive; default z",
     )
-    position: tuple[Length, Length, Length] | None = Field(None, description="A point of the axis")
-    note: str | None = Field(None, description="A remark for the reader")
+    position: tuple[Length, Length, Length] | None = Field(
+        None, description="A point of the axis, as three lengths; default unknown"
+    )
+    note: str | None = Field(None, description="Remark for readers")
 
     @property
     def way(self) -> Vector:
-        """Its direction, of length 1."""
-        top = max(abs(part.value) for part in self.direction)  # the float of a huge number would overflow
+        """Unit vector of the direction."""
+        top = max(
+            abs(part.value) for part in self.direction
+        )  # scaled first, because a huge number would overflow as a float
         x, y, z = (float(part.value / top) for part in self.direction)
         return unit((x, y, z))
 
     @property
     def point(self) -> Vector | None:
-        """Where it lies [mm]; None where that is not declared."""
+        """A point of the axis [mm]; None if no position is declared."""
         if self.position is None:
             return None
         x, y, z = (float(millimetres(part)) for part in self.position)
         return x, y, z
 
     @model_validator(mode="after")
-    def _points_somewhere(self) -> Axis:
+    def _check_direction(self) -> Axis:
         if not any(figure.value for figure in self.direction):
             raise PydanticCustomError(
                 "axis", "the direction is the zero vector", {"fix": "give a direction such as [0, 0, 1]"}
@@ -506,16 +524,16 @@ class Axis(Declared):
 
 
 class Revolute(Declared):
-    """A turning pair of two links; joints with one axis label are coaxial.
+    """A turning pair of two links. Turning pairs with the same axis label are coaxial.
 
     See Also
     --------
-    Train : holds them as `revolutes`
+    Train : has them as `revolutes`
     """
 
-    pair: tuple[Id, Id] = Field(description="The two links")
-    axis: Id = Field(description="Label of the axis")
-    note: str | None = Field(None, description="A remark for the reader")
+    pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
+    axis: Id = Field(description="Label of the axis; equal labels mean coaxial joints")
+    note: str | None = Field(None, description="Remark for readers")
 
 
 Revolutes = Annotated[tuple[Revolute, ...], AlsoShort(_JOINT_SCHEMA)]
@@ -525,14 +543,14 @@ def _positive(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
             "share",
-            "a share of {text} carries nothing",
-            {"text": figure.text, "fix": "a share is above 0; leave it out where it is not known"},
+            "a share of {text} is not above 0",
+            {"text": figure.text, "fix": "give a share above 0, or leave it out if it is unknown"},
         )
     return figure
 
 
 class GearPair(Declared):
-    """Two wheels in mesh. The carrier is found, not declared.
+    """Two wheels in mesh. The carrier is derived from the turning pairs, not declared.
 
     Examples
     --------
@@ -541,38 +559,43 @@ class GearPair(Declared):
     ('sun~planet', Fraction(49, 50))
     """
 
-    id: str = Field("", description="Name of the pair; default first~second")
-    pair: tuple[Id, Id] = Field(description="The two wheels")
-    tooth_form: DeclaredToothForm | None = Field(None, description="Form of the teeth; default the train's")
+    id: str = Field("", description="Name of the pair; default `first~second`")
+    pair: tuple[Id, Id] = Field(description="Ids of the two wheels")
+    tooth_form: DeclaredToothForm | None = Field(None, description="Tooth form; default the train's")
     friction: DeclaredFriction | None = Field(
-        None, description="Coefficient of friction between teeth, or {sliding, static, deviation}, or a law of speed"
+        None,
+        description="Coefficient of friction between teeth, {sliding, static, deviation}, or a friction law; "
+        "default the train's",
     )
     restitution: DeclaredRestitution | None = Field(
-        None, description="Speed of parting over speed of meeting of teeth that strike, 0 to 1; default the train's"
+        None, description="Coefficient of restitution of tooth impacts, 0 to 1; default the train's"
     )
     stiffness: PairStiffness | None = Field(
         None,
-        description="Of teeth in mesh: torque on the driven wheel for each radian that it yields, or force along the "
-        "line of action for each length; default the train's",
+        description="Mesh stiffness: torque on the driven wheel per radian of its deflection, or force along the "
+        "line of action per length; default the train's",
     )
     damping: PairDamping | None = Field(
-        None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length; default the train's"
+        None,
+        description="Mesh damping: torque on the driven wheel per rad/s, or force along the line of action per speed; "
+        "default the train's",
     )
     efficiency: DeclaredEfficiency | None = Field(
         None,
-        description="Basic efficiency with the carrier held, at most 1: a number, a percentage, or {forward, backward}",
+        description="Basic efficiency with the carrier fixed, at most 1: a number, a percentage, or {forward, backward}"
+        "; default from friction and tooth form",
     )
     share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
-        None, description="Part of a torque it carries, among the pairs that have a wheel in common and a share"
+        None, description="Share of a torque, relative to the shares of other pairs with a common wheel; above 0"
     )
-    driver: Id | None = Field(None, description="The wheel that drives; default by the flow of power")
+    driver: Id | None = Field(None, description="Id of the driving wheel; default from the power flow")
     phase: Figure | None = Field(
         None,
-        description="Pitches by which a tooth of the first wheel is past the line of centres at turn 0; default 0",
+        description="Pitches by which a tooth of the first wheel is past the line of centres at angle 0; default 0",
     )
-    fitting: PairMounting | None = Field(None, description="How far its axes are off; default the train's")
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    fitting: PairMounting | None = Field(None, description="Mounting errors of its axes; default the train's")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -580,5 +603,5 @@ class GearPair(Declared):
 
     @property
     def name(self) -> str:
-        """The declared id, or first~second."""
+        """Declared id, or `first~second`."""
         return self.id or f"{self.pair[0]}~{self.pair[1]}"

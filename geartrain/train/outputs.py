@@ -1,4 +1,4 @@
-"""Outputs of a train and how they are read: targets, expectations, units, dials with their scales."""
+"""Outputs of a train: targets, expected speeds, published values, units, and dials with their scales."""
 
 from __future__ import annotations
 
@@ -20,35 +20,37 @@ NAMED_SCALES: Mapping[str, tuple[str, tuple[tuple[str, int], ...]]] = {
     "zodiac": ("degree", tuple((name, 30) for name in _SIGNS.split())),
     "egyptian_months": ("day", (*((name, 30) for name in _MONTHS.split()), ("Epagomenal", 5))),
 }
-"""Scales that need no list: what one division is, and the names with the divisions that each spans."""
+"""Predefined scales: the name of one division, and the labels with the number of divisions that each spans."""
 
 _MOST = 10**6
 
 
-def _whole(raw: object) -> int:
-    """A positive whole number."""
+def _read_whole(raw: object) -> int:
+    """Read a whole number from 1 to 10^6."""
     text = str(raw)
     number = int(text) if not isinstance(raw, bool) and text.isascii() and text.isdigit() and len(text) < 10 else 0
     if 0 < number <= _MOST:
         return number
     shown = text if len(text) <= 30 else f"{text[:27]}..."
     fix = f"write `names: {text}`" if text in NAMED_SCALES else f"give a whole number from 1 to {_MOST:,}"
-    raise PydanticCustomError("dial", "{shown} is no number of divisions or turns", {"shown": shown, "fix": fix})
+    raise PydanticCustomError(
+        "dial", "{shown} is not a valid number of divisions or turns", {"shown": shown, "fix": fix}
+    )
 
 
-Whole = Annotated[int, BeforeValidator(_whole)]
+Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
-    """The name of some divisions in a row. A bare text is the name.
+    """Label of consecutive divisions. A plain text is the label.
 
     See Also
     --------
-    Dial : holds them as `names`
+    Dial : has them as `names`
     """
 
-    name: str = Field("", description="As it is engraved; empty for divisions without a name")
-    span: Whole | None = Field(None, description="Divisions that it takes; without it all names take as many")
+    name: str = Field("", description="Engraved label; empty for divisions without a label")
+    span: Whole | None = Field(None, description="Number of divisions of the label; default equal for all labels")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -56,17 +58,18 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numbers at the lines between divisions, the last one at the zero mark. A bare text is their style.
+    """Numbers at the lines between divisions, the last one at the zero mark. A plain text is their style.
 
     See Also
     --------
-    Dial : holds them as `numerals`
+    Dial : has them as `numerals`
     """
 
-    style: Literal["roman", "arabic"] = Field("arabic", description="How they are written")
-    every: Whole | None = Field(None, description="Divisions from one to the next; default as many as fit")
+    style: Literal["roman", "arabic"] = Field("arabic", description="Style of the numerals")
+    every: Whole | None = Field(None, description="Number of divisions between numerals; default as small as fits")
     to: Whole | None = Field(
-        None, description="Where they begin again, such as 12 on a dial of 24 hours; default all divisions"
+        None,
+        description="Highest numeral before they start again, such as 12 on a dial of 24 hours; default all divisions",
     )
 
     @classmethod
@@ -75,7 +78,7 @@ class DialNumerals(Declared):
 
 
 class Graduation(Declared):
-    """Divisions along a scale, and what is written at them.
+    """Divisions of a scale, and their labels and numerals.
 
     See Also
     --------
@@ -83,35 +86,41 @@ class Graduation(Declared):
     DialRing : one around a dial
     """
 
-    divisions: Whole = Field(1, description="Cells along all turns; default as many as its names take")
-    cell: str = Field("", description="What one division is, such as month; default as in a named scale, or cell")
+    divisions: Whole = Field(
+        1, description="Number of divisions along all turns; default the sum of the spans of its names"
+    )
+    cell: str = Field("", description="Name of one division, such as month; default from a named scale, else cell")
     names: Annotated[
         tuple[Annotated[DialName, short_for("name")], ...],
         AlsoShort({"enum": [*NAMED_SCALES]}),
-    ] = Field((), description="Of divisions: a named scale, a list for equal parts, or a list of {name, span}")
+    ] = Field((), description="Labels of divisions: a named scale, a list for equal parts, or a list of {name, span}")
     numerals: Annotated[DialNumerals, short_for("style")] | None = Field(
-        None, description="Numbers at the lines: roman, arabic, or {style, every, to}; default counted from 0"
+        None, description="Numerals at the lines: roman, arabic, or {style, every, to}; default counted from 0"
     )
     glyphs: Annotated[dict[Whole, str], AfterValidator(FrozenDict)] = Field(
-        {}, validate_default=True, description="What is engraved in single cells, by the cell's number from 1"
+        {}, validate_default=True, description="Engraved texts of single divisions, by their number from 1"
     )
 
     @model_validator(mode="before")
     @classmethod
-    def _with_its_scale(cls, raw: Any) -> Any:
-        """Writes out a named scale, and counts divisions by names where nothing else does."""
+    def _expand_scale(cls, raw: Any) -> Any:
+        """Expand a named scale, and derive `divisions` from the names if it is not given."""
         if not isinstance(raw, dict) or not raw.get("names"):
             return raw
         names, own = raw["names"], dict(raw)
         if isinstance(names, str):
             if names not in NAMED_SCALES:
-                fix = suggest(names, NAMED_SCALES, otherwise=f"one of {', '.join(NAMED_SCALES)}, or a list of names")
-                raise PydanticCustomError("dial", "there is no scale '{names}'", {"names": names, "fix": fix})
+                fix = suggest(
+                    names, NAMED_SCALES, otherwise=f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
+                )
+                raise PydanticCustomError("dial", "unknown scale '{names}'", {"names": names, "fix": fix})
             cell, parts = NAMED_SCALES[names]
             own.setdefault("divisions", sum(span for _, span in parts))
             if str(own["divisions"]) == str(sum(span for _, span in parts)):
                 own.setdefault("cell", cell)
-            own["names"] = [{"name": name, "span": span} for name, span in _shared(names, parts, own["divisions"])]
+            own["names"] = [
+                {"name": name, "span": span} for name, span in _distribute_names(names, parts, own["divisions"])
+            ]
         elif isinstance(names, list | tuple):
             spans = [each.get("span") if isinstance(each, dict) else None for each in names]
             whole = [int(str(span)) for span in spans if str(span).isascii() and str(span).isdigit()]
@@ -119,35 +128,39 @@ class Graduation(Declared):
         return own
 
     @model_validator(mode="after")
-    def _adds_up(self) -> Graduation:
+    def _check_spans(self) -> Graduation:
         spans = [each.span for each in self.names]
         given = [span for span in spans if span is not None]
         if given and len(given) < len(spans):
             missing = next(each.name for each in self.names if each.span is None)
             fix = {"name": missing, "fix": "give every name a span, or none"}
-            raise PydanticCustomError("dial", "'{name}' has no span, and other names have", fix)
+            raise PydanticCustomError("dial", "'{name}' has no span, but other names have one", fix)
         if given and sum(given) != self.divisions:
             off = sum(given) - self.divisions
             raise PydanticCustomError(
                 "dial",
-                "the spans of its names make {total}, {off} too {way} for {divisions} divisions",
+                "the spans of its names add up to {total}, {off} too {way} for {divisions} divisions",
                 {
                     "total": sum(given),
                     "off": abs(off),
                     "way": "many" if off > 0 else "few",
                     "divisions": self.divisions,
-                    "fix": "let spans add up to the divisions, or leave `divisions` out",
+                    "fix": "make the spans add up to `divisions`, or leave `divisions` out",
                 },
             )
         for cell in self.glyphs:
             if cell > self.divisions:
-                told = {"cell": cell, "divisions": self.divisions, "fix": "cells are counted from 1"}
-                raise PydanticCustomError("dial", "there is no cell {cell} among {divisions}", told)
+                context = {
+                    "cell": cell,
+                    "divisions": self.divisions,
+                    "fix": f"give a number from 1 to {self.divisions}",
+                }
+                raise PydanticCustomError("dial", "cell {cell} is beyond the {divisions} divisions", context)
         return self
 
     @property
     def parts(self) -> tuple[tuple[str, Fraction, Fraction], ...]:
-        """Of every name, the divisions before it and those that it spans, exact."""
+        """Label, first division and number of divisions of every name, as exact fractions."""
         found, first = [], Fraction(0)
         for each in self.names:
             span = Fraction(self.divisions, len(self.names)) if each.span is None else Fraction(each.span)
@@ -156,27 +169,27 @@ class Graduation(Declared):
         return tuple(found)
 
 
-def _shared(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
-    """The names of a scale over some other number of divisions."""
-    total, count = sum(span for _, span in parts), _whole(divisions)
+def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
+    """Distribute the names of a scale over another number of divisions."""
+    total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        told = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
-        raise PydanticCustomError("dial", "{name} cannot share {divisions} divisions", told)
+        context = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
+        raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
     return [(part, int(share)) for part, share in shares]
 
 
 class DialRing(Graduation):
-    """A scale around that of a dial, read by the same pointers.
+    """A second scale around the scale of a dial, read by the same pointers.
 
     See Also
     --------
-    Dial : holds it as `around`
+    Dial : has it as `around`
     """
 
 
 class Dial(Graduation):
-    """A scale a pointer is read on. It stands on the link its output is relative to.
+    """A scale on which a pointer is read. It is fixed to the link to which its output is relative.
 
     Examples
     --------
@@ -185,136 +198,137 @@ class Dial(Graduation):
 
     See Also
     --------
-    Train : holds them as `dials`, by name
+    Train : has them as `dials`, by name
     """
 
-    face: str | None = Field(None, description="The side it is read from, such as front or back")
-    turns: Whole = Field(1, description="Turns of a spiral")
+    face: str | None = Field(None, description="Side from which the dial is read, such as front or back")
+    turns: Whole = Field(1, description="Number of turns of a spiral scale")
     counted: Literal["clockwise", "counter-clockwise"] = Field(
-        "clockwise", description="The way along which its divisions are counted, as read"
+        "clockwise", description="Sense in which the divisions are counted, as seen by the reader"
     )
-    around: DialRing | None = Field(None, description="Another scale around this one, read by the same pointers")
+    around: DialRing | None = Field(None, description="Second scale around this one, read by the same pointers")
     look: Literal["scale", "ball"] = Field(
         "scale",
-        description="What is drawn: a scale with a pointer, or a ball, half black, such as shows the Moon's phase",
+        description="Appearance: a scale with a pointer, or a half-black ball such as shows the Moon's phase",
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         return also({"type": "null"}, handler(schema))
 
 
-_BEHIND = ("back", "rear", "behind")  # words for the far side; a dial that looks elsewhere looks to the front
+_BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face the front
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """True where a dial of some face looks away from one who looks at the train from some side.
+    """Return True if a dial faces away from an observer at one side of the train.
 
     Parameters
     ----------
     face, seen_from : str or None
-        As `Dial.face` and `View.from_` declare them; None looks to the reader.
+        Sides as declared by `Dial.face` and `View.from_`. A dial with face None faces the observer.
     """
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
 
-def _lasts(period: Quantity) -> Quantity:
+def _period_above_zero(period: Quantity) -> Quantity:
     if period.value <= 0:
         raise PydanticCustomError(
             "target",
-            "a period of {text} is none",
-            {"text": period.text, "fix": "give a period above 0; `sense: retrograde` says that it runs backwards"},
+            "a period of {text} is not above 0",
+            {"text": period.text, "fix": "give a period above 0, with `sense: retrograde` for retrograde motion"},
         )
     return period
 
 
-def _turns(figure: Figure) -> Figure:
+def _turns_above_zero(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
             "target",
-            "{text} turns show no period",
-            {"text": figure.text, "fix": "give a number above 0; `sense: retrograde` says that it runs backwards"},
+            "{text} turns is not a number above 0",
+            {"text": figure.text, "fix": "give a number above 0, with `sense: retrograde` for retrograde motion"},
         )
     return figure
 
 
-def _no_tolerance(text: str) -> PydanticCustomError:
-    fix = {"text": text, "fix": "a tolerance is a distance: give 0 or more"}
-    return PydanticCustomError("tolerance", "a tolerance of {text} is met by nothing", fix)
+def _negative_tolerance(text: str) -> PydanticCustomError:
+    fix = {"text": text, "fix": "give the magnitude of the permitted error, 0 or more"}
+    return PydanticCustomError("tolerance", "a tolerance of {text} is negative", fix)
 
 
 def _not_negative(figure: Figure) -> Figure:
     if figure.value < 0:
-        raise _no_tolerance(figure.text)
+        raise _negative_tolerance(figure.text)
     return figure
 
 
 class Target(Declared):
-    """What an output should show: a name of the shipped table, a period or a speed. A bare text is a name.
+    """Target of an output: a name of the shipped table, a period or a speed. A plain text is a name.
 
-    A `speed` carries its sign. A name or a period is a magnitude, which either sense meets, unless `sense` signs it.
+    A `speed` has a sign. A name or a period is a magnitude, which an output of either sense of rotation can meet,
+    unless `sense` is given.
 
     See Also
     --------
-    Output : holds them as `targets`
-    geartrain.kinematics.TargetResult : an output held against one
+    Output : has them as `targets`
+    geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
-    name: str | None = Field(None, description="A row of the shipped table; `geartrain periods` lists them")
-    period: Annotated[Span, AfterValidator(_lasts)] | None = Field(
-        None, description="Time of `turns` turns, such as 29.53059 d; above 0"
+    name: str | None = Field(None, description="Name of an astronomical period; `geartrain periods` lists them")
+    period: Annotated[Span, AfterValidator(_period_above_zero)] | None = Field(
+        None, description="Time for `turns` turns, such as 29.53059 d; above 0"
     )
     speed: Figure | None = Field(
-        None, description="Speed in the train's unit, with its sign; 0 is compared by difference"
+        None, description="Speed in the train's unit with its sign; 0 is compared by difference"
     )
     sense: Literal["direct", "retrograde"] | None = Field(
-        None, description="Sense of a name or period, positive or negative speed; without it either will do"
+        None, description="Sense of rotation of a name or period: direct (positive speed) or retrograde; default either"
     )
-    turns: Annotated[Figure, AfterValidator(_turns)] = Field(
+    turns: Annotated[Figure, AfterValidator(_turns_above_zero)] = Field(
         Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral); above 0"
     )
     tolerance: Share | None = Field(
         None,
-        description="How far off counts as met, such as 20 ppm of the target; of a speed of 0, a plain number of "
-        "units. `check` fails where it is missed; a target without a tolerance is information",
+        description="Maximum relative error, such as 20 ppm; for a speed of 0 the maximum difference in the train's "
+        "unit, as a plain number. `check` fails if it is exceeded; a target without tolerance is only reported",
     )
-    source: str | None = Field(None, description="Key of the source")
-    note: str | None = Field(None, description="A remark for the reader")
+    source: str | None = Field(None, description="Key of the source in `sources`")
+    note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> Target:
+    def _has_one_key(self) -> Target:
         given = [key for key in ("name", "period", "speed") if getattr(self, key) is not None]
         if len(given) != 1:
             raise PydanticCustomError(
                 "target",
-                "a target is one thing, and this gives {given}",
+                "a target needs exactly one of its keys; found: {given}",
                 {"given": " and ".join(given) or "nothing", "fix": "give exactly one of name, period, speed"},
             )
         return self
 
     @model_validator(mode="after")
-    def _has_one_sign(self) -> Target:
+    def _check_sign(self) -> Target:
         if self.sense is not None and self.speed is not None:
             raise PydanticCustomError(
                 "target",
-                "the speed {speed} has a sign, and `sense` gives it another",
-                {"speed": self.speed.text, "fix": "leave `sense` out, and write a retrograde speed with a minus"},
+                "the speed {speed} and `sense` are both given",
+                {"speed": self.speed.text, "fix": "leave `sense` out, and write a retrograde speed with a minus sign"},
             )
         return self
 
     @model_validator(mode="after")
-    def _is_near_something(self) -> Target:
+    def _check_tolerance(self) -> Target:
         tolerance = self.tolerance
         if tolerance is None:
             return self
         if tolerance.value < 0:
-            raise _no_tolerance(tolerance.text)
+            raise _negative_tolerance(tolerance.text)
         if self.speed is not None and not self.speed.value and tolerance.unit is not None:
             raise PydanticCustomError(
                 "target",
-                "{tolerance} of a speed of 0 is 0",
-                {"tolerance": tolerance.text, "fix": "give the difference allowed, a plain number in the train's unit"},
+                "a relative tolerance of {tolerance} is 0 for a speed of 0",
+                {"tolerance": tolerance.text, "fix": "give the maximum difference, a plain number in the train's unit"},
             )
         return self
 
@@ -324,7 +338,7 @@ class Target(Declared):
 
 
 class Expect(Declared):
-    """The mean speed an output must have: exact, or within its tolerance. A bare number is the value.
+    """Required mean speed of an output, exact or within a tolerance. A plain number is the value.
 
     Examples
     --------
@@ -335,18 +349,20 @@ class Expect(Declared):
     False
     """
 
-    value: Figure = Field(description="Integer or fraction: exact. Decimal: at the digits written")
+    value: Figure = Field(
+        description="Expected speed in the train's unit; integers and fractions are exact, decimals to their digits"
+    )
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
-        None, description="Greatest difference that still holds"
+        None, description="Maximum difference, in the unit of the value; default by its digits"
     )
 
     def holds(self, speed: Any) -> bool:
-        """True if a speed agrees.
+        """Return True if a speed agrees with the expected value.
 
         Parameters
         ----------
         speed : Fraction
-            Exact [the train's unit].
+            Exact speed [unit of the train].
         """
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
@@ -356,37 +372,37 @@ class Expect(Declared):
 
 
 class Published(Declared):
-    """What a source prints for an output.
+    """Value that a source prints for an output.
 
     See Also
     --------
-    Output : holds it as `published`
+    Output : has it as `published`
     """
 
-    value: Figure = Field(description="The number as printed; it must hold at its digits")
+    value: Figure = Field(description="Value as printed; it must agree to its digits")
     as_: Literal["speed", "input/output", "output/input"] = Field(
-        "speed", alias="as", description="What the number is; ratios need one non-zero input"
+        "speed", alias="as", description="Quantity that is printed; ratios need exactly one non-zero input"
     )
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
-        None, description="Greatest difference that still holds"
+        None, description="Maximum difference, in the unit of the value; default by its digits"
     )
-    place: str | None = Field(None, description="Where it is printed")
-    source: str | None = Field(None, description="Key of the source")
+    place: str | None = Field(None, description="Place in the source, such as a page or table")
+    source: str | None = Field(None, description="Key of the source in `sources`")
 
     @model_validator(mode="after")
-    def _can_be(self) -> Published:
+    def _check_ratio(self) -> Published:
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
             raise PydanticCustomError(
                 "published",
-                "an input over an output of 0 is no motion",
-                {"fix": "an output that stands still is 0 as `output/input`"},
+                "an input/output ratio of 0 would mean that the input is at rest",
+                {"fix": "write `{value: 0, as: output/input}` for an output at rest"},
             )
         return self
 
 
 class Output(Declared):
-    """A motion the train is asked for: a link, or a link relative to a link.
+    """A required motion of the train: the speed of a link, or of a link relative to another.
 
     Examples
     --------
@@ -395,28 +411,30 @@ class Output(Declared):
     Fraction(-20, 21)
     """
 
-    of: Id | None = Field(None, description="The link; default the output's own name")
-    relative_to: Id | None = Field(None, description="The link it is seen from; default the frame")
-    expect: Annotated[Expect, short_for("value")] | None = Field(
-        None, description="The speed it must have, in the train's unit"
+    of: Id | None = Field(None, description="Link that turns; default the name of the output")
+    relative_to: Id | None = Field(None, description="Link to which the speed is relative; default the frame")
+    expect: Annotated[Expect, short_for("value")] | None = Field(None, description="Required speed in the train's unit")
+    published: Published | None = Field(None, description="Value that a source prints")
+    targets: tuple[Annotated[Target, short_for("name")], ...] = Field(
+        (), description="Astronomical or other targets of the output"
     )
-    published: Published | None = Field(None, description="What a source prints")
-    targets: tuple[Annotated[Target, short_for("name")], ...] = Field((), description="What it should show")
-    dial: Id | None = Field(None, description="The dial it is read on")
+    dial: Id | None = Field(None, description="Name of the dial on which the output is read")
     hand: Literal["needle", "hour", "minute", "seconds"] = Field(
-        "needle", description="How its hand is made: slender, a spade, a long leaf, or thin with a counterpoise"
+        "needle",
+        description="Shape of its hand: a slender needle, a spade (hour), a long leaf (minute), or thin with a "
+        "counterpoise (seconds)",
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
     def links(self, name: str, frame: str) -> tuple[str, str]:
-        """The link that turns, and the link it is seen from.
+        """Return the link that turns, and the link to which its motion is relative.
 
         Parameters
         ----------
         name : str
-            The output's own name, which is that of its link by default.
+            Name of the output, by default also the name of its link.
         frame : str
-            The train's frame.
+            Frame of the train.
         """
         return self.of or name, self.relative_to or frame
 
@@ -426,25 +444,27 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """What a speed of 1 means: one turn per this.
+    """Unit of speeds: one turn per period, time or length.
 
     See Also
     --------
-    Train : holds it as `unit`
+    Train : has it as `unit`
     """
 
-    per: str = Field(description="A period of the shipped table, or a quantity such as 7 d or 18 ft")
+    per: str = Field(
+        description="Name of an astronomical period, or a time or length such as 7 d or 18 ft: one turn per this"
+    )
 
 
 class View(Declared):
-    """From where the train is looked at, and which sense is called positive.
+    """Side from which the train is viewed, and the positive sense of rotation.
 
     See Also
     --------
-    Train : holds it as `view`
+    Train : has it as `view`
     """
 
-    from_: str | None = Field(None, alias="from", description="The side the reader looks from, such as front")
+    from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, such as front")
     positive: Literal["clockwise", "counter-clockwise"] = Field(
-        "counter-clockwise", description="The sense of a positive speed"
+        "counter-clockwise", description="Sense of rotation of a positive speed"
     )

@@ -1,7 +1,7 @@
 """Astronomical periods, speeds and counts with their sources (`periods.csv`); calendar dates and Julian days.
 
-Years are counted as astronomers count them: 0 is 1 BC, -204 is 205 BC. The Julian and the Gregorian calendar are both
-proleptic: their rules hold for every year.
+Years are astronomical: 0 is 1 BC, -204 is 205 BC. The Julian and the Gregorian calendar are both proleptic: their rules
+apply to every year.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ REFORM = Fraction(4598321, 2)
 
 MOST_YEARS = 10**9
 _MARCH = {"julian": Fraction(3442235, 2), "gregorian": Fraction(3442239, 2)}
-"""Julian day of the midnight that begins March 1 of the year 0."""
+"""Julian day of the midnight at which March 1 of the year 0 begins."""
 _PATTERN = re.compile(r"([+-]?\d{1,10})-(\d{1,2})-(\d{1,2})(?:[T ](\d{1,2}):(\d{2})(?::(\d{2}))?)?")
 
 
 @dataclass(frozen=True, slots=True)
 class CalendarDate:
-    """A day of a calendar, and the part of it that has passed.
+    """A day of a calendar, with the elapsed fraction of the day.
 
     See Also
     --------
@@ -40,15 +40,15 @@ class CalendarDate:
     """
 
     year: int
-    """Astronomical: 0 is 1 BC."""
+    """Astronomical year: 0 is 1 BC."""
     month: int
-    """From 1 to 12."""
+    """Month, 1 to 12."""
     day: int
-    """From 1 on."""
+    """Day of the month, from 1 on."""
     part: Fraction
-    """Part of the day that has passed, from 0 to less than 1: 1/2 at noon."""
+    """Elapsed fraction of the day, 0 to less than 1; 1/2 at noon."""
     calendar: Calendar
-    """Proleptic: its rules hold for every year."""
+    """Calendar, proleptic: its rules apply to every year."""
 
     def __str__(self) -> str:
         sign = "-" if self.year < 0 else ""
@@ -56,7 +56,7 @@ class CalendarDate:
 
 
 def julian_day(date: CalendarDate) -> Fraction:
-    """The Julian day of a date; day 31 of a month of 30 days is the first of the next month.
+    """Return the Julian day of a date. Day 31 of a month of 30 days is the first day of the next month.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def julian_day(date: CalendarDate) -> Fraction:
 
 
 def date_of(day: Fraction, calendar: Calendar | None = None) -> CalendarDate:
-    """The date of a Julian day.
+    """Return the calendar date of a Julian day.
 
     Parameters
     ----------
@@ -139,28 +139,34 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
     """
     found = _PATTERN.fullmatch(text.strip())
     if found is None:
-        raise ValueError(f"'{text[:40]}' is no date")
+        raise ValueError(f"'{text[:40]}' is not a date")
     year, month, day = (int(found[at]) for at in (1, 2, 3))
     hour, minute, second = (int(found[at] or 0) for at in (4, 5, 6))
     if abs(year) > MOST_YEARS or hour > 23 or minute > 59 or second > 59:
-        raise ValueError(f"'{text}' is no date")
+        raise ValueError(f"'{text}' is not a date")
     part = Fraction(3600 * hour + 60 * minute + second, 86400) if found[4] else Fraction(1, 2)
     chosen = calendar or ("julian" if (year, month, day) < (1582, 10, 15) else "gregorian")
     date = CalendarDate(year, month, day, part, chosen)
     if date_of(julian_day(date), calendar) != date:
-        raise ValueError(f"there is no {date} in the {chosen} calendar{' of its time' if calendar is None else ''}")
+        raise ValueError(f"{date} does not exist in the {chosen} calendar{' of its time' if calendar is None else ''}")
     return date
 
 
 def _split_julian(days: int) -> tuple[int, int]:
-    """Years that begin in March, and days left over; 1461 days are four years, the last of them the longest."""
+    """Return the number of years that begin in March, and the remaining days.
+
+    1461 days are four years, and the last of them is the leap year.
+    """
     fours, rest = divmod(days, 1461)
     years = min(rest // 365, 3)
     return 4 * fours + years, rest - 365 * years
 
 
 def _split_gregorian(days: int) -> tuple[int, int]:
-    """The same; 146097 days are 400 years, and of their four centuries the last is the longest."""
+    """Return the number of years that begin in March, and the remaining days.
+
+    146097 days are 400 years, and the last of their four centuries is one day longer.
+    """
     rounds, rest = divmod(days, 146097)
     hundreds = min(rest // 36524, 3)
     year, rest = _split_julian(rest - 36524 * hundreds)
@@ -179,20 +185,20 @@ class Period:
     name: str
     """Name by which `unit` and `targets` of a declaration refer to it."""
     kind: Literal["period", "speed", "count"]
-    """A period [d], a speed [turns per year], or a number of things."""
+    """Kind of the value: a period [d], a speed [turns per year], or a count."""
     value: Fraction
-    """The fraction that the source gives, or the decimal as printed."""
+    """Value as the fraction that the source gives, or as the printed decimal."""
     what: str
-    """What goes round or is counted; plain name of a period that serves as a unit. May be empty."""
+    """Subject of the motion or count; plain name of a period that serves as a unit. May be empty."""
     source: str
     """Source of the value."""
     confidence: str
-    """How certain the value is."""
+    """Confidence in the value."""
 
 
 @cache
 def period_table() -> Mapping[str, Period]:
-    """All astronomical periods, speeds and counts that a declaration can refer to.
+    """Return all astronomical periods, speeds and counts that a declaration can refer to.
 
     Returns
     -------
@@ -220,5 +226,5 @@ def period_table() -> Mapping[str, Period]:
 
 
 def suggested_period(name: str) -> str:
-    """What to write instead of an unknown `name`."""
+    """Suggest a replacement for an unknown name of a period."""
     return suggest(name, period_table(), otherwise="`geartrain periods` lists the names", wide=True)

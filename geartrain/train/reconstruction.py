@@ -1,4 +1,6 @@
-"""What `geartrain reconstruct` may do to explain the evidence: what may be added, what must be used, what it costs."""
+"""Constraints of `geartrain reconstruct`: the parts that may be added, the parts that must be used, and their prior
+cost.
+"""
 
 from __future__ import annotations
 
@@ -13,127 +15,131 @@ from geartrain.train.fields import Boolean, Count, Declared, Id
 
 MOST_ADDED = 1000
 NEW_ARBOR = "new"
-"""Said of an output instead of a link: the arbor of its pointer does not survive."""
+"""Value of `of` in an output if the arbor of its pointer does not survive."""
 
 
-def _number(raw: object) -> object:
-    """A whole number from 0 on."""
+def _read_part_number(raw: object) -> object:
+    """Read a whole number from 0 to 1000."""
     try:
-        # True is an int of Python's; a text of thousands of digits would take minutes to read
+        # True is an int in Python; converting thousands of digits would take minutes
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
     except ValueError:
         number = None
     if number is not None and 0 <= number <= MOST_ADDED and str(raw).isascii():
         return number
     fix = f"give a whole number from 0 to {MOST_ADDED}"
-    raise PydanticCustomError("number", "{shown} is no number of parts", {"shown": str(raw)[:30], "fix": fix})
+    raise PydanticCustomError("number", "{shown} is not a valid number of parts", {"shown": str(raw)[:30], "fix": fix})
 
 
 def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
     if bounds[0] > bounds[1]:
-        context = {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"}
+        context = {"low": bounds[0], "high": bounds[1], "fix": "write the smaller count first"}
         raise PydanticCustomError("teeth", "the range {low} to {high} is empty", context)
     return bounds
 
 
-PartNumber = Annotated[int, BeforeValidator(_number)]
+PartNumber = Annotated[int, BeforeValidator(_read_part_number)]
 Factor = Annotated[Figure, above_zero("give a factor above 0, such as 10")]
 Spread = Annotated[Share, above_zero("give a spread above 0, such as 4 %")]
 Distance = Annotated[MeasuredLength, above_zero("give a length above 0, such as 0.5 mm")]
 
 
 class AddedParts(Declared):
-    """What may be added to what survives.
+    """Parts that may be added to the surviving ones.
 
     See Also
     --------
-    Reconstruction : holds it as `add`
+    Reconstruction : has it as `add`
     """
 
-    wheels: PartNumber = Field(0, description="The most wheels that may be added")
-    arbors: PartNumber | None = Field(None, description="The most arbors that may be added; default any number")
+    wheels: PartNumber = Field(0, description="Maximum number of added wheels")
+    arbors: PartNumber | None = Field(None, description="Maximum number of added arbors; default no limit")
     teeth: Annotated[tuple[Count, Count], AfterValidator(_ordered)] | None = Field(
-        None, description="Least and greatest count of an added wheel, inclusive"
+        None, description="Minimum and maximum tooth count of an added wheel, inclusive"
     )
     on: Literal["any", "new"] = Field(
-        "any", description="Where added wheels stand: also beside surviving wheels, to drive, or on new arbors alone"
+        "any", description="Arbors of added wheels: any (surviving ones too, as driving wheels) or only new ones"
     )
 
     @model_validator(mode="after")
-    def _is_bounded(self) -> AddedParts:
+    def _check_bounds(self) -> AddedParts:
         if self.wheels and self.teeth is None:
             raise PydanticCustomError(
-                "add", "wheels are added whose counts have no bounds", {"fix": "add for example `teeth: [12, 225]`"}
+                "add",
+                "added wheels have no bounds of their tooth counts",
+                {"fix": "add for example `teeth: [12, 225]`"},
             )
         return self
 
 
 class GivenCoupling(Declared):
-    """A coupling of two surviving links that is taken as it is: on average they turn alike, in the same sense.
+    """A known coupling of two surviving links: their mean speeds are equal, with the same sense of rotation.
 
     See Also
     --------
-    Reconstruction : holds them as `given`
+    Reconstruction : has them as `given`
     """
 
-    pair: tuple[Id, Id] = Field(description="The two links, that of the pin first")
-    kind: Literal["pin_and_slot"] = Field("pin_and_slot", description="A pin in a slot: a mean ratio of 1")
+    pair: tuple[Id, Id] = Field(description="Two links, that of the pin first")
+    kind: Literal["pin_and_slot"] = Field(
+        "pin_and_slot", description="Kind of coupling: a pin in a slot has a mean ratio of 1"
+    )
 
 
 class PriorCost(Declared):
-    """By what factor a candidate is less probable for each thing that it assumes.
+    """Factors by which each assumption reduces the prior probability of a candidate.
 
     See Also
     --------
-    Reconstruction : holds it as `cost`
+    Reconstruction : has it as `cost`
     """
 
-    wheel: Factor = Field(Figure.parse(10), description="Each added wheel")
-    arbor: Factor = Field(Figure.parse(10), description="Each added arbor")
-    unused: Factor = Field(Figure.parse(100), description="Each surviving wheel that is not used")
+    wheel: Factor = Field(Figure.parse(10), description="Factor for each added wheel")
+    arbor: Factor = Field(Figure.parse(10), description="Factor for each added arbor")
+    unused: Factor = Field(Figure.parse(100), description="Factor for each surviving wheel that is not used")
 
 
 class MeasuredGeometry(Declared):
-    """How measured modules, pitch radii and positions of axes are weighed. Without this block they play no part.
+    """Weights of measured modules, pitch radii and positions of axes. Without this block they are ignored.
 
-    A misfit weighs exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the twelve
-    pairs of the Antikythera mechanism of 2006 whose wheels are both measured; that of distances is what the same
-    errors make where one wheel alone is measured.
+    A misfit has the weight exp(-(misfit/spread)^2 / 2). The default spread of modules is the root mean square of the
+    twelve pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The default spread of distances
+    corresponds to the same errors if only one wheel is measured.
 
     See Also
     --------
-    Reconstruction : holds it as `geometry`
+    Reconstruction : has it as `geometry`
     """
 
     module: Spread = Field(
         Quantity.parse("4.3 %", "fraction", True),
-        description="Spread of modules of wheels in mesh: the logarithm of their quotient, which is the difference "
-        "over the mean",
+        description="Standard deviation of the logarithm of the ratio of modules in mesh, about the relative "
+        "difference",
     )
     distance: Spread = Field(
         Quantity.parse("3 %", "fraction", True),
-        description="Spread of the sum of pitch radii about the distance of the axes: the logarithm of their quotient",
+        description="Standard deviation of the logarithm of the sum of pitch radii over the distance of the axes",
     )
     reach: Distance | None = Field(
         None,
-        description="By how much the sum of pitch radii may miss the distance of the axes at most; "
-        "default anything, at its weight",
+        description="Maximum difference between the sum of pitch radii and the distance of the axes; "
+        "default no limit, only its weight",
     )
     radius: Distance | None = Field(
         None,
-        description="Error of every measured pitch radius, beside the spread of modules, for small wheels are measured "
-        "worse; default none, so that the spread alone counts",
+        description="Error of every measured pitch radius in addition to the spread of modules, because small wheels "
+        "are measured less accurately; default none",
     )
     radii: Mapping[Id, Distance] = Field(
-        {}, description="Measured pitch radii of surviving wheels, where that and not the module was measured"
+        {}, description="Measured pitch radii of surviving wheels, if the radius was measured instead of the module"
     )
 
 
 class Reconstruction(Declared):
-    """How the evidence is to be explained. A declaration that has it is evidence, not a train.
+    """Rules for the explanation of evidence. A declaration that has them is evidence, not a train.
 
-    Its links are what survives, its gears are pairs that were seen in mesh, and an output without `of` is a pointer
-    whose arbor is to be found (`of: new` where that arbor is known not to survive).
+    Its links are the surviving arbors, its gears are pairs that were observed in mesh, and an output without `of` is a
+    pointer whose arbor is unknown (`of: new` if that arbor is known not to survive).
 
     Examples
     --------
@@ -142,20 +148,20 @@ class Reconstruction(Declared):
     ('any', 'wheels', 'given', Fraction(100, 1))
     """
 
-    add: AddedParts = Field(AddedParts(), description="What may be added")
+    add: AddedParts = Field(AddedParts(), description="Parts that may be added")
     carrier: Id | None = Field(
-        None, description="The link on which the arbors turn, with its speed among the inputs; default the frame"
+        None, description="Link on which the arbors turn, with its speed among the inputs; default the frame"
     )
     use: Literal["wheels", "arbors", "some"] = Field(
-        "wheels", description="What must be used: every surviving wheel, every surviving arbor, or neither"
+        "wheels", description="Parts that must be used: every surviving wheel, every surviving arbor, or neither"
     )
     sense: Literal["given", "free"] = Field(
-        "given", description="Whether the signs of speeds are evidence, or their magnitudes alone"
+        "given", description="Evidence of speeds: with their signs (given), or magnitudes only (free)"
     )
-    idlers: Boolean = Field(False, description="Whether a driven wheel may itself drive")
-    apart: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of wheels known not to mesh")
-    given: tuple[GivenCoupling, ...] = Field((), description="Couplings that are taken as they are")
-    cost: PriorCost = Field(PriorCost(), description="Factors of the prior")
+    idlers: Boolean = Field(False, description="True if a driven wheel may itself drive another (idler)")
+    apart: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of wheels that are known not to mesh")
+    given: tuple[GivenCoupling, ...] = Field((), description="Known couplings")
+    cost: PriorCost = Field(PriorCost(), description="Factors of the prior probability")
     geometry: MeasuredGeometry | None = Field(
-        None, description="How modules, radii and positions of axes are weighed; default not at all"
+        None, description="Weights of measured modules, radii and positions of axes; default not used"
     )

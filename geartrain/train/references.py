@@ -1,4 +1,4 @@
-"""Names that point nowhere, and mixtures of wheels, pairs, prescriptions and units that have no meaning."""
+"""Checks of references between parts, and of combinations of wheels, pairs, prescriptions and units."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from geartrain.train.states import Drive
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Plain and named inputs side by side, in one state or in several; zeros go with either."""
+    """Yield problems of inputs with and without units in one train; inputs of 0 are compatible with both."""
     named: tuple[Loc, Quantity] | None = None
     plain: tuple[Loc, Quantity] | None = None
     groups: list[tuple[Loc, Mapping[str, Quantity]]] = [((), train.inputs)]
@@ -32,15 +32,15 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
         return
     if plain is not None:
         why = f"'{plain[1]}' is a plain number and '{named[1]}' has a unit"
-        yield Problem("inputs mix units", why, "write all inputs in one way", train.place(*plain[0]))
+        yield Problem("inputs mix units", why, "give all inputs a unit, or none", train.place(*plain[0]))
     if train.unit is not None and train.unit_days is None:
-        why = f"the train's unit is one turn per {train.unit.per}, which is no time, and '{named[1]}' is"
+        why = f"the train's unit is one turn per {train.unit.per}, which is not a time, but '{named[1]}' is"
         fix = "write all inputs as plain numbers, or declare `unit: {per: ...}` as a time"
         yield Problem("inputs mix units", f"{why} a speed in time", fix, train.place(*named[0]))
 
 
 def mixed_torques(train: Train) -> Iterator[Problem]:
-    """Plain and named torques side by side; zeros go with either."""
+    """Yield a problem if torques with and without units are mixed; torques of 0 are compatible with both."""
     groups: list[tuple[Loc, Mapping[str, Quantity]]] = [(("loads",), train.loads)]
     groups += [(("states", name, "loads"), state.loads or {}) for name, state in train.states.items()]
     found = [((*loc, link), torque) for loc, loads in groups for link, torque in loads.items()]
@@ -49,14 +49,14 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
     named = next((torque for _, torque in found if torque.unit is not None), None)
     for loc, torque in found:
         if named is not None and torque.unit is None and torque.value:
-            why = f"'{named}' has a unit, this has none"
-            fix = "write all loads, bearings and drives in one way"
+            why = f"'{named}' has a unit, this value has none"
+            fix = "give all loads, bearings and drives a unit, or none"
             yield Problem(f"torques mix units: '{torque}'", why, fix, train.place(*loc))
             return
 
 
 def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
-    """The drives of the train and of its states, with where they stand."""
+    """Yield the drives of the train and of its states with their paths."""
     if train.drive is not None:
         yield ("drive",), train.drive
     for name, state in train.states.items():
@@ -65,29 +65,29 @@ def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
 
 
 def rates(train: Train) -> Iterator[Problem]:
-    """A rate that is said twice."""
+    """Yield a problem if the rate is declared twice."""
     if train.rate is not None and train.drive is not None and train.drive.rate is not None:
         why = f"`rate` says {train.rate} and `drive` says {train.drive.rate}"
-        yield Problem("the rate is declared twice", why, "leave one of them out", train.place("drive", "rate"))
+        yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """A period that no row names, or that is of another kind than the train's unit."""
+    """Yield problems of a target that is not in the table, or whose dimension differs from the train's unit."""
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)
         if row is None:
             yield Problem(
-                f"no astronomical period '{target.name}'",
-                "the shipped table has no such row",
+                f"unknown astronomical period '{target.name}'",
+                "a target name is a row of the table of periods",
                 suggested_period(target.name),
                 place,
             )
             return
         if row.kind == "count":
             yield Problem(
-                f"'{target.name}' is a count",
-                "a pointer shows a speed or a period",
+                f"'{target.name}' is a count, not a speed or period",
+                "the target of a pointer is a speed or a period",
                 "choose a row of kind period or speed",
                 place,
             )
@@ -95,8 +95,8 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
         if row.kind == "speed" and not (train.unit and train.unit.per.startswith("year")):
             yield Problem(
                 f"'{target.name}' is a speed per year",
-                "the train's unit is no year",
-                "declare a year as `unit`, or give a period",
+                "the train's unit is not a year",
+                "declare `unit: {per: year_tropical_J2000}`, or give a period",
                 place,
             )
             return
@@ -104,14 +104,14 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
     if target.period is not None and target.period.dimension == "length":
         if not length:
             yield Problem(
-                f"'{target.period}' is no target here",
+                f"the target '{target.period}' is a length",
                 "the train's unit is not a length",
                 "declare `unit: {per: ...}` as a length",
                 place,
             )
     elif target.speed is None and train.unit_days is None:
         yield Problem(
-            "a period is no target here",
+            "a period cannot be a target of this train",
             "the train's unit is not a time",
             "declare `unit: {per: ...}` as a time",
             place,
@@ -119,23 +119,23 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
 
 
 def _epoch_units(train: Train) -> Iterator[Problem]:
-    """A date that nothing leads away from: the train's unit is no time."""
+    """Yield a problem if an epoch is declared and the train's unit is not a time."""
     if train.epoch is not None and train.unit_days is None:
         yield Problem(
-            "an epoch without a unit of time",
-            f"turns become days by `unit`, and {f'{train.unit.per} is no time' if train.unit else 'there is none'}",
+            "the epoch needs a unit of time",
+            f"`unit` converts turns to days; {f'{train.unit.per} is not a time' if train.unit else 'none is declared'}",
             "declare `unit: {per: ...}` as a time, such as year_tropical_J2000",
             train.place("epoch"),
         )
 
 
 def declared_units(train: Train) -> Iterator[Problem]:
-    """A unit of the train that is none, a date without one, and lengths with and without units side by side."""
+    """Yield problems of an invalid unit, an epoch without a unit of time, and lengths with and without units."""
     yield from _epoch_units(train)
     if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
         yield Problem(
-            f"'{train.unit.per}' is no unit",
-            "it is neither a row of the shipped table nor a time or length",
+            f"'{train.unit.per}' is not a unit",
+            "a unit is a row of the table of periods, a time or a length",
             suggested_period(train.unit.per),
             train.place("unit"),
         )
@@ -143,15 +143,15 @@ def declared_units(train: Train) -> Iterator[Problem]:
         train.unit is not None and train.unit.per in period_table() and period_table()[train.unit.per].kind != "period"
     ):
         yield Problem(
-            f"'{train.unit.per}' is no period",
-            "a unit is one turn per a time or a length",
-            "name a row of kind period",
+            f"'{train.unit.per}' is not a period",
+            "a speed of 1 is one turn per period, time or length",
+            "give a time, a length or a period listed by `geartrain periods`",
             train.place("unit"),
         )
     elif train.unit_quantity is not None and train.unit_quantity.value <= 0:
         yield Problem(
-            f"'{train.unit_quantity}' is no unit",
-            "a speed of 1 is one turn per that, and it must take something",
+            f"the unit '{train.unit_quantity}' is not above 0",
+            "a speed of 1 is one turn per this time or length",
             "give a time or a length above 0",
             train.place("unit"),
         )
@@ -168,8 +168,8 @@ def declared_units(train: Train) -> Iterator[Problem]:
     if plain and named:
         yield Problem(
             "lengths mix plain numbers and units",
-            f"`{dotted(named[0])}` has a unit, this has none",
-            "write all lengths in one way",
+            f"`{dotted(named[0])}` has a unit, this value has none",
+            "give all lengths a unit, or none",
             train.place(*plain[0]),
         )
 
@@ -178,10 +178,12 @@ def declared_units(train: Train) -> Iterator[Problem]:
 
 
 def find_problems(train: Train) -> Iterator[Problem]:
-    """Every reference that dangles and every mixture that has no meaning."""
+    """Yield every unresolved reference and every invalid combination of a train."""
     if train.remove is not None and train.extends is None:
-        why = "it takes away what a parent declares, and there is no parent"
-        yield Problem("`remove` without `extends`", why, "say what the train extends", train.place("remove"))
+        why = "it removes parts of a parent, and no parent is named"
+        yield Problem(
+            "`remove` without `extends`", why, "add `extends: parent.yaml`, or delete `remove`", train.place("remove")
+        )
     yield from _links(train)
     yield from _wheels(train)
     yield from _materials(train)
@@ -195,17 +197,17 @@ def find_problems(train: Train) -> Iterator[Problem]:
 
 def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
     fix = suggest(name, known, otherwise=f"declare the {kind}, or correct the name")
-    return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` names it", fix, train.place(*loc))
+    return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))
 
 
-def _no_wheel(train: Train, name: str, at: int) -> Problem:
-    """A pair names what is no wheel; perhaps a link, whose wheels are meant."""
+def _unknown_wheel(train: Train, name: str, at: int) -> Problem:
+    """Return the problem of a gear pair that names an unknown wheel, or a link instead of its wheel."""
     unknown = _unknown(train, "wheel", name, train.wheels, "gears", at, "pair")
     if name not in train.links:
         return unknown
     own = ", ".join(train.links[name].wheels)
     if not own:
-        why, fix = f"'{name}' is a link, and has no wheels", f"declare its wheel: `{name}: {{wheels: {{w: 20}}}}`"
+        why, fix = f"'{name}' is a link without wheels", f"declare its wheel: `{name}: {{wheels: {{w: 20}}}}`"
     else:
         why, fix = f"'{name}' is a link; its wheels are {own}", "name one of them"
     return Problem(unknown.what, why, fix, unknown.place)
@@ -213,12 +215,12 @@ def _no_wheel(train: Train, name: str, at: int) -> Problem:
 
 def _links(train: Train) -> Iterator[Problem]:
     links: Collection[str] = train.links
-    if train.reconstruct is not None:  # evidence need not say that there is a frame
+    if train.reconstruct is not None:  # evidence need not declare the frame
         links = {train.frame, *links}
     if train.frame not in links and "frame" not in train.model_fields_set:
         yield Problem(
             "no link 'frame'",
-            "that is the link that stands still, unless `frame` names another",
+            "it is the fixed link, unless the key `frame` names another one",
             f"declare it, or add for example `frame: {next(iter(links), 'case')}`",
             train.place("links"),
         )
@@ -233,7 +235,7 @@ def _links(train: Train) -> Iterator[Problem]:
         if joint.pair[0] == joint.pair[1]:
             yield Problem(
                 f"turning pair of '{joint.pair[0]}' with itself",
-                "a joint joins two links",
+                "a joint joins two different links",
                 "name the other link",
                 train.place("revolutes", at),
             )
@@ -243,7 +245,7 @@ def _links(train: Train) -> Iterator[Problem]:
 
 
 def _materials(train: Train) -> Iterator[Problem]:
-    """Names of materials that stand neither in the table nor in the declaration."""
+    """Yield a problem for each material that is neither in the table nor in the declaration."""
     named: list[tuple[str, Loc]] = [(train.material, ("material",))] if train.material is not None else []
     for link, part in train.links.items():
         if part.arbor is not None:
@@ -255,12 +257,12 @@ def _materials(train: Train) -> Iterator[Problem]:
         if name not in train.materials and name not in material_table():
             known = [*train.materials, *material_table()]
             otherwise = f"declare it in `materials`, or take one of: {', '.join(known)}"
-            what, why = f"no material '{name}'", f"`{dotted(loc)}` names it"
+            what, why = f"no material '{name}'", f"`{dotted(loc)}` refers to it"
             yield Problem(what, why, suggest(name, known, otherwise=otherwise), train.place(*loc))
 
 
 def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
-    """Tables of a real wheel have a row for each of its teeth."""
+    """Yield a problem for each table of measured values whose length differs from the tooth count."""
     count, cutting = train.links[link].wheels[wheel].count, train.links[link].wheels[wheel].cutting
     if cutting is None or cutting.measured is None or count is None:
         return
@@ -291,14 +293,14 @@ def _wheels(train: Train) -> Iterator[Problem]:
     for at, gear in enumerate(train.gears):
         name, (first, second) = gear.name, gear.pair
         if name in names:
-            yield _twice(train, "gear pair", name, "gears", at)
+            yield _duplicate(train, "gear pair", name, "gears", at)
         names.add(name)
         if gear.driver is not None and gear.driver not in gear.pair:
             yield _unknown(train, "wheel of this pair", gear.driver, gear.pair, "gears", at, "driver")
         if first not in wheels or second not in wheels:
             for wheel in gear.pair:
                 if wheel not in wheels:
-                    yield _no_wheel(train, wheel, at)
+                    yield _unknown_wheel(train, wheel, at)
             continue
         (link_1, wheel_1), (link_2, wheel_2) = wheels[first], wheels[second]
         if link_1 != link_2 and wheel_1.kind == wheel_2.kind == "spur" and not (wheel_1.internal and wheel_2.internal):
@@ -307,33 +309,33 @@ def _wheels(train: Train) -> Iterator[Problem]:
         if link_1 == link_2:
             yield Problem(
                 f"gear pair '{gear.name}' joins two wheels of one link",
-                f"'{first}' and '{second}' are both on link '{link_1}', so they cannot turn against each other",
+                f"'{first}' and '{second}' are both on link '{link_1}', so they cannot turn relative to each other",
                 "put one of them on another link",
                 place,
             )
         elif wheel_1.internal and wheel_2.internal:
             yield Problem(
                 f"gear pair '{gear.name}' joins two rings",
-                "teeth that both look inwards cannot meet",
-                "make one of them external",
+                "two wheels with internal teeth cannot mesh",
+                "remove `internal: true` from one of them",
                 place,
             )
         elif wheel_1.kind == wheel_2.kind == "worm" or (
             "worm" in (wheel_1.kind, wheel_2.kind) and (wheel_1.internal or wheel_2.internal)
         ):
             yield Problem(
-                f"gear pair '{gear.name}' is no worm drive",
-                "a worm drives an external wheel",
+                f"gear pair '{gear.name}' is not a valid worm drive",
+                "a worm meshes with an external wheel",
                 "declare one worm and one external wheel",
                 place,
             )
     for at, coupling in enumerate(train.couplings):
         if coupling.name in names:
-            yield _twice(train, "coupling", coupling.name, "couplings", at)
+            yield _duplicate(train, "coupling", coupling.name, "couplings", at)
         names.add(coupling.name)
 
 
-def _twice(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
+def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
     return Problem(
         f"{kind} '{name}' is declared twice",
         "pairs and couplings share one set of ids",
@@ -350,14 +352,14 @@ def _couplings(train: Train) -> Iterator[Problem]:
         if coupling.pin == coupling.slot:
             yield Problem(
                 f"coupling '{coupling.name}' joins '{coupling.pin}' to itself",
-                "pin and slot are on two links",
+                "pin and slot must be on different links",
                 "name the other link",
                 train.place("couplings", at),
             )
 
 
 def _prescriptions(train: Train) -> Iterator[Problem]:
-    yield from _scope(train, train.inputs, train.fixed, train.locks, ())
+    yield from _prescribed_links(train, train.inputs, train.fixed, train.locks, ())
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
     yield from rates(train)
@@ -372,7 +374,7 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
                 yield _unknown(train, "link", link, train.links, "clutches", name)
     for name, state in train.states.items():
         loc = ("states", name)
-        yield from _scope(train, state.inputs or {}, state.fixed or (), state.locks or (), loc)
+        yield from _prescribed_links(train, state.inputs or {}, state.fixed or (), state.locks or (), loc)
         yield from _named_links(train, state.loads or {}, *loc, "loads")
         for at, clutch_name in enumerate(state.engaged):
             if clutch_name not in train.clutches:
@@ -386,11 +388,11 @@ def _escapement(train: Train) -> Iterator[Problem]:
     if link not in train.links:
         yield _unknown(train, "link", link, train.links, "escapement", "link")
     elif link == train.frame:
-        what = f"the escapement holds the frame '{link}', which does not turn"
+        what = f"the escapement is on the frame '{link}', which does not turn"
         yield Problem(what, "", "name the link of the escape wheel", train.place("escapement", "link"))
 
 
-def _scope(
+def _prescribed_links(
     train: Train,
     inputs: Mapping[str, Quantity],
     fixed: Iterable[str],
@@ -472,14 +474,14 @@ def _source(train: Train, key: str | None, *loc: str | int) -> Iterator[Problem]
 
 
 def _reconstruction(train: Train) -> Iterator[Problem]:
-    """Wheels and links that a question of reconstruction names."""
+    """Yield problems of the wheels and links that `reconstruct` names."""
     requested = train.reconstruct
     if requested is None:
         return
     if NEW_ARBOR in train.links:
         yield Problem(
             f"a surviving link is called '{NEW_ARBOR}'",
-            f"in evidence `of: {NEW_ARBOR}` says that the arbor of a pointer does not survive",
+            f"in evidence `of: {NEW_ARBOR}` means that the arbor of a pointer does not survive",
             "rename the link",
             train.place("links", NEW_ARBOR),
         )
@@ -493,9 +495,9 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
     for at, pair in enumerate(requested.apart):
         if frozenset(pair) in seen:
             yield Problem(
-                f"'{pair[0]}' and '{pair[1]}' are said to mesh and not to mesh",
-                "`gears` holds the pair too",
-                "take it out of one of them",
+                f"'{pair[0]}' and '{pair[1]}' are declared to mesh and not to mesh",
+                "the pair is also in `gears`",
+                "remove it from one of the two lists",
                 train.place("reconstruct", "apart", at),
             )
     for at, coupling in enumerate(requested.given):
@@ -507,7 +509,10 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
         if wheel not in train.wheels:
             yield _unknown(train, "wheel", wheel, train.wheels, *place)
         elif train.wheels[wheel][1].module is not None:
-            why = "one follows from the other and the count of teeth"
+            why = "one follows from the other and the tooth count"
             yield Problem(
-                f"'{wheel}' has a module and a pitch radius", why, "give what was measured", train.place(*place)
+                f"'{wheel}' has a module and a pitch radius",
+                why,
+                "give only the one that was measured",
+                train.place(*place),
             )

@@ -1,4 +1,4 @@
-"""How the train is run and changed: clutches, states, drives; and everything prescribed in one state.
+"""Operation of a train: clutches, states, drives, and all prescriptions of one state.
 
 Drives run a train in time: a hand, a spring, a falling weight, an escapement.
 """
@@ -34,82 +34,83 @@ from geartrain.train.fields import ByName, Count, Declared, ExpectedVerdict, Id,
 from geartrain.train.outputs import Output
 
 GRAVITY = 9.80665
-"""Standard gravity, m/s^2."""
+"""Standard gravity [m/s^2]."""
 
-_NEAR = 0.05  # of the length of a pendulum with all of its mass in its bob
+_NEAR = 0.05  # relative tolerance of the length of a simple pendulum, for rods with mass
 
-DriveTorque = Annotated[Torque, not_below_zero("it acts the way the input turns: give its magnitude")]
+DriveTorque = Annotated[Torque, not_below_zero("give its magnitude: it acts in the direction in which the input turns")]
 
 
 class SpringDrive(Declared):
-    """A spring on the driven link: its torque is `stiffness` times the angle by which it is wound, and runs down.
+    """A spring on the driving link with a torque of `stiffness` times its remaining angle of winding.
 
     See Also
     --------
-    Drive : holds it as `spring`
+    Drive : has it as `spring`
     """
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
-        description="Torque for each radian by which it is wound"
+        description="Torsional stiffness: torque per radian of winding, such as 0.02 N m/rad"
     )
-    turns: Annotated[Figure, not_below_zero("give the turns by which it is wound at the start")] = Field(
-        description="Turns by which it is wound at the start"
+    turns: Annotated[Figure, not_below_zero("give the turns of winding at the start, 0 or more")] = Field(
+        description="Turns of winding at the start"
     )
 
     def torque(self, unwound: float) -> float:
-        """Torque [N m] after the link has turned some way as it is driven.
+        """Return the torque [N m] after the link has turned by some angle in the driving direction.
 
         Parameters
         ----------
         unwound : float
-            How far it has turned [rad].
+            Angle by which the link has turned [rad].
         """
         return self.stiffness.si * (tau * float(self.turns.value) - unwound)
 
 
 class HandDrive(Declared):
-    """A hand at the crank: a torque, or a speed that it keeps with some stiffness, and the inertia that moves along.
+    """A hand at the crank: a torque, or a speed kept through a torsional stiffness, and the inertia of arm and crank.
 
     See Also
     --------
-    Drive : holds it as `hand`
+    Drive : has it as `hand`
     """
 
-    torque: DriveTorque | None = Field(None, description="Torque that it gives")
-    rate: Speed | None = Field(None, description="Speed that it means to keep")
+    torque: DriveTorque | None = Field(None, description="Constant torque of the hand, such as 0.5 N m")
+    rate: Speed | None = Field(None, description="Speed that the hand keeps, such as 30 rpm")
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 5 N m/rad")] | None = Field(
-        None, description="Torque for each radian by which the crank is behind the hand; default rigid"
+        None, description="Torque per radian by which the crank lags behind the hand, such as 5 N m/rad; default rigid"
     )
-    inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
+    inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(
         None, description="Moment of inertia of arm and crank; default 0"
     )
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> HandDrive:
+    def _has_one_key(self) -> HandDrive:
         if (self.torque is None) == (self.rate is None):
             raise PydanticCustomError(
-                "drive", "a hand gives a torque or keeps a rate", {"fix": "give exactly one of torque, rate"}
+                "drive", "a hand needs either a torque or a rate", {"fix": "give exactly one of torque, rate"}
             )
         if self.torque is not None and self.stiffness is not None:
             raise PydanticCustomError(
                 "drive",
-                "a hand that gives a torque needs no stiffness",
-                {"fix": "`stiffness` says how a hand that keeps a `rate` yields: leave it out, or give `rate`"},
+                "`stiffness` applies only to a hand with a `rate`",
+                {"fix": "leave `stiffness` out, or give `rate` instead of `torque`"},
             )
         return self
 
 
 class Drive(Declared):
-    """What drives the train in time: exactly one of rate, torque, weight, spring, hand.
+    """Drive of the train in time: exactly one of rate, torque, weight, spring, hand.
 
-    All act where power enters, at `crank`, else at the input, the way it turns. A rate is that of the input in the
-    mean, as the train's own `rate`: a crank is kept at its own share of it.
+    Every drive acts where power enters, at `crank` or else at the input, in the direction in which it turns. A rate is
+    the mean speed of the input, as for the train's `rate`; if `crank` is another link, its speed follows from the mean
+    ratio.
 
     See Also
     --------
-    Train : holds it as `drive`
-    State : holds one of its own
-    StateCase : what is in force in one state
+    Train : has it as `drive`
+    State : may have its own drive
+    StateCase : drive in force in one state
 
     Examples
     --------
@@ -118,69 +119,71 @@ class Drive(Declared):
     ('weight', 0.08)
     """
 
-    rate: Speed | None = Field(None, description="Speed of the input in real time, held whatever the load")
-    torque: DriveTorque | None = Field(None, description="A constant torque")
+    rate: Speed | None = Field(
+        None, description="Constant speed of the input in real time, for any load, such as 30 rpm"
+    )
+    torque: DriveTorque | None = Field(None, description="Constant torque, such as 0.5 N m")
     weight: Annotated[Mass, above_zero("give a mass such as 4 kg")] | None = Field(
-        None, description="Mass of a weight that pulls a line on a drum"
+        None, description="Mass of a weight on a line around a drum, such as 4 kg; needs `drum`"
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
         None,
-        description="Radius at which that line pulls, that of the drum plus half the thickness of the line. The line "
-        "carries the whole weight: if the weight hangs in a pulley, give half of its mass",
+        description="Lever arm of the line: radius of the drum plus half the thickness of the line. The line "
+        "carries the whole weight; if the weight hangs in a pulley, give half of its mass",
     )
-    spring: SpringDrive | None = Field(None, description="A spring")
-    hand: HandDrive | None = Field(None, description="A hand")
+    spring: SpringDrive | None = Field(None, description="Drive by a spring")
+    hand: HandDrive | None = Field(None, description="Drive by a hand")
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> Drive:
+    def _has_one_key(self) -> Drive:
         kinds = ("rate", "torque", "weight", "spring", "hand")
         given = [key for key in kinds if getattr(self, key) is not None]
         if len(given) != 1:
             raise PydanticCustomError(
                 "drive",
-                "a drive is one thing, and this gives {given}",
+                "a drive needs exactly one kind; found: {given}",
                 {"given": " and ".join(given) or "nothing", "fix": f"give exactly one of {', '.join(kinds)}"},
             )
         if (self.weight is None) != (self.drum is None):
             raise PydanticCustomError(
                 "drive",
-                "a weight pulls a line on a drum",
-                {"fix": "give `weight`, a mass, and `drum`, the radius at which its line pulls"},
+                "`weight` and `drum` must be given together",
+                {"fix": "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"},
             )
         return self
 
     @property
     def torques(self) -> tuple[Quantity, ...]:
-        """The torques it declares as such."""
+        """Torques that are declared directly."""
         hand = None if self.hand is None else self.hand.torque
         return tuple(torque for torque in (self.torque, hand) if torque is not None)
 
     @property
     def pull(self) -> float | None:
-        """Torque of a weight at its drum, mass times gravity times radius [N m]; None of another drive."""
+        """Torque of a weight at its drum [N m], mass times gravity times radius; None for other drives."""
         if self.weight is None or self.drum is None:
             return None
         return self.weight.si * GRAVITY * self.drum.si
 
     @property
     def steady_torque(self) -> float | None:
-        """The torque of what drives with the same torque all the time, a weight or a torque [N m]; None of others."""
+        """Torque of a drive with a constant torque (a torque or a weight) [N m]; None for other drives."""
         return next((torque.si for torque in self.torques), self.pull)
 
     @property
     def kind(self) -> str:
-        """rate, torque, weight, spring or hand."""
+        """Kind of the drive: rate, torque, weight, spring or hand."""
         return next(key for key in ("rate", "torque", "weight", "spring", "hand") if getattr(self, key) is not None)
 
 
 class Escapement(Declared):
-    """It lets one link pass by half a tooth a beat, and no more: a limit from one side.
+    """An escapement that lets one link advance by at most half a tooth per beat (a unilateral constraint).
 
-    The angle is relative to the link that bears the escape wheel, on which its pallets ride.
+    The angle is relative to the link that carries the escape wheel, on which the pallets are mounted.
 
     See Also
     --------
-    Train : holds it as `escapement`
+    Train : has it as `escapement`
 
     Examples
     --------
@@ -190,113 +193,119 @@ class Escapement(Declared):
     0.994
     """
 
-    link: Id = Field(description="The link of the escape wheel")
-    teeth: Count = Field(description="Teeth of the escape wheel")
+    link: Id = Field(description="Link of the escape wheel")
+    teeth: Count = Field(description="Tooth count of the escape wheel")
     beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
-        description="Time from one beat to the next, of which each lets half a tooth pass"
+        description="Time between beats, each of which lets half a tooth pass, such as 1 s"
     )
     pendulum: Annotated[MeasuredLength, above_zero("give a length such as 994 mm")] | None = Field(
-        None, description="Length of its pendulum, from where it hangs to the middle of its bob"
+        None,
+        description="Length of its pendulum from the suspension to the middle of the bob, such as 994 mm; default none",
     )
 
     @model_validator(mode="after")
-    def _beats(self) -> Escapement:
-        """A pendulum swings from side to side in pi sqrt(l/g); a rod with some mass makes it a little quicker."""
+    def _check_pendulum(self) -> Escapement:
+        """Check the length of the pendulum against the beat, pi sqrt(l/g); a rod with mass makes it slightly faster."""
         if self.pendulum is not None:
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.si / length - 1) > _NEAR:
                 raise PydanticCustomError(
                     "escapement",
-                    "a pendulum of that length does not beat so",
-                    {"fix": f"by pi sqrt(l/g) it is {1000 * length:.4g} mm long: give that, or another `beat`"},
+                    "the length of the pendulum does not match the beat",
+                    {"fix": f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"},
                 )
         return self
 
     @property
     def speed(self) -> Fraction:
-        """Mean speed of its link relative to the one that bears it [turn/s]: half a tooth a beat."""
+        """Mean speed of the link relative to the link that carries it [turn/s]: half a tooth per beat."""
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Whether a wheel of a link is the escape wheel, which meshes nothing.
+        """Return whether a wheel of a link is the escape wheel, which is not in a gear mesh.
 
         Parameters
         ----------
         link : str
-            Its link.
+            Link of the wheel.
         count : int or None
-            Its teeth, where known.
+            Tooth count of the wheel, if known.
         """
         return (link, count) == (self.link, self.teeth)
 
 
 class Clutch(Declared):
-    """A brake or a clutch: one of `fixes` and `locks`.
+    """A brake or a clutch: exactly one of `fixes` and `locks`.
 
     See Also
     --------
-    Train : holds them as `clutches`, by name
+    Train : has them as `clutches`, by name
     State : engages them
     """
 
-    fixes: Id | None = Field(None, description="The link it holds to the frame")
-    locks: tuple[Id, Id] | None = Field(None, description="The two links it makes one body")
+    fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
+    locks: tuple[Id, Id] | None = Field(None, description="Two links that the clutch locks together")
 
     @model_validator(mode="after")
-    def _is_one_thing(self) -> Clutch:
+    def _has_one_key(self) -> Clutch:
         if (self.fixes is None) == (self.locks is None):
             raise PydanticCustomError(
-                "clutch", "a clutch fixes one link or locks two", {"fix": "give exactly one of fixes, locks"}
+                "clutch", "a clutch needs either `fixes` or `locks`", {"fix": "give exactly one of fixes, locks"}
             )
         return self
 
 
 class State(Declared):
-    """One way the train is run. What is given here replaces the train's; outputs merge by name.
+    """A mode of operation. Its values replace those of the train; its outputs are merged by name.
 
     See Also
     --------
-    Train : holds them as `states`, by name
-    StateCase : what comes of one
+    Train : has them as `states`, by name
+    StateCase : prescriptions in force in one state
     """
 
-    engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are closed")
-    fixed: tuple[Id, ...] | None = Field(None, description="Links held to the frame, one body with it")
-    locks: tuple[tuple[Id, Id], ...] | None = Field(None, description="Pairs of links that are one body")
-    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link")
-    loads: ByName[Torque] | None = Field(None, description="Torques on links; power into the train is positive")
-    solve_for: Id | None = Field(None, description="The link whose torque is unknown")
-    drive: Drive | None = Field(None, description="What drives the train in time")
+    engaged: tuple[Id, ...] = Field((), description="Names of engaged clutches and brakes")
+    fixed: tuple[Id, ...] | None = Field(None, description="Links fixed to the frame; default the train's")
+    locks: tuple[tuple[Id, Id], ...] | None = Field(
+        None, description="Pairs of links that are locked together; default the train's"
+    )
+    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link; default the train's")
+    loads: ByName[Torque] | None = Field(
+        None, description="External torques by link, positive if power enters the train; default the train's"
+    )
+    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown; default the train's")
+    drive: Drive | None = Field(None, description="Drive of the train in time; default the train's")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Outputs of this state, merged with the train's by name"
     )
     expect: ExpectedVerdict | None = Field(
-        None, description="The verdict that holds and is no failure: neutral is free"
+        None,
+        description="Expected verdict, which does not count as a failure (`free` for neutral); default the train's",
     )
-    note: str | None = Field(None, description="A remark for the reader")
+    note: str | None = Field(None, description="Remark for readers")
 
 
 class Erratum(Declared):
-    """Something a source prints that is not so."""
+    """An error in a published source."""
 
-    place: Id = Field(description="Where it is printed")
-    printed: Id = Field(description="What is printed")
-    right: Id = Field(description="What is right")
-    why: str = Field(description="How one knows")
+    place: Id = Field(description="Place in the source, such as a page or table")
+    printed: Id = Field(description="Printed value or statement")
+    right: Id = Field(description="Correct value or statement")
+    why: str = Field(description="Evidence for the correction")
 
 
 class Remove(Declared):
-    """What a child takes away from its parent before it adds its own."""
+    """Parts of the parent that a child removes before it adds its own parts."""
 
-    links: tuple[Id, ...] = Field((), description="Links, with their wheels, joints, pairs and couplings")
-    wheels: tuple[Id, ...] = Field((), description="Wheels, with their pairs")
-    gears: tuple[Id, ...] = Field((), description="Gear pairs by id")
-    couplings: tuple[Id, ...] = Field((), description="Couplings by id")
-    revolutes: tuple[tuple[Id, Id], ...] = Field((), description="Turning pairs by their two links")
-    outputs: tuple[Id, ...] = Field((), description="Outputs by name")
-    dials: tuple[Id, ...] = Field((), description="Dials by name")
-    states: tuple[Id, ...] = Field((), description="States by name")
-    axes: tuple[Id, ...] = Field((), description="Axes by label")
+    links: tuple[Id, ...] = Field((), description="Links to remove with their wheels, joints, pairs and couplings")
+    wheels: tuple[Id, ...] = Field((), description="Wheels to remove with their pairs")
+    gears: tuple[Id, ...] = Field((), description="Ids of gear pairs")
+    couplings: tuple[Id, ...] = Field((), description="Ids of couplings")
+    revolutes: tuple[tuple[Id, Id], ...] = Field((), description="Turning pairs, each as its two links")
+    outputs: tuple[Id, ...] = Field((), description="Names of outputs")
+    dials: tuple[Id, ...] = Field((), description="Names of dials")
+    states: tuple[Id, ...] = Field((), description="Names of states")
+    axes: tuple[Id, ...] = Field((), description="Labels of axes")
 
 
 # ----------------------------------------------------------------------------------------------------------- state case
@@ -304,7 +313,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True, slots=True)
 class StateCase(Shown):
-    """What is prescribed when the train is run in one state.
+    """All prescriptions that are in force in one state.
 
     Examples
     --------
@@ -315,40 +324,40 @@ class StateCase(Shown):
     """
 
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     inputs: Mapping[str, Fraction]
     """Prescribed speed by link [`Train.unit_name`]."""
     fixed: tuple[str, ...]
-    """Links held to the frame."""
+    """Links fixed to the frame."""
     locks: tuple[tuple[str, str], ...]
     """Pairs of links that turn together."""
     outputs: Mapping[str, Output]
-    """What is asked for in this state, by name."""
+    """Required outputs of this state by name."""
     loc: Loc
-    """Where the inputs were declared: the keys that lead to them."""
+    """Path of the keys under which the inputs were declared."""
     engaged: tuple[str, ...]
-    """Clutches and brakes that are closed."""
+    """Names of closed clutches and brakes."""
     clutches: Mapping[tuple[str, ...], str]
-    """The clutch or brake behind a fixed link or a lock."""
+    """Clutch or brake that causes a fixed link or a lock, by the links concerned."""
     loads: Mapping[str, Quantity] = field(default_factory=dict)
     """Torques on links; power into the train is positive."""
     solve_for: str | None = None
-    """The link whose torque is named as unknown."""
+    """Link whose torque is the unknown."""
     exact: bool = True
-    """False where radians had to be counted in turns, or turns in radians: to 50 digits then."""
+    """False if radians were converted to turns or turns to radians, which is done to 50 digits."""
     drive: Drive | None = None
-    """What drives the train in time: the state's, the train's, or its `rate`."""
+    """Drive in time: the state's, else the train's, else its `rate`."""
     rate: Quantity | None = None
-    """Speed of the input in real time, where `drive` or the train's `rate` says it."""
+    """Speed of the input in real time, if `drive` or the train's `rate` gives it."""
     expect: ExpectedVerdict = "determined"
-    """The verdict that is no failure."""
+    """Expected verdict, which does not count as a failure."""
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
-    """A link that is fixed, or two that are locked, only because something else is -> the links of that."""
+    """Links of the declared brake or lock by the links that it fixes or locks indirectly."""
     problems: tuple[Problem, ...] = ()
-    """Why no speed can be calculated in this state; mostly none."""
+    """Problems that prevent the calculation of speeds in this state; usually empty."""
 
     def given(self, link: str) -> str:
-        """A prescribed speed in words: `sun = 1400`.
+        """Return a prescribed speed as text, such as `sun = 1400`.
 
         Parameters
         ----------
@@ -358,7 +367,7 @@ class StateCase(Shown):
         return f"{link} = {self.shown(self.inputs[link])}"
 
     def shown(self, speed: Fraction) -> str:
-        """A speed for a reader: as a fraction, or in decimal where it is not exact.
+        """Return a speed as text: a fraction, or a decimal if it is not exact.
 
         Parameters
         ----------
@@ -368,26 +377,26 @@ class StateCase(Shown):
         return abridged_text(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
-        """A brake on one link or a lock of two, in words, and what it follows from where it is not declared itself.
+        """Describe a brake on one link or a lock of two links, with its declared cause if it is indirect.
 
         Parameters
         ----------
         *links : str
-            One link that is held, or two that are locked together.
+            One link that is fixed, or two that are locked together.
         """
         declared = self.declares(*links)
         if self.causes.get(links, links) == links:
             return declared
-        held = f"'{links[0]}' still" if len(links) == 1 else f"'{links[0]}' and '{links[1]}' together"
-        return f"{declared}, which holds {held}"
+        effect = f"fixes '{links[0]}'" if len(links) == 1 else f"locks '{links[0]}' and '{links[1]}' together"
+        return f"{declared}, which {effect}"
 
     def declares(self, *links: str) -> str:
-        """What is declared behind a brake or a lock, in words, with the clutch that does it.
+        """Describe the declared brake or lock that fixes one link or locks two, with its clutch.
 
         Parameters
         ----------
         *links : str
-            One link that is held, or two that are locked together.
+            One link that is fixed, or two that are locked together.
         """
         links = self.causes.get(links, links)
         by = f" by {self.clutches[links]}" if links in self.clutches else ""

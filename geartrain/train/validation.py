@@ -1,4 +1,5 @@
-"""From plain data to a `Train`: short forms written out, then validation, every problem with place, cause and remedy.
+"""Validation of plain data as a `Train`: short forms are expanded, and each problem is reported with place, cause and
+fix.
 
 `revolutes: {main: [frame, sun, carrier]}`: on each axis the first link carries the others.
 `gears: [s ~ p]`: a pair of two wheels.
@@ -36,24 +37,24 @@ from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
 
 @collector_paused()
 def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
-    """A checked `Train` from plain data, the same keys as in YAML (docs/reference.md).
+    """Return a validated `Train` from plain data with the same keys as in YAML (docs/reference.md).
 
     Parameters
     ----------
     data : mapping of str
-        The declaration. `extends` is kept as it stands; `geartrain.load` follows it.
+        The declaration. `extends` is kept but not resolved; `geartrain.load` resolves it.
     marks : callable, optional
-        Turns the path of a value into the place it was written at; default the path itself, `gears[3].pair`.
+        Function from the path of a value to the place where it was written. Default: the path, such as `gears[3].pair`.
 
     Returns
     -------
     Train
-        Frozen; equal data give equal trains.
+        The frozen declaration; equal data give equal trains.
 
     Raises
     ------
     DeclarationError
-        With the first problems that could be collected, each with its place.
+        If the data are not valid; reports the first problems, each with its place.
 
     Examples
     --------
@@ -69,12 +70,12 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
         data, marks = node.plain(), marks or node.place_of
     place = marks or dotted
     head = _head(data)
-    if head is not None:  # a large file may be wrong a million times: its beginning tells
-        _refuse_many(head, place)
+    if head is not None:  # a large file may have a million errors, so its beginning is checked first
+        _check_head(head, place)
     try:
         train = Train.model_validate(data)
     except ValidationError as error:
-        raise DeclarationError(first_problems(_explained(error, place), error.error_count())) from None
+        raise DeclarationError(first_problems(_problems_of(error, place), error.error_count())) from None
     train._marks = marks
     problems = first_problems(find_problems(train))
     if problems:
@@ -83,14 +84,14 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
 
 
 _HEAD = 200
-"""Entries of each collection that are looked at first in a large declaration."""
+"""Number of entries of each collection that are validated first in a large declaration."""
 _LARGE = 20_000
 
 
 def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The first entries of each collection of a large declaration and of the collections in them; None of a small one.
+    """Return the first entries of each collection of a large declaration, to two levels; None for a small one.
 
-    What belongs to a tooth count is kept whole: its lists are held against each other.
+    The values of a tooth count are kept complete, because the lengths of its lists are compared.
     """
     if sum(_size(part) for part in data.values()) < _LARGE:
         return None
@@ -99,7 +100,7 @@ def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 def _size(part: Any) -> int:
-    """About how many values a part holds, its longest lists counted to the second level."""
+    """Estimate the number of values of a part, counting two levels of collections."""
     if not isinstance(part, Mapping | list | tuple):
         return 1
     inner = part.values() if isinstance(part, Mapping) else part
@@ -116,17 +117,17 @@ def _first(part: Any, key: str = "") -> Any:
     return part
 
 
-def _refuse_many(head: Mapping[str, Any], place: Marks) -> None:
-    """Raise `DeclarationError` where the head of a declaration alone has more problems than are told."""
+def _check_head(head: Mapping[str, Any], place: Marks) -> None:
+    """Raise `DeclarationError` if the head of a declaration has more problems than are reported."""
     try:
         Train.model_validate(head)
     except ValidationError as error:
         if error.error_count() > MOST_REPORTED:
-            raise DeclarationError(_explained(error, place)) from None
+            raise DeclarationError(_problems_of(error, place)) from None
 
 
-def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
-    """Every error in words; a misspelt key is one slip, though the key it should be is missing too."""
+def _problems_of(error: ValidationError, place: Marks) -> Iterator[Problem]:
+    """Yield a problem for each error. A misspelt key is reported once, not also as a missing key."""
     errors = error.errors(include_url=False)
     incomplete = {item["loc"][:-1] for item in errors if item["type"] == "missing"}
     unknown = (item["loc"] for item in errors if item["type"] == "extra_forbidden" and item["loc"][:-1] in incomplete)
@@ -135,21 +136,21 @@ def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
         for loc in islice(unknown, _HEAD)
         if (close := nearest_names(str(loc[-1]), _keys_at(loc[:-1])))
     }
-    return (_explain(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
+    return (_problem_of(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
 
 
-def _name(kind: Any) -> tuple[Any, ...]:
-    """The names by which a union chooses a tooth form, a law or a coupling; nothing for other models."""
+def _union_tags(kind: Any) -> tuple[Any, ...]:
+    """Return the tags by which a union selects a tooth form, friction law or coupling; empty for other models."""
     field = next((kind.model_fields[key] for key in ("form", "law", "kind") if key in kind.model_fields), None)
     return get_args(field.annotation) if field else ()
 
 
 @cache
 def _laws() -> dict[str, type[BaseModel]]:
-    """Every law of friction by the name that chooses it."""
+    """Return every friction law by its tag."""
     from geartrain.teeth.friction_law import AnyFrictionLaw
 
-    return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _name(law)}
+    return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}
 
 
 _SHAPES = {
@@ -163,7 +164,7 @@ _SHAPES = {
 }
 
 
-def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
+def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     loc: Loc = error["loc"]
     kind, context = error["type"], error.get("ctx", {})
     key = str(loc[-1]) if loc else ""
@@ -174,32 +175,32 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
         return Problem(
             f"{_where(loc[:-1])} is too short",
             f"entry {loc[-1] + 1} is missing",
-            "write a longer list",
+            "add the missing entry",
             place(loc[:-1]),
         )
     if kind == "missing":
         return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1]))
     if kind == "union_tag_invalid":
         tag, known = unknown_tag(error)
-        what = f"`{tag}` is '{context['tag']}'"
-        return Problem(what, f"{_where(loc)} comes in kinds", suggest(context["tag"], known), place(loc))
+        what = f"`{tag}` has the unknown value '{context['tag']}'"
+        return Problem(what, f"`{tag}` selects the kind of {_where(loc)}", suggest(context["tag"], known), place(loc))
     if kind == "union_tag_not_found":
         tag = context["discriminator"].strip("'")
-        return Problem(error["msg"], f"{_where(loc)} comes in kinds", f"add `{tag}:`", place(loc))
+        return Problem(f"key '{tag}' is missing", f"it selects the kind of {_where(loc)}", f"add `{tag}:`", place(loc))
     what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     if "fix" in context:
         return Problem(f"{_where(loc)}: {error['msg']}", context.get("why", ""), context["fix"], place(loc))
     shown = repr(error["input"])
-    got = f"it is {shown if len(shown) <= 60 else shown[:57] + '...'}"
+    got = f"the given value is {shown if len(shown) <= 60 else shown[:57] + '...'}"
     if kind in _SHAPES:
         return Problem(f"{_where(loc)} is not {_SHAPES[kind]}", got, f"write {_SHAPES[kind]}", place(loc))
     if kind == "literal_error":
-        return Problem(f"{_where(loc)} is none of the words known here", got, f"use {context['expected']}", place(loc))
+        return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
     return Problem(what, got, "see `geartrain schema`", place(loc))
 
 
 def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
-    """The key by which a union chooses, and all that it may be, of an error that knows no such kind."""
+    """Return the discriminator key and the allowed tags from the error of an unknown tag."""
     context = error["ctx"]
     return context["discriminator"].strip("'"), tuple(context["expected_tags"].replace("'", "").split(", "))
 
@@ -209,7 +210,7 @@ def _where(loc: Loc) -> str:
 
 
 def _real_steps(loc: Loc) -> Loc:
-    """`loc` without the tags pydantic adds for unions, which are not in the file."""
+    """Return `loc` without the tags that pydantic adds for unions, which are not in the file."""
     tags = {"count", "doubt", "pin_and_slot", "pin_follower", "pins_in_holes", "parallel", *TOOTH_FORMS, *_laws()}
     return tuple(
         step
@@ -222,10 +223,10 @@ def _real_steps(loc: Loc) -> Loc:
 
 
 def _keys_at(loc: Loc) -> Iterator[str]:
-    """The keys a declaration may have at `loc`, found by walking the models."""
+    """Yield the keys that a declaration may have at `loc`, found by traversing the models."""
     kinds: list[Any] = [Train]
     for step in loc:
-        named = [kind for kind in kinds if step in _name(kind)]
+        named = [kind for kind in kinds if step in _union_tags(kind)]
         kinds = named or [after for kind in kinds for after in _step(kind, step)]
     for kind in kinds:
         for name, field in kind.model_fields.items():
@@ -233,7 +234,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
 
 
 def _step(kind: Any, step: str | int) -> Iterator[Any]:
-    """The models below `kind` after one step; a union's tag stays where it is."""
+    """Yield the models below `kind` after one step; the tag of a union is not a step."""
     if isinstance(step, str) and step in kind.model_fields:
         yield from _models_in(kind.model_fields[step].annotation)
     else:
@@ -258,19 +259,19 @@ def _models_in(annotation: Any) -> Iterator[Any]:
 # ------------------------------------------------------------------------------------------------------- short forms
 
 _MARK = "~"
-"""Between the two wheels of a gear pair in its short form."""
+"""Separator of the two wheels in the short form of a gear pair."""
 
 
 def has_short_forms(data: Mapping[str, Any]) -> bool:
-    """True of plain data with any, and of data with lists where a pair belongs."""
+    """Return True if plain data contain short forms, or bare lists instead of pairs."""
     pairs = (each for key in ("gears", "revolutes") if isinstance(data.get(key), list | tuple) for each in data[key])
     return isinstance(data.get("revolutes"), Mapping) or any(isinstance(each, str | list | tuple) for each in pairs)
 
 
 def written_out(root: YamlNode) -> YamlNode:
-    """A declaration in long forms only, whose parts have the places of the short ones.
+    """Return the declaration with all short forms expanded; the new parts keep the places of the short forms.
 
-    Raises `DeclarationError` for short forms that declare nothing.
+    Raises `DeclarationError` for short forms that are not valid.
     """
     joints, gears = root.mapping.get("revolutes"), root.mapping.get("gears")
     short_joints = joints if joints is not None and isinstance(joints.value, dict) else None
@@ -288,31 +289,31 @@ def written_out(root: YamlNode) -> YamlNode:
 def _check_short_forms(
     joints: YamlNode | None, gears: YamlNode | None, short_joints: YamlNode | None, short_gears: list[YamlNode]
 ) -> None:
-    """Raise `DeclarationError` where a pair is a bare list, or a short form has too few or too many parts."""
+    """Raise `DeclarationError` if a pair is a bare list, or a short form has too few or too many parts."""
     lists = [*_lists("gears", gears, "{} ~ {}"), *_lists("revolutes", joints, "{{pair: [{}, {}], axis: A}}")]
     axes = short_joints.mapping if short_joints is not None else {}
     single = [axis for axis, links in axes.items() if len(links.items) < 2]
     wrong = [gear for gear in short_gears if len(names := _wheels(gear)) != 2 or not all(names)]
     if short_joints is not None and single:
         lists += [_single_link(axis, short_joints.keys.get(axis, short_joints.place)) for axis in single]
-    if lists or wrong:  # only the problems that are shown are put into words
-        raise DeclarationError(first_problems(chain(lists, map(_no_pair, wrong)), len(lists) + len(wrong)))
+    if lists or wrong:  # texts are composed only for the problems that are shown
+        raise DeclarationError(first_problems(chain(lists, map(_invalid_pair, wrong)), len(lists) + len(wrong)))
 
 
 def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
-    """One problem for all pairs that are written as bare lists."""
+    """Yield one problem for all pairs that are written as bare lists."""
     listed = [part for part in parts.items if isinstance(part.value, list)] if parts is not None else []
     if listed:
         names = [*texts(listed[0]), "a", "b"][:2]
         several = len(listed) > 1
         what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
         fix = f"write `{form.format(*names)}`" + (", and the others likewise" if several else "")
-        yield Problem(what, "a pair has its own form", fix, listed[0].place)
+        yield Problem(what, "pairs are not written as bare lists", fix, listed[0].place)
 
 
 def _single_link(axis: str, place: str) -> Problem:
-    why = "its links are a list that begins with the one that carries the others"
-    return Problem(f"axis '{axis}' joins nothing", why, f"write for example `{axis}: [frame, arbor]`", place)
+    why = "its list begins with the link that carries the others"
+    return Problem(f"axis '{axis}' has fewer than two links", why, f"write for example `{axis}: [frame, arbor]`", place)
 
 
 def _joints(joints: YamlNode) -> Iterator[YamlNode]:
@@ -328,9 +329,9 @@ def _wheels(gear: YamlNode) -> list[str]:
     return [name.strip() for name in gear.value.split(_MARK)]
 
 
-def _no_pair(gear: YamlNode) -> Problem:
-    why = "a pair in short is two wheels with a tilde between them"
-    return Problem(f"'{gear.value}' is no gear pair", why, "write for example `sun ~ planet`", gear.place)
+def _invalid_pair(gear: YamlNode) -> Problem:
+    why = "the short form of a pair is two wheels with a tilde between them"
+    return Problem(f"'{gear.value}' is not a gear pair", why, "write for example `sun ~ planet`", gear.place)
 
 
 def _pair(gear: YamlNode) -> YamlNode:

@@ -1,4 +1,4 @@
-"""What a wheel is cut from: thickness, width of its teeth, material; its own, else the train's."""
+"""Blank of a wheel: thickness, face width and material, by default those of the train."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Along its axis; where it is not declared it is as thick as its teeth are wide."""
+    """Return the thickness of a wheel along its axis, by default its face width; None if neither is declared."""
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Width of its teeth; where it is not declared they are as wide as the wheel is thick."""
+    """Return the face width of a wheel, by default its thickness; None if neither is declared."""
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 
 def material_named(train: Train, name: str) -> Material:
-    """Of the train's own materials, else of the table."""
+    """Return a material of the train by name, else of the shipped table."""
     return train.materials.get(name) or material_table()[name]

@@ -1,9 +1,8 @@
-"""YAML by the 1.2 core rules, as nodes that know where they were written.
+"""YAML 1.2 (core schema) as nodes with line numbers.
 
-Every scalar stays the text it was: `1:30`, `010`, `no` and `1.0000` reach the models unharmed. Only a plain
-null is nothing. Nesting, values and the expansion of aliases are bounded, keys are unique, tags are refused. Plain
-data of Python become nodes too, so that what is done with a file can be done with them; and plain data of a declaration
-are written as the text of a YAML file.
+Every scalar is kept as text, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
+becomes None. Nesting depth, number of values and expansion of aliases are limited, keys must be unique, and tags are
+rejected. Plain Python data can be converted to nodes as well, and a declaration can be written as YAML text.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from pydantic import BaseModel
 from geartrain.errors import MOST_REPORTED, DeclarationError, Loc, Marks, Problem, dotted
 
 MOST_DEPTH = 32
-MOST_VALUES = 3_000_000  # some 200,000 links; the parser needs a quarter of a kilobyte for each
+MOST_VALUES = 3_000_000  # about 200,000 links; the parser needs 0.25 kB for each value
 MOST_EXPANDED = 1_000_000
 _NULLS = {"", "~", "null", "Null", "NULL"}
 _TAGS = {f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "bool", "null", "seq", "map")}
@@ -28,33 +27,33 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(slots=True)
 class YamlNode:
-    """A mapping, a list, a scalar or nothing, with the place it was written at."""
+    """A mapping, a list, a scalar or null, with the place where it was written."""
 
     value: Any
-    """Of a file, every scalar is the text it was; of plain data, it is the object given."""
+    """Value. Scalars of a file are kept as text; scalars of plain data are the given objects."""
     place: str
     keys: dict[str, str] = field(default_factory=dict)
-    """For a mapping, the place of each key."""
+    """Place of each key of a mapping."""
     size: int = 1
-    """Number of nodes when all aliases are written out."""
+    """Number of nodes after expansion of all aliases."""
 
     @property
     def mapping(self) -> dict[str, YamlNode]:
-        """The entries, or none if this is no mapping."""
+        """Entries of a mapping; empty for other nodes."""
         return self.value if isinstance(self.value, dict) else {}
 
     @property
     def items(self) -> list[YamlNode]:
-        """The elements, or none if this is no list."""
+        """Elements of a list; empty for other nodes."""
         return self.value if isinstance(self.value, list) else []
 
     @property
     def text(self) -> str:
-        """The scalar as text, or "" if this is none."""
+        """Scalar as text; "" for other nodes."""
         return "" if self.value is None or isinstance(self.value, dict | list) else str(self.value)
 
     def plain(self) -> Any:
-        """The data without its places."""
+        """Return the data without their places."""
         if isinstance(self.value, dict):
             return {key: node.plain() for key, node in self.value.items()}
         if isinstance(self.value, list):
@@ -62,7 +61,7 @@ class YamlNode:
         return self.value
 
     def place_of(self, loc: Loc) -> str:
-        """The place of the value at `loc`; steps that are not in the file are passed over."""
+        """Return the place of the value at `loc`. Steps that are not in the file are skipped."""
         node, place = self, self.place
         for step in loc:
             if isinstance(node.value, dict) and str(step) in node.value:
@@ -75,7 +74,7 @@ class YamlNode:
 
 
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """The one document of `text`. `name` is what places call it. Raises `DeclarationError`."""
+    """Parse `text` as one YAML document. `name` is the file name in places. Raises `DeclarationError`."""
     builder = _Builder(name)
     try:
         for event in yaml.parse(text, Loader=_Loader):
@@ -90,19 +89,21 @@ def parse_yaml(text: str, name: str) -> YamlNode:
 
 
 def _too_deep(place: str) -> Problem:
-    why = f"a declaration needs fewer than {MOST_DEPTH} levels"
-    return Problem("nested too deeply", why, "check the brackets", place)
+    why = f"at most {MOST_DEPTH} levels are allowed"
+    return Problem("the values are nested too deeply", why, "check the brackets", place)
 
 
 def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     mark = error.problem_mark or error.context_mark
     place = f"{name}:{mark.line + 1}" if mark else name
     why = " ".join(part for part in (error.context, error.problem) if part)
-    if "nesting depth" in why:  # libyaml 0.2.6 and newer look ahead, and refuse a thousand brackets themselves
+    if "nesting depth" in why:  # libyaml 0.2.6 and newer refuse deep nesting themselves
         return _too_deep(place)
     lines = text.splitlines()
     if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
-        return Problem("there is a tab here", "YAML is indented with spaces only", "replace the tab by spaces", place)
+        return Problem(
+            "the line contains a tab", "YAML is indented with spaces only", "replace the tab by spaces", place
+        )
     return Problem(
         "the YAML cannot be read here",
         why,
@@ -112,7 +113,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
 
 
 class _Builder:
-    """Builds nodes from parser events without recursion: nesting is refused before any stack runs out."""
+    """Iterative construction of nodes from parser events. Deep nesting is refused before the call stack overflows."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -124,11 +125,13 @@ class _Builder:
         self.values = self.expanded = 0
 
     def take(self, event: yaml.Event) -> None:
-        """One event of the parser."""
+        """Process one event of the parser."""
         self.values += 1
         if self.values > MOST_VALUES:
             why = f"a file has at most {MOST_VALUES} values"
-            raise DeclarationError(Problem("the file is too large", why, "build the train in Python", self.name))
+            raise DeclarationError(
+                Problem("the file is too large", why, "build the train in Python with `GearTrain.declare`", self.name)
+            )
         if len(self.problems) > MOST_REPORTED + 1:
             raise DeclarationError(self.problems)
         place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
@@ -160,22 +163,22 @@ class _Builder:
     def _alias(self, anchor: str | None, place: str) -> YamlNode:
         target = self.anchors.get(anchor or "")
         if target is None or id(target) in self.unfinished:
-            what = f"alias '*{anchor}' " + ("contains itself" if target else "points at no anchor")
+            what = f"alias '*{anchor}' " + ("contains itself" if target else "has no anchor")
             raise DeclarationError(
                 Problem(
                     what,
-                    "an alias repeats a finished value",
+                    "an alias repeats a value that is complete before it",
                     f"write the value out, or set '&{anchor}' before",
                     place,
                 )
             )
-        # an alias of aliases doubles at each step ("billion laughs"): what counts is the size written out
+        # aliases of aliases grow exponentially ("billion laughs"), so the expanded size is counted
         self.expanded += target.size
         if self.expanded > MOST_EXPANDED:
             raise DeclarationError(
                 Problem(
-                    "the aliases expand without bound",
-                    f"written out they make more than {MOST_EXPANDED} values",
+                    "the aliases expand to too many values",
+                    f"written out they are more than {MOST_EXPANDED} values",
                     "write the values out",
                     place,
                 )
@@ -223,12 +226,17 @@ class _Builder:
             parent.size += node.size
 
     def finish(self) -> YamlNode:
-        """The root, after all problems have been told."""
+        """Return the root node. Raises `DeclarationError` with all problems that were collected."""
         if self.problems:
             raise DeclarationError(self.problems)
         if self.root is None or self.root.value is None:
             raise DeclarationError(
-                Problem("the declaration is empty", "nothing is declared", "begin with `links:`", self.name)
+                Problem(
+                    "the declaration is empty",
+                    "a declaration has at least the key `links`",
+                    "begin with `links:`",
+                    self.name,
+                )
             )
         if not isinstance(self.root.value, dict):
             raise DeclarationError(
@@ -243,7 +251,7 @@ class _Builder:
 
 
 def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
-    """Plain data and parts of a declaration as nodes with places, by default their paths.
+    """Convert plain data or parts of a declaration to nodes; their places are by default their paths.
 
     Raises `DeclarationError` for data nested too deeply.
     """
@@ -261,17 +269,17 @@ def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
 
 
 def texts(node: YamlNode | None) -> Iterator[str]:
-    """The texts of a list node."""
+    """Return an iterator over the texts of a list node."""
     return (item.text for item in node.items) if node else iter(())
 
 
 def as_yaml(data: Mapping[str, Any]) -> str:
-    """YAML text that `load` reads back as the same declaration: parts of a train one a line, keys in their order."""
+    """Return YAML text that `load` reads as the same declaration, with one part per line and keys in their order."""
     return "".join(_section(key, value) for key, value in data.items())
 
 
 def _section(key: str, value: Any) -> str:
-    """One top-level key; what stands below it in one line an entry."""
+    """Return the text of one top-level key, with one entry per line."""
     if isinstance(value, Mapping) and value:
         lines = [f"  {_line(name)}: {_line(part)}\n" for name, part in value.items()]
     elif isinstance(value, list | tuple) and value:
@@ -282,13 +290,13 @@ def _section(key: str, value: Any) -> str:
 
 
 def _line(value: Any) -> str:
-    """A value on one line. Numbers as Python writes them: a declaration remembers the text of its figures."""
+    """Return a value on one line. Numbers are written by `repr`, as a declaration keeps the text of its numbers."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_line(key)}: {_line(part)}" for key, part in value.items()) + "}"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(map(_line, value)) + "]"
     if isinstance(value, int | float) and not isinstance(value, bool):
         return repr(value)
-    # within a list, so that commas and brackets of a text are quoted
+    # dumped as a list entry, so that texts with commas and brackets are quoted
     text: str = yaml.safe_dump([value], default_flow_style=True, width=float("inf"), allow_unicode=True)
     return text.removesuffix("\n").removeprefix("[").removesuffix("]")

@@ -121,7 +121,7 @@ def test_a_comparison_says_the_verdict_of_trains_without_outputs(train_file: Wri
 def test_a_missing_file_has_no_result_and_a_reason(verb: str, tmp_path: Path) -> None:
     code, out, err = run(verb, tmp_path / "penestri-2002.yaml")
     assert (code, out) == (2, "")
-    assert "there is no such file" in err
+    assert "the file does not exist" in err
     assert "pennestri-2002" in err
 
 

@@ -153,8 +153,8 @@ def test_faults_are_told_with_what_would_fit_and_the_exit_code_is_that_of_a_verd
 
 REFUSED = [
     (["compare", *PAIR, "--forms", "involut"], "--forms", "did you mean 'involute'"),
-    (["compare", *PAIR, "--forms", "rubber"], "--forms", "use some of: involute"),
-    (["compare", *PAIR, "--forms", ""], "--forms", "use some of"),
+    (["compare", *PAIR, "--forms", "rubber"], "--forms", "give one or more of: involute"),
+    (["compare", *PAIR, "--forms", ""], "--forms", "give one or more of"),
     (["compare", *PAIR, "--pressure-angle", "50deg"], "--pressure-angle", "between 0 and 45 deg"),
     (["compare", *PAIR, "--pressure-angle", "20"], "--pressure-angle", "has no unit"),
     (["compare", *PAIR, "--arcs", "0.5,x"], "--arcs", "in pitches"),
@@ -168,7 +168,7 @@ REFUSED = [
     (["compare", *PAIR, "-o", "x.pdf"], "-o", ".md, .html, .json"),
     (["involute", *PAIR, "--pressure-angle", "95deg"], "--pressure-angle", "between 0 and 90 deg"),
     (["uniform_stress", *PAIR, "--pressure-angle", "45deg"], "--pressure-angle", "between 0 and 45 deg"),
-    (["uniform_temperature", *PAIR, "--reading", "d"], "--reading", "'d' does not fit"),
+    (["uniform_temperature", *PAIR, "--reading", "d"], "--reading", "'d' is not a valid value"),
     (["involute", *PAIR, "--friction", "-1"], "--friction", "0 or more"),
     (["involute", *PAIR, "--centre-distance", "20"], "--teeth", "too short"),
     (["involute", *PAIR, "--backlash", "0.1mm"], "--module", "has a unit, but the module is unknown"),

@@ -73,7 +73,7 @@ def test_an_ideal_pair_costs_nothing_even_among_real_ones() -> None:
 def test_a_contrate_is_taken_for_a_spur_wheel_and_the_report_says_so() -> None:
     text = PAIR.format(rest=TEETH).replace("p: 20", "p: {teeth: 20, kind: contrate}")
     (mesh,) = load(text).meshes
-    assert mesh.note == "the contrate is taken for a spur wheel"
+    assert mesh.note == "the contrate wheel is treated as a spur wheel"
 
 
 @pytest.mark.parametrize("friction", ["-0.1", "much"])

@@ -132,7 +132,7 @@ def test_a_pair_without_a_form_of_its_own_is_told_of_though_another_is_refused()
 def test_a_contrate_is_taken_for_a_spur_wheel_whatever_the_axes() -> None:
     axes = "axes: {A: {direction: [0, 0, 1]}, B: {direction: [1, 0, 0]}}"
     mesh = only(pair(INVOLUTE, "20", "{teeth: 60, kind: contrate}", axes))
-    assert mesh.note == "the contrate is taken for a spur wheel"
+    assert mesh.note == "the contrate wheel is treated as a spur wheel"
     assert not mesh.transmission.path.pitch.bevel
 
 

@@ -142,7 +142,7 @@ def test_a_worm_without_positions_has_a_conventional_sense_and_says_so(hand: str
 @pytest.mark.parametrize("mate", ["{teeth: 3, kind: worm}", "{teeth: 60, internal: true}"])
 def test_a_worm_drives_an_external_wheel_only(mate: str) -> None:
     text = PAIR.format(rest="inputs: {a: 1}").replace("p: 20", "p: {teeth: 2, kind: worm}")
-    assert "no worm drive" in refusal(text.replace("w: 60", f"w: {mate}"))
+    assert "not a valid worm drive" in refusal(text.replace("w: 60", f"w: {mate}"))
 
 
 def test_the_axis_seen_from_a_carrier_is_the_last_one_on_the_way_from_it() -> None:

@@ -112,8 +112,8 @@ def test_neighbours_of_the_textbook_planetary(number: int) -> None:
     assert found(train) == expected.get(number, [])
     if number == 5:
         assert "1/84 turn" in words(train)
-        assert "2, 3, 4 or 6 would stand evenly" in words(train)
-        assert "places 16 and 17 of these steps apart (4 times 17)" in words(train)
+        assert "use 2, 3, 4 or 6 planets, which can be evenly spaced" in words(train)
+        assert "space them by 16 and 17 of these steps (4 times 17)" in words(train)
     if number == 7:
         assert "overlap by 3.554 mm" in words(train)
         assert "at most 6" in words(train)
@@ -128,7 +128,7 @@ def test_a_little_room_is_noted() -> None:
     """Five of 39 about 31: 70 sin(36 deg) - 41 = 0.145 modules, or 0.29 mm; five divides 31 + 109."""
     train = planets(5, 31, 39, 109)
     assert found(train) == [("A3", "note")]
-    assert "leave only 0.2899 mm" in words(train)
+    assert "have a clearance of only 0.2899 mm" in words(train)
     assert 2 * (70 * sin(pi / 5) - 41) == pytest.approx(0.2899, abs=5e-5)
 
 
@@ -201,7 +201,7 @@ def test_tips_of_neighbours_end_where_declared_teeth_end(form: str, pair: str, t
     expected = [] if gap >= 0.2 else [("A3", "note" if gap > 0 else "error")]
     assert found(train) == expected
     if expected:
-        assert f"{'leave only' if gap > 0 else 'overlap by'} {abs(gap):.4g} modules" in words(train)
+        assert f"{'have a clearance of only' if gap > 0 else 'overlap by'} {abs(gap):.4g} modules" in words(train)
 
 
 def test_tips_of_helical_planets_are_counted_across_the_axis() -> None:
@@ -211,7 +211,7 @@ def test_tips_of_helical_planets_are_counted_across_the_axis() -> None:
     train = around(5, *wheels, "{form: involute, addendum: 1.06}")
     gap = 70 * sin(pi / 5) - 39 - 2 * 1.06 * cos(LEAN)
     assert found(train) == [("A3", "note")]
-    assert f"leave only {gap * 2 / cos(LEAN):.4g} mm" in words(train)
+    assert f"have a clearance of only {gap * 2 / cos(LEAN):.4g} mm" in words(train)
 
 
 @pytest.mark.parametrize("number", [4, 5, 6, 7, 8])
@@ -285,7 +285,7 @@ def test_planets_that_mesh_clear_those_of_the_next_set() -> None:
             ),
         )
         seen.add(gap < 0)
-        assert (f"of the next of {number} equal sets overlap" in words(load(text))) == (gap < 0), (
+        assert (f"of the next of {number} equal sets collide" in words(load(text))) == (gap < 0), (
             number,
             sun,
             p,

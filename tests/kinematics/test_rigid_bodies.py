@@ -61,8 +61,8 @@ def test_a_spider_held_to_the_case_holds_the_crown() -> None:
     verdict = load(DIFFERENTIAL + "fixed: [spider]\ninputs: {left: 1}\n").solve().verdict
     assert verdict.kind == "locked"
     assert verdict.prescriptions == ("'spider' is fixed", "left = 1")
-    assert "'spider' is fixed, which holds 'crown' still" in verdict.text
-    assert "'spider' is fixed, which holds 'spider' and 'crown' together" in verdict.text
+    assert "'spider' is fixed, which fixes 'crown'" in verdict.text
+    assert "'spider' is fixed, which locks 'spider' and 'crown' together" in verdict.text
     free = load(DIFFERENTIAL + "fixed: [spider]\ninputs: {}\n").solve()
     assert free.verdict.kind == "locked"
 
@@ -71,7 +71,7 @@ def test_a_brake_says_by_which_clutch_it_holds(accepted: Callable[[str], GearTra
     text = "clutches: {B: {fixes: spider}}\nstates: {held: {engaged: [B]}, open: {}}\ninputs: {left: 1, right: 3}\n"
     train = accepted(DIFFERENTIAL + text)
     assert train.solve("open")["crown"] == 2
-    assert "'spider' is fixed by B, which holds 'crown' still" in train.solve("held").verdict.text
+    assert "'spider' is fixed by B, which fixes 'crown'" in train.solve("held").verdict.text
 
 
 def test_solve_check_report_and_json_agree_on_a_held_spider(tmp_path: Path) -> None:
@@ -86,7 +86,7 @@ def test_solve_check_report_and_json_agree_on_a_held_spider(tmp_path: Path) -> N
     )
     text = verdict["text"]
     assert verdict["kind"] == one["kind"] == "locked"
-    assert "which holds 'crown' still" in text
+    assert "which fixes 'crown'" in text
     assert all(text in told.stdout for told in (solved, checked))
     assert text.split(":")[0] in reported.stdout
 
@@ -96,9 +96,9 @@ def test_two_shafts_on_different_axes_that_are_locked_together_stand(axes: str) 
     text = SHAFTS + axes + "locks: [[a, b]]\n"
     verdict = load(text + "inputs: {a: 1}\n").solve().verdict
     assert (verdict.kind, verdict.prescriptions) == ("locked", ("'a' and 'b' are locked together", "a = 1"))
-    assert "'a' and 'b' are locked together, which holds 'a' still" in verdict.text
+    assert "'a' and 'b' are locked together, which fixes 'a'" in verdict.text
     assert load(text).solve().verdict.kind == "locked"
-    assert "close the joints a - frame, frame - b" in load(text).build_findings[0].problem.why
+    assert "block the joints a - frame, frame - b" in load(text).build_findings[0].problem.why
 
 
 def test_two_shafts_on_one_axis_that_are_locked_together_turn_as_one() -> None:
@@ -116,7 +116,7 @@ def test_two_labels_at_one_place_are_one_axis() -> None:
 def test_a_planet_held_to_the_frame_holds_its_carrier() -> None:
     verdict = nested(fixed=["planet"]).solve().verdict
     assert verdict.kind == "locked"
-    assert "'planet' is fixed, which holds 'arm' still" in verdict.text
+    assert "'planet' is fixed, which fixes 'arm'" in verdict.text
 
 
 def test_a_moon_held_to_the_frame_holds_what_carries_it() -> None:
@@ -137,7 +137,7 @@ def test_what_is_held_already_does_not_count_as_an_axis() -> None:
 
 @pytest.mark.parametrize("more", [{"fixed": ["comet"]}, {"locks": [["planet", "far"]]}])
 def test_four_axes_in_a_ring_are_a_linkage_and_refused(more: dict[str, Any]) -> None:
-    with pytest.raises(GearTrainError, match="a ring of 4 turning pairs may move") as refused:
+    with pytest.raises(GearTrainError, match="a closed chain of 4 turning pairs may move") as refused:
         nested(**more)
     (problem,) = refused.value.problems
     assert problem.place == f"{next(iter(more))}[0]"
@@ -251,7 +251,7 @@ def test_a_state_that_makes_a_linkage_leaves_the_other_states_answered() -> None
     assert [train.solve(state)["planet"] for state in ("good", "twice")] == [3, 6]  # 1 + 40/20 of the arm
     refused = train.solve("bad")
     assert "makes a linkage" in refused.verdict.text
-    assert "hold or lock a link on the way (arm, other)" in refused.verdict.text
+    assert "fix or lock a link in between (arm, other)" in refused.verdict.text
     assert (refused.speeds, refused.outputs["planet"].speed, bool(refused)) == ({}, None, False)
     assert train.kinematics.usable_states == ("good", "twice")
     assert train.torques("good").verdict

@@ -49,7 +49,7 @@ def test_a_date_without_an_hour_is_noon_and_the_reform_leaves_out_ten_days() -> 
     assert julian_day(read_date("1582-10-04 00:00")) == REFORM - 1
     assert str(date_of(REFORM - 1)) == "1582-10-04"
     for text in ("1582-10-10", "1582-10-14", "1581-02-29", "2000-02-30", "2000-13-01", "2000-00-01", "2000-01-00"):
-        with pytest.raises(ValueError, match="there is no"):
+        with pytest.raises(ValueError, match="does not exist"):
             read_date(text)
     for text in ("", "soon", "2000", "2000-01-01 24:00", "2000-01-01 12", "99999999999-01-01", "12 May 205 BC"):
         with pytest.raises(ValueError, match="is no date"):

@@ -206,4 +206,4 @@ def test_odd_trains_have_a_layout_too(links: dict[str, Any]) -> None:
     }
     layout = lay_out(GearTrain.declare(data))
     assert set(layout.wheels) == {wheel for part in links.values() for wheel in part.get("wheels", {})}
-    assert all("meshes nothing" in notice.what for notice in layout.notices)
+    assert all("is not in mesh" in notice.what for notice in layout.notices)

@@ -104,10 +104,10 @@ def test_every_conjugate_form_and_every_reading_can_be_compared() -> None:
 
 
 REFUSED = [
-    ({"names": ["rubber"]}, "no tooth form 'rubber'", "--forms"),
-    ({"names": []}, "no form is named", "--forms"),
-    ({"arcs": (-1.0, 2.0)}, "arcs -1,2 are none", "--arcs"),
-    ({"arcs": (float("nan"), 1.0)}, "arcs nan,1 are none", "--arcs"),
+    ({"names": ["rubber"]}, "'rubber' is not a tooth form", "--forms"),
+    ({"names": []}, "no tooth form is given", "--forms"),
+    ({"arcs": (-1.0, 2.0)}, "arcs of -1,2 are not valid", "--arcs"),
+    ({"arcs": (float("nan"), 1.0)}, "arcs of nan,1 are not valid", "--arcs"),
     ({"arcs": (0.2, 0.2)}, "the contact ratio is 0.4", "--arcs"),
     ({"pressure_angle": Quantity.parse("50 deg", "angle", False)}, "50 deg is out of range", "--pressure-angle"),
 ]

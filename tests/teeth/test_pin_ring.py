@@ -164,7 +164,7 @@ def test_transmission_keeps_its_ratio_and_shifts_by_its_backlash() -> None:
     ("given_", "z", "words"),
     [
         ({}, (11, 13), "give the ring 12 pins"),
-        ({"pin_circle": "6"}, (11, 12), "greater pin_circle"),
+        ({"pin_circle": "6"}, (11, 12), "larger pin_circle"),
         ({"pin_diameter": "5"}, (11, 12), "touch each other"),
         ({"pin_circle": "6.2", "pin_diameter": "2.5"}, (11, 12), "undercut"),
         ({"pin_circle": "20 mm"}, (11, 12), "no module"),
@@ -250,7 +250,7 @@ def test_the_disc_has_its_holes_for_pins_that_stand_in_a_plate() -> None:
     ("change", "words"),
     [
         (("pins: 6", "pins: 2"), "greater than or equal to 3"),
-        (("offset: 1.5 mm}", "offset: 1.5 mm, friction: 0.1}"), "not worked out"),
+        (("offset: 1.5 mm}", "offset: 1.5 mm, friction: 0.1}"), "not modelled"),
         (("kind: pins_in_holes", "kind: parallel"), "pins"),
     ],
 )

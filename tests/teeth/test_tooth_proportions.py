@@ -36,8 +36,8 @@ def test_equal_thickness_is_half_the_backlash_each() -> None:
     ("given", "words"),
     [
         ({"thickness": "1.2", "backlash": "0.1"}, "both given"),
-        ({"thickness": ["1.2", "0"]}, "a thickness of 0 is no tooth"),
-        ({"thickness": ["1.7", "1.5"]}, "do not fit into a pitch"),
+        ({"thickness": ["1.2", "0"]}, "a thickness of 0 is not above 0"),
+        ({"thickness": ["1.7", "1.5"]}, "exceed the pitch"),
     ],
 )
 def test_thickness_that_is_none_is_refused(given: dict[str, object], words: str) -> None:

@@ -185,9 +185,9 @@ def test_a_range_is_inclusive_and_lists_its_counts() -> None:
 @pytest.mark.parametrize(
     ("teeth", "said"),
     [
-        ("{value: 60, range: [61, 65]}", "outside what its evidence allows"),
+        ("{value: 60, range: [61, 65]}", "outside its range or choices"),
         ("{value: 60, range: [65, 55]}", "empty"),
-        ("{value: 60, choices: [50, 55]}", "outside what its evidence allows"),
+        ("{value: 60, choices: [50, 55]}", "outside its range or choices"),
         ("{value: 60, range: [59, 61], weights: [1, 2]}", "2 weights for 3 counts"),
         ("{range: [59, 61]}", "no value"),
         ("{value: 0}", "0 is not a tooth count"),
@@ -272,8 +272,8 @@ def test_a_unit_names_what_one_turn_takes() -> None:
     [
         ("inputs: {a: 2 mm}", "a length, but a speed is required"),
         ("inputs: {a: 2 furlongs}", "unknown unit"),
-        ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is no unit"),
-        ("inputs: {a: 1}\nunit: {per: 7}", "is no unit"),
+        ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is not a unit"),
+        ("inputs: {a: 1}\nunit: {per: 7}", "is not a unit"),
         ("inputs: {a: 1}\nunit: {per: month_synodic_j2000}", "did you mean 'month_synodic_J2000'"),
         ("inputs: {frame: 1}", "the frame 'frame' is an input"),
         ("inputs: {c: 1}", "no link 'c'"),
@@ -291,8 +291,8 @@ def test_inputs_and_units_that_make_no_sense_are_refused(rest: str, said: str) -
     ("targets", "said"),
     [
         ("[month_synodyc_J2000]", "did you mean 'month_synodic_J2000'"),
-        ("[{name: month_synodic_J2000, period: 3 d}]", "a target is one thing"),
-        ("[{turns: 3}]", "a target is one thing"),
+        ("[{name: month_synodic_J2000, period: 3 d}]", "a target needs exactly one of its keys"),
+        ("[{turns: 3}]", "a target needs exactly one of its keys"),
         ("[{period: 29.5}]", "no unit"),
         ("[{period: 29.5 mm}]", "the train's unit is not a length"),
     ],
@@ -311,7 +311,7 @@ def test_a_count_is_no_target() -> None:
 def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
     name = next(row.name for row in period_table().values() if row.kind == "speed")
     text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: %s}}\noutputs: {{b: {{targets: [{name}]}}}}")
-    assert "the train's unit is no year" in refusal(text % "1 d")
+    assert "the train's unit is not a year" in refusal(text % "1 d")
     assert load(text % "year_julian").solve().outputs["b"].targets[0].speed == period_table()[name].value
 
 

@@ -52,9 +52,9 @@ def test_errors_change_no_mean_speed() -> None:
     ("wheel", "rest", "said"),
     [
         ("cutting: {measured: {tip: [0.1 mm, 0, 0]}}", "", "3 measured values of 'tip' for the 4 teeth"),
-        ("cutting: {pitch_deviation: {normal: 1 deg, uniform: 2 deg}}", "", "gives normal and uniform"),
-        ("cutting: {pitch_deviation: {}}", "", "gives nothing"),
-        ("cutting: {tip: {normal: -0.1 mm}}", "", "no width of a distribution"),
+        ("cutting: {pitch_deviation: {normal: 1 deg, uniform: 2 deg}}", "", "found: normal and uniform"),
+        ("cutting: {pitch_deviation: {}}", "", "found: nothing"),
+        ("cutting: {tip: {normal: -0.1 mm}}", "", "is negative"),
         ("cutting: {pitch_deviation: 3 mm}", "", "is a length"),
         ("cutting: {eccentricity: 3 deg}", "", "is an angle"),
         ("cutting: {placment: 1 deg}", "", "pitch_deviation"),

@@ -51,12 +51,12 @@ def test_the_epoch_of_the_saros_dial_is_a_full_moon() -> None:
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        ("unit: {per: 1 d}\nepoch: 1582-10-10", "there is no 1582-10-10"),
-        ("unit: {per: 1 d}\nepoch: soon", "'soon' is no date"),
+        ("unit: {per: 1 d}\nepoch: 1582-10-10", "1582-10-10 does not exist"),
+        ("unit: {per: 1 d}\nepoch: soon", "'soon' is not a date"),
         ("unit: {per: 1 d}\nepoch: {date: 2000-01-01, source: T}", "no source 'T'"),
         ("unit: {per: 1 d}\nepoch: {day: 2000-01-01}", "day"),
-        ("epoch: 2000-01-01", "an epoch without a unit of time"),
-        ("unit: {per: 18 ft}\nepoch: 2000-01-01", "18 ft is no time"),
+        ("epoch: 2000-01-01", "the epoch needs a unit of time"),
+        ("unit: {per: 18 ft}\nepoch: 2000-01-01", "18 ft is not a time"),
     ],
 )
 def test_what_cannot_be_a_date_is_refused_with_its_line(more: str, said: str) -> None:

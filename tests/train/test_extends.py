@@ -203,13 +203,13 @@ def test_a_turning_pair_is_removed_by_its_two_links(child: Child) -> None:
 @pytest.mark.parametrize(
     ("remove", "said"),
     [
-        ("{links: [cc]}", "`remove` names 'cc'"),
+        ("{links: [cc]}", "`remove` names the unknown 'cc'"),
         ("{gears: [secnd]}", "did you mean 'second'"),
-        ("{wheels: [zz]}", "`remove` names 'zz'"),
-        ("{outputs: [nothing]}", "`remove` names 'nothing'"),
-        ("{revolutes: [[a, b]]}", "the turning pair of a and b"),
-        ("{couplings: [pin]}", "`remove` names 'pin'"),
-        ("{states: [s]}", "`remove` names 's'"),
+        ("{wheels: [zz]}", "`remove` names the unknown 'zz'"),
+        ("{outputs: [nothing]}", "`remove` names the unknown 'nothing'"),
+        ("{revolutes: [[a, b]]}", "an unknown turning pair of a and b"),
+        ("{couplings: [pin]}", "`remove` names the unknown 'pin'"),
+        ("{states: [s]}", "`remove` names the unknown 's'"),
         ("{colours: [red]}", "colours"),
     ],
 )
@@ -259,7 +259,7 @@ def test_states_and_clutches_merge_by_name(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("nowhere.yaml", "no such file"), ("planetry", "did you mean 'planetary'"), ("''", "names nothing")],
+    [("nowhere.yaml", "no such file"), ("planetry", "did you mean 'planetary'"), ("''", "`extends` is empty")],
 )
 def test_a_parent_that_is_missing_is_refused(tmp_path: Path, name: str, said: str) -> None:
     path = tmp_path / "orphan.yaml"
@@ -345,7 +345,7 @@ def test_a_wheel_of_the_parent_declared_on_another_link_is_refused_with_the_link
     child: Child,
 ) -> None:
     message = refusal(child, "links:\n  w: {wheels: {w: 80}}")
-    assert "child.yaml:3: the parent has wheel 'w' on link 'b'" in message
+    assert "child.yaml:3: wheel 'w' is already on link 'b' of the parent" in message
     assert "to change the parent's wheel, write it under `b`: `links: {b: {wheels: {w: ...}}}`" in message
     assert "rename" not in message
     assert child("links: {b: {wheels: {w: 80}}}").solve()["b"] == -3  # as the message says
@@ -363,7 +363,7 @@ def test_a_wheel_on_another_link_is_found_in_grandchildren(child: Child, tmp_pat
     child("links: {b: {wheels: {w: 80}}}")
     path = tmp_path / "grandchild.yaml"
     path.write_text("extends: child.yaml\nlinks: {a: {wheels: {w: 90}}}\n", encoding="utf-8")
-    with pytest.raises(GearTrainError, match=r"grandchild\.yaml:2: the parent has wheel 'w' on link 'b'"):
+    with pytest.raises(GearTrainError, match=r"grandchild\.yaml:2: wheel 'w' is already on link 'b' of the parent"):
         load(path)
 
 
@@ -372,4 +372,4 @@ def test_an_added_wheel_that_meshes_nothing_is_the_first_line_of_check(child: Ch
     result = call("check", tmp_path / "child.yaml")
     lines = [line for line in result.output.splitlines() if not line.startswith("FAIL")]
     assert len(lines) > 1
-    assert lines[0].startswith(f"note {tmp_path / 'child.yaml'}:2: wheel 'z' 80 meshes nothing")
+    assert lines[0].startswith(f"note {tmp_path / 'child.yaml'}:2: wheel 'z' 80 is not in mesh")

@@ -145,25 +145,25 @@ SLIPS = {
     "friction: {sliding: 0.2, static: 0.1}": "a static friction of 0.1 is below the sliding friction of 0.2",
     "friction: {slidign: 0.2}": "did you mean 'sliding'",
     "friction: {static: 0.2, kinetic: 0.1, speed: 1 m/s}": "add `law:`",
-    "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "a static friction torque of 0.5 is below the sliding one of 1",
+    "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "0.5 is below the sliding friction torque 1",
     "links: {a: {bearing: {sliding: 1, static: 2 N m}}}": "mix a plain number and a torque with a unit",
     "links: {a: {drag: 1 N m}}": "is a torque, but a torsional damping is required",
-    "restitution: 1.01": "a restitution of 1.01 is none",
+    "restitution: 1.01": "a restitution of 1.01 is out of range",
     "stiffness: 0 N/m": "0 N/m is not above 0",
     "density: 8.7": "'8.7' has no unit",
-    "drive: {}": "a drive is one thing, and this gives nothing",
-    "drive: {rate: 1, torque: 2 N m}": "this gives rate and torque",
-    "drive: {weight: 4 kg}": "a weight pulls a line on a drum",
+    "drive: {}": "a drive needs exactly one kind; found: nothing",
+    "drive: {rate: 1, torque: 2 N m}": "found: rate and torque",
+    "drive: {weight: 4 kg}": "`weight` and `drum` must be given together",
     "drive: {torque: -2 N m}": "-2 N m is below 0",
     "drive: {wieght: 4 kg}": "did you mean 'weight'",
-    "drive: {hand: {torque: 1 N m, stiffness: 2 N m/rad}}": "a hand that gives a torque needs no stiffness",
+    "drive: {hand: {torque: 1 N m, stiffness: 2 N m/rad}}": "`stiffness` applies only to a hand with a `rate`",
     "rate: 2\ndrive: {rate: 1}": "the rate is declared twice",
     "loads: {a: 1 N m}\ndrive: {torque: 2}": "torques mix units",
     "escapement: {link: c, teeth: 30, beat: 1 s}": "no link 'c'",
     "escapement: {link: frame, teeth: 30, beat: 1 s}": "which does not turn",
     "links: {a: {inertia: -1 kg m2}}": "-1 kg m2 is below 0",
     "escapement: {link: a, teeth: 30, beat: 1}": "'1' has no unit",
-    "escapement: {link: a, teeth: 30, beat: 1 s, pendulum: 1.1 m}": "it is 993.6 mm long",
+    "escapement: {link: a, teeth: 30, beat: 1 s, pendulum: 1.1 m}": "give 993.6 mm",
 }
 
 
@@ -188,8 +188,8 @@ def test_a_slot_is_as_wide_as_its_pin_or_wider() -> None:
     found = load(train.format(text.format("0.1 mm"))).declaration
     assert found.couplings[0].clearance.si == 1e-4
     assert found.restitution_of(found.couplings[0]) == 0.2
-    assert "a clearance of -1 mm is none" in refusal(train.format(text.format("-1 mm")))
-    assert "passes beside the slot's axis" in refusal(train.format(text.format("16 mm")))
+    assert "a clearance of -1 mm is negative" in refusal(train.format(text.format("-1 mm")))
+    assert "passes the slot's axis" in refusal(train.format(text.format("16 mm")))
     assert "lengths mix plain numbers and units" in refusal(train.format(text.format("1")))
 
 

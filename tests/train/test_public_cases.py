@@ -51,7 +51,7 @@ def test_tips_of_planets_end_where_their_declared_teeth_end() -> None:
     room = 15 * sin(pi / 5) - 7 * sqrt(1 + 3 * sin(pi / 7) ** 2)
     result = call("check", case("01"))
     assert result.exit_code == 0
-    assert f"the tips of 5 planets 'p7' leave only {room:.4g} modules" in result.output
+    assert f"the tips of 5 planets 'p7' have a clearance of only {room:.4g} modules" in result.output
 
 
 def test_tips_of_teeth_that_are_not_declared_are_a_note() -> None:

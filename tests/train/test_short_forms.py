@@ -109,10 +109,10 @@ def test_problems_are_told_at_the_line_of_the_short_form(tmp_path: Path) -> None
     file = tmp_path / "set.yaml"
     for wrong, words in {
         SHORT.replace("P: [carrier, planet]", "P: [carrier, plant]"): ":10: no link 'plant'",
-        SHORT.replace("P: [carrier, planet]", "P: [carrier]"): ":10: axis 'P' joins nothing",
-        SHORT.replace("- s ~ p", "- s ~"): ":12: 's ~' is no gear pair",
+        SHORT.replace("P: [carrier, planet]", "P: [carrier]"): ":10: axis 'P' has fewer than two links",
+        SHORT.replace("- s ~ p", "- s ~"): ":12: 's ~' is not a gear pair",
         SHORT.replace("- s ~ p", "- sun ~ p"): "'sun' is a link; its wheels are s",
-        SHORT.replace("- s ~ p", "- carrier ~ p"): "'carrier' is a link, and has no wheels",
+        SHORT.replace("- s ~ p", "- carrier ~ p"): "'carrier' is a link without wheels",
     }.items():
         file.write_text(wrong, encoding="utf-8")
         with pytest.raises(DeclarationError) as caught:

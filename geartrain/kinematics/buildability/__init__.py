@@ -1,8 +1,8 @@
-"""Whether a declared train can be built, from the declaration alone: modules, places, kinds, planets, clutches.
+"""Checks whether a declared train can be built: modules, positions, kinds of wheels, planets, clutches.
 
-In: the declaration, its tree of turning pairs and its circuits. Out: `BuildFinding` records, errors where nothing can
-be built so and notes where it is unwise. What needs a layout or outlines of teeth adds records of the same type where
-those are known.
+Input is the declaration, its tree of turning pairs and its circuits. Results are `BuildFinding` records: errors if the
+train cannot be built as declared, and notes if it is inadvisable. Checks that need a layout or tooth outlines add
+records of the same type.
 """
 
 from __future__ import annotations

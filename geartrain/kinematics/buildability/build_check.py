@@ -1,8 +1,8 @@
-"""The one pass over a declaration that finds what of it cannot be built.
+"""Buildability checks of a declaration.
 
-Here are the short rules: wheels that mesh nothing; kinds of wheels that do not go together; three axes whose distances
-break the triangle inequality; brakes and clutches between links on different axes; wheels with two coaxial mates at
-different centre distances; skew axes at another distance than their wheels need. The folder holds the longer rules.
+This module has the short rules: wheels without a gear pair, incompatible kinds of wheels, three axes whose distances
+violate the triangle inequality, brakes and clutches between links on different axes, wheels with two coaxial mates at
+different centre distances, and skew axes at a wrong distance. The other modules of the folder have the longer rules.
 """
 
 from __future__ import annotations
@@ -39,34 +39,34 @@ if TYPE_CHECKING:
 
 _MATES = ({"spur"}, {"bevel"}, {"contrate", "spur"}, {"worm", "spur"})
 _NEEDS = {
-    "bevel": "cones roll on each other where their axes meet",
-    "contrate": "the teeth of a contrate wheel point along its axis, across that of its mate",
-    "worm": "a worm's axis passes that of its wheel at a distance",
-    "helical": "crossed helical wheels touch between axes that pass each other at a distance",
+    "bevel": "pitch cones roll on each other only if their axes intersect",
+    "contrate": "a contrate wheel has teeth parallel to its axis, and its mate is on a crossing axis",
+    "worm": "the axes of a worm and its wheel pass each other at a distance",
+    "helical": "crossed helical wheels need axes that pass each other at a distance",
 }
 
 
 def check_kinds(
     train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
 ) -> Iterator[BuildFinding]:
-    """Rules K1, K2 and K5: kinds and axes, kinds and mates, sides of bevels."""
+    """Yield findings of rules K1, K2 and K5: kinds against axes, kinds against mates, sides of bevel wheels."""
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
         yield BuildFinding("K5", "error", _on_one_side(train, one, other, shared))
     for pair in pairs:
         shape = next((kind for kind in pair.kinds if kind != "spur"), "helical" if pair.is_crossed else "spur")
         if set(pair.kinds) not in _MATES:
-            yield BuildFinding("K2", "error", _strange_mates(pair))
+            yield BuildFinding("K2", "error", _incompatible_kinds(pair))
         elif pair.parallel and shape != "spur":
             declared = all(label in train.axes for label in pair.axes)
-            yield BuildFinding("K1", "error" if declared else "note", _side_by_side(pair, shape, declared))
+            yield BuildFinding("K1", "error" if declared else "note", _parallel_axes_problem(pair, shape, declared))
         elif not pair.parallel:
-            problem = _crossing(pair, shape, passing_distance(axes, pair.axes))
+            problem = _crossing_axes_problem(pair, shape, passing_distance(axes, pair.axes))
             if problem is not None:
                 yield BuildFinding("K1", "error", problem)
 
 
-def _strange_mates(pair: PitchPair) -> Problem:
+def _incompatible_kinds(pair: PitchPair) -> Problem:
     first, second = (f"{kind} wheel '{wheel}'" for kind, wheel in zip(pair.kinds, pair.wheels, strict=True))
     return Problem(
         f"pair '{pair.name}': {first} meets {second}",
@@ -79,39 +79,39 @@ def _strange_mates(pair: PitchPair) -> Problem:
 def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
     return Problem(
         f"bevels '{one}' and '{other}' of one axis meet '{shared}' from the same side",
-        "their cones have one apex and one axis, so that both would be in one place",
+        "their pitch cones have the same apex and axis, so both would be in the same place",
         f"give the one on the negative side of the axis `facing: -1`, such as '{other}'",
         train.place("links", train.wheels[other][0], "wheels", other),
     )
 
 
-def _side_by_side(pair: PitchPair, shape: str, declared: bool) -> Problem:
+def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Problem:
     first, second = pair.axes
     if declared:
         what = f"{shape} pair '{pair.name}' on parallel axes '{first}' and '{second}'"
-        fix = f"correct the directions under `axes`, or drop `kind: {shape}`"
+        fix = f"correct the directions under `axes`, or remove `kind: {shape}`"
     else:
         what = f"{shape} pair '{pair.name}' has no declared directions of axes"
-        fix = f"declare the directions of '{first}' and '{second}' under `axes`, or drop `kind: {shape}`"
+        fix = f"declare the directions of '{first}' and '{second}' under `axes`, or remove `kind: {shape}`"
     why = _NEEDS[shape] + (
-        "" if declared else ", and axes without a direction count as parallel: its wheels are drawn as spur wheels"
+        "" if declared else ", and axes without a direction count as parallel, so its wheels are drawn as spur wheels"
     )
     return Problem(what, why, fix, pair.place)
 
 
-def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """What is wrong with a pair on axes of two directions that pass each other at `offset` (m); None if nothing is."""
+def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
+    """Return the problem of a pair on non-parallel axes at distance `offset` (m); None if the pair is valid."""
     first, second = pair.axes
     if shape == "spur":
         return Problem(
             f"pair '{pair.name}': spur wheels on axes '{first}' and '{second}' that are not parallel",
-            "spur teeth are parallel to their axes, and touch along their width only where axes are parallel",
+            "spur teeth touch along their width only if the axes are parallel",
             "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
             pair.place,
         )
     if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
-    far = f"pass each other at {offset * 1000:.6g} mm" if offset else "meet"
+    far = f"pass each other at {offset * 1000:.6g} mm" if offset else "intersect"
     fix = "move one of the axes" + (", or declare one wheel `kind: worm`" if offset else ", or declare both `bevel`")
     return Problem(
         f"{shape} pair '{pair.name}': the axes '{first}' and '{second}' {far}", _NEEDS[shape], fix, pair.place
@@ -121,11 +121,11 @@ def _crossing(pair: PitchPair, shape: str, offset: float | None) -> Problem | No
 # ------------------------------------------------------------------------------------------------------- axis triangles
 
 
-_EQUAL = Fraction(1, 10**6)  # of the longest side: three axes may stand in one plane
+_EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because three axes may be coplanar
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Rule P3, for three axes whose distances are multiples of one length, known or not."""
+    """Yield findings of rule P3, for three axes whose distances are multiples of one length, known or unknown."""
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
     for (first, second), pair in sides.items():
@@ -134,7 +134,7 @@ def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
     for (first, second), pair in sides.items():
         fewer, more = sorted((near[first], near[second]), key=len)
         for third in fewer:
-            # each triangle once, from its last two labels in order
+            # each triangle once: its third label is the first in order
             if third in more and third < first:
                 yield from _triangle(sizes, (third, first, second), (pair, near[third][first], near[third][second]))
 
@@ -150,7 +150,7 @@ def _triangle(
     lack = long - short - middle
     if lack <= _EQUAL * long:
         return
-    # how far each pair may stand from its design, in the same length
+    # permitted deviation of each pair from its design distance, in the same unit of length
     room = sum(
         (
             abs(pair.bounds[1] - pair.distance) / pair.distance * size[1]
@@ -163,10 +163,10 @@ def _triangle(
     sums = " + ".join(measure(found[at][1]) for at in order[:2])
     names = ", ".join(f"'{axis}'" for axis in axes)
     problem = Problem(
-        f"axes {names} have no place: {sums} is less than {measure(long)}",
-        f"pairs {', '.join(repr(pairs[at].name) for at in order)} give their distances, and two sides of a triangle "
-        "are together longer than the third",
-        "change a tooth count or a module, or take one of the pairs away",
+        f"axes {names} cannot be placed: {sums} is less than {measure(long)}",
+        f"pairs {', '.join(repr(pairs[at].name) for at in order)} give their distances, which violate the triangle "
+        "inequality",
+        "change a tooth count or a module, or remove one of the pairs",
         last.place,
     )
     yield BuildFinding("P3", "note" if lack <= room else "error", problem)
@@ -176,26 +176,26 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Rules G1 (locks) and G2 (brakes), each once for all states."""
-    said = set()
+    """Yield findings of rules G1 (locks) and G2 (brakes), each once for all states."""
+    reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
-            if rigid.links not in said:
-                said.add(rigid.links)
+            if rigid.links not in reported:
+                reported.add(rigid.links)
                 lock = len(rigid.links) == 2
-                yield BuildFinding("G1" if lock else "G2", "error", _across(train, case, rigid, lock))
+                yield BuildFinding("G1" if lock else "G2", "error", _across_axes_problem(train, case, rigid, lock))
 
 
-def _across(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
+def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
     axes = " and ".join(f"'{label}'" for label in rigid.labels)
     joints = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
     between = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     if lock:
-        why = f"no clutch joins links of two axes: as one body they would close the joints {joints}"
-        fix = "lock links that have their axis in common, or join the two by a pair of equal wheels"
+        why = f"a clutch can only join coaxial links, and this one would have to block the joints {joints}"
+        fix = "lock coaxial links, or join the two by a pair of equal wheels"
     else:
-        why = f"a brake on the frame holds what turns about an axis of the frame: it would close the joints {joints}"
-        fix = f"hold {' or '.join(repr(link) for link in between)} too, or in its place" if between else "hold another"
+        why = f"a brake acts on links that turn about an axis of the frame, and would have to block the joints {joints}"
+        fix = f"fix {' or '.join(repr(link) for link in between)} too, or instead" if between else "fix another link"
     what = f"{case.says(*rigid.links)} across the axes {axes}"
     return Problem(what, why, fix, train.place(*rigid_place(train, case, rigid.links)))
 
@@ -204,7 +204,10 @@ def _across(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
 
 
 def check_mates(train: Train) -> Iterator[BuildFinding]:
-    """Rule W1: a wheel is in a pair, or on a link with a pin or slot, or an escape wheel, or has a note that tells."""
+    """Yield findings of rule W1 for idle wheels.
+
+    A wheel must be in a gear pair, be on a link with a pin or slot, be an escape wheel, or have a note.
+    """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
     coupled = {link for coupling in train.couplings for link in (coupling.pin, coupling.slot)}
     escapement = train.escapement
@@ -214,9 +217,9 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
         if escapement is not None and escapement.has_wheel(link, wheel.count):
             continue
         problem = Problem(
-            f"wheel '{name}' {wheel.count or ''}".rstrip() + " meshes nothing",
+            f"wheel '{name}' {wheel.count or ''}".rstrip() + " is not in mesh",
             "no pair under `gears` names it",
-            "add its pair, say in its `note` what it is for, or take it away",
+            "add its gear pair, give its purpose in its `note`, or remove it",
             train.place("links", link, "wheels", name),
         )
         yield BuildFinding("W1", "note", problem)
@@ -225,13 +228,15 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
 # -------------------------------------------------------------------------------------------------------- shared wheels
 
 
-_SAME = 1e-6  # of a distance: declared lengths and radii have some six digits
+_SAME = 1e-6  # relative tolerance of distances: declared lengths and radii have about six digits
 
 
 def check_shared_wheels(
     pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
 ) -> Iterator[BuildFinding]:
-    """Rule P2 for teeth that run at any distance, as triangular ones: the shared wheel fixes the size of both pairs."""
+    """Yield findings of rule P2 for non-conjugate teeth, such as triangular ones: a shared wheel has one size in both
+    pairs.
+    """
     free = [
         pair for pair in pairs if pair.parallel and pair.form and pair.form.any_distance and not pair.form.conjugate
     ]
@@ -248,9 +253,9 @@ def check_shared_wheels(
                 "P2",
                 "error",
                 Problem(
-                    f"pairs '{one.name}' and '{other.name}' need two distances of their axes: {first:.6g} and "
+                    f"pairs '{one.name}' and '{other.name}' need different distances of their axes: {first:.6g} and "
                     f"{second:.6g} modules",
-                    f"the teeth of '{wheel}' have one size in both, and two axes have one distance",
+                    f"the teeth of '{wheel}' have the same size in both, and two axes have only one distance",
                     "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with one "
                     f"radius of '{wheel}'",
                     other.place,
@@ -261,11 +266,11 @@ def check_shared_wheels(
 # ------------------------------------------------------------------------------------------------------- skew distances
 
 
-_EQUAL_SKEW = 1e-6  # of the distance: positions are rounded as they are written
+_EQUAL_SKEW = 1e-6  # relative tolerance of distances: written positions are rounded
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Rule K4: the common perpendicular of two axes is both pitch radii long, m z/(2 cos(helix)) each."""
+    """Yield findings of rule K4: the distance of skew axes is the sum of the pitch radii m z/(2 cos(helix))."""
     axes = Axes(train, tree)
     for pair in pairs:
         if pair.parallel or any(wheel.helix_angle is None for wheel in pair.declared):
@@ -284,9 +289,9 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
     sides = " and ".join(f"'{wheel}' {radius:.6g}" for wheel, radius in zip(pair.wheels, radii, strict=True))
     what = (
         f"pair '{pair.name}': axes '{first}' and '{second}' pass each other at {sum(radii) + off:.6g} mm, "
-        f"and the pair needs {sum(radii):.6g} mm"
+        f"but the pair needs {sum(radii):.6g} mm"
     )
-    why = f"the pitch radii are {sides} mm, and touch on the common perpendicular"
+    why = f"the pitch radii are {sides} mm, and their sum is the distance of the axes"
     fix = f"move an axis by {abs(off):.6g} mm, or change a module, a tooth count or the helix angles"
     return BuildFinding("K4", "note" if abs(off) <= SLACK * module else "error", Problem(what, why, fix, pair.place))
 
@@ -295,14 +300,14 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
 
 
 Outlines = Callable[[], Mapping[str, PairOutline]]
-"""The pairs with declared teeth as they are cut, by name; called only where planets are compared."""
+"""Function that returns the pairs with declared teeth as they are cut, by name; called only if planets are compared."""
 
 
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """All that the declaration alone tells, rule by rule (docs/buildability.md)."""
-    yield from check_mates(train)  # first: a wheel that a child adds without a pair changes no speed of its parent
+    """Yield all findings that follow from the declaration, rule by rule (docs/buildability.md)."""
+    yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)
     yield from check_rings(pairs)
@@ -318,7 +323,7 @@ def check_build(
 def _planets(
     train: Train, tree: Tree, circuits: Sequence[Circuit], sizes: PitchDistances, outlines: Outlines
 ) -> Iterator[BuildFinding]:
-    """Of all planets, also where one is declared for several."""
+    """Yield findings on planets, with declared copies expanded."""
     if has_copies(train):
         train = with_copies(train, tree)
         tree = find_tree(train)

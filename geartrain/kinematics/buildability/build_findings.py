@@ -1,4 +1,4 @@
-"""What a check of a train as a thing to be made finds: the rule, how grave it is, and the problem in words."""
+"""Finding of a buildability check: the rule, its severity, and the problem."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from geartrain.errors import Problem
 from geartrain.numerics.results import Key, Result
 
 BuildLevel = Literal["error", "note"]
-"""An error cannot be built; a note can, and is unwise or open."""
+"""Severity: an error cannot be built; a note can be built, and is inadvisable or undecided."""
 
 
 @dataclass(frozen=True, slots=True)
 class BuildFinding(Result):
-    """One rule of building that a train does not keep.
+    """One rule of buildability that a train violates.
 
-    `check`, reports, pictures and exports all tell it in the words of its problem.
+    `check`, reports, drawings and exports all print the text of its problem.
 
     Examples
     --------
     >>> from geartrain.errors import Problem
-    >>> problem = Problem("ring 16 does not hold planet 20", "a < 0", "swap them", "t.yaml:7")
+    >>> problem = Problem("ring 16 is too small for planet 20", "a < 0", "swap them", "t.yaml:7")
     >>> found = BuildFinding("R1", "error", problem)
     >>> print(found)
-    t.yaml:7: ring 16 does not hold planet 20; a < 0; swap them [R1]
+    t.yaml:7: ring 16 is too small for planet 20; a < 0; swap them [R1]
     >>> found.is_error
     True
     """
@@ -36,23 +36,23 @@ class BuildFinding(Result):
     )
 
     rule: str
-    """Which rule, as docs/buildability.md lists them: `M1`, `P2`."""
+    """Identifier of the rule in docs/buildability.md, such as `M1` or `P2`."""
     level: BuildLevel
-    """An error cannot be built; a note can, and is unwise or open."""
+    """Severity: an error cannot be built; a note can be built, and is inadvisable or undecided."""
     problem: Problem
-    """Place, what, why, and what to do that cures it."""
+    """Place, problem, reason and fix."""
 
     def _summary(self) -> str:
         return f"{self.level} {self.rule}: {self.problem.what}"
 
     @property
     def is_error(self) -> bool:
-        """True for what cannot be built."""
+        """True if the train cannot be built as declared."""
         return self.level == "error"
 
     @property
     def text(self) -> str:
-        """What, why and what to do on one line, without the place."""
+        """Problem, reason and fix on one line, without the place."""
         return f"{self.problem.text} [{self.rule}]"
 
     def __str__(self) -> str:
@@ -60,5 +60,5 @@ class BuildFinding(Result):
 
 
 def build_errors(findings: Iterable[BuildFinding]) -> tuple[BuildFinding, ...]:
-    """Those that cannot be built."""
+    """Return only the findings that are errors."""
     return tuple(found for found in findings if found.is_error)

@@ -1,4 +1,4 @@
-"""Sets of equal planets on a carrier: whether all can be assembled, and whether they have room."""
+"""Assembly and clearance of sets of equal planets on a carrier."""
 
 from __future__ import annotations
 
@@ -23,93 +23,93 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""A tooth count in a rule: that of a free wheel, by id, or a fixed one."""
+"""Tooth count in a rule: the id of a free wheel, or a fixed number."""
 
 Measure = Literal["", "plain", "m"]
-"""How the size of a tooth is declared: not at all, as a plain number, as a length."""
+"""Unit of a declared module: none declared, a plain number, or metres."""
 
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMesh:
-    """A gear pair as its carrier sees it. Pairs hold what belongs to its first and second wheel."""
+    """A gear pair relative to its carrier. Two-element fields refer to the first and second wheel."""
 
     name: str
-    """The pair, and the link that keeps its centre distance."""
+    """Name of the pair."""
     carrier: str
-    """The pair, and the link that keeps its centre distance."""
+    """Carrier: the link that keeps the centre distance of the pair."""
     wheels: tuple[str, str]
-    """Their ids."""
+    """Ids of the wheels."""
     links: tuple[str, str]
-    """Their ids."""
+    """Names of the links of the wheels."""
     axes: tuple[str, str]
-    """Labels of the axes they turn on, as seen from the carrier."""
+    """Labels of the axes about which they turn relative to the carrier."""
     parts: tuple[CountRef, CountRef]
-    """Their counts: ids of free wheels, or fixed numbers."""
+    """Tooth counts: ids of free wheels, or fixed numbers."""
     sense: int
-    """1 where they turn against each other as seen from the carrier (about positive senses), else -1."""
+    """1 if they turn in opposite senses relative to the carrier, else -1."""
     ring: int | None
     """Index of the wheel that is a ring; None for an external pair."""
     spur: bool
-    """Both wheels are spur wheels; one is a worm."""
+    """True if both wheels are spur wheels."""
     worm: bool
-    """Both wheels are spur wheels; one is a worm."""
+    """True if one wheel is a worm."""
     measure: Measure
-    """The module of both, 1 of no measure where none is declared; None where several are declared."""
+    """Unit of the common module; empty if none is declared."""
     module: Fraction | None
-    """The module of both, 1 of no measure where none is declared; None where several are declared."""
+    """Common module; 1 if none is declared, None if several are declared."""
 
     @property
     def is_free(self) -> bool:
-        """True if a count of it is free."""
+        """True if at least one of its tooth counts is free."""
         return any(isinstance(part, str) for part in self.parts)
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Twice the centre distance of a spur pair, in modules: z1 + z2, or the ring less its mate; sign and count."""
+        """Sign and count of each term of twice the centre distance [modules]: z1 + z2, or ring minus mate."""
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
 
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """A planet of a set, with its meshes; those that mesh with each other form a tree whose root is the first."""
+    """A planet of a set with its meshes. Planets that mesh with each other form a tree with the first as its root."""
 
     link: str
     inward: AssemblyMesh | None
-    """The mesh with the planet inward of it; None for the first."""
+    """Mesh with the parent planet in the tree; None for the root."""
     central: tuple[AssemblyMesh, ...]
-    """Meshes with wheels on the carrier's own axis, by the names of those."""
+    """Meshes with wheels on the axis of the carrier, sorted by the names of those wheels."""
     outward: tuple[tuple[AssemblyMesh, Planet], ...]
-    """Meshes with planets outward of this one, in the same order for sets that are alike."""
+    """Meshes with the child planets in the tree, in the same order for isomorphic sets."""
 
     def walk(self) -> Iterator[Planet]:
-        """This planet, and all outward of it."""
+        """Yield this planet and all its descendants in the tree."""
         yield self
         for _, planet in self.outward:
             yield from planet.walk()
 
     def side(self, mesh: AssemblyMesh) -> int:
-        """Which wheel of a mesh of it is on this planet: 0 or 1."""
+        """Return the index (0 or 1) of this planet's wheel in one of its meshes."""
         return mesh.links.index(self.link)
 
     def own(self, mesh: AssemblyMesh) -> str:
-        """Its wheel in a mesh of it."""
+        """Return this planet's wheel in one of its meshes."""
         return mesh.wheels[self.side(mesh)]
 
     def mate(self, mesh: AssemblyMesh) -> str:
-        """The other wheel of a mesh of it."""
+        """Return the mate of this planet's wheel in one of its meshes."""
         return mesh.wheels[1 - self.side(mesh)]
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Its wheels that mesh in the set, in the same order for sets that are alike."""
+        """Wheels that mesh in the set, in the same order for isomorphic sets."""
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
         return tuple(dict.fromkeys(self.own(mesh) for mesh in meshes))
 
     @property
     def form(self) -> object:
-        """The same for planets that mesh with the same central wheels in the same way."""
+        """Canonical form, equal for planets that mesh with the same central wheels in the same way."""
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -118,47 +118,47 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; most often one."""
+    """Planets of one carrier that mesh with each other; usually a single planet."""
 
     carrier: str
     planets: Planet | None
-    """The first of them, the root of their tree; None where they mesh in a loop."""
+    """Root of the tree of planets; None if they mesh in a loop."""
     links: tuple[str, ...]
-    """All of them."""
+    """Links of all planets of the set."""
     copies: tuple[PlanetSet, ...] = ()
-    """Further sets that mesh with the same central wheels alike: equal planets declared one by one."""
+    """Further sets that mesh with the same central wheels in the same way (equal planets declared one by one)."""
 
     @property
     def title(self) -> str:
-        """Its planets, for a reader."""
+        """Names of the planets, quoted and separated by commas."""
         return ", ".join(f"'{link}'" for link in self.links)
 
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """A train whose free wheels have some of their allowed counts, and the counts that are free."""
+    """A train for the study of planet assembly, with its fixed and free tooth counts."""
 
     train: Train
     free: frozenset[str]
     tree: Tree
-    """Its turning pairs; its gear pairs and couplings."""
+    """Tree of turning pairs."""
     circuits: tuple[Circuit, ...]
-    """Its turning pairs; its gear pairs and couplings."""
+    """Fundamental circuits of gear pairs and couplings."""
 
     @classmethod
     def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
-        """That of a train that nothing is known of yet."""
+        """Return the assembly of a train, with its tree and circuits computed here."""
         tree = find_tree(train)
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """The count of a wheel in a rule: its id where it is free, else its number."""
+        """Return the count of a wheel in a rule: its id if it is free, else its number."""
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
     @cached_property
     def meshes(self) -> tuple[AssemblyMesh, ...]:
-        """All gear pairs, in the order declared."""
+        """All gear pairs in the order of the declaration."""
         return tuple(self._mesh(circuit) for circuit in self.circuits if circuit.kind == "gear")
 
     def _mesh(self, circuit: Circuit) -> AssemblyMesh:
@@ -183,9 +183,9 @@ class TrainAssembly:
         )
 
     def module(self, *wheels: str) -> tuple[Measure, Fraction | None]:
-        """The module that wheels have in common: declared for them, or for any wheel that must share it.
+        """Return the common module of wheels, declared for them or for any wheel that must share it.
 
-        Without any it is 1 of no measure; None where several are declared.
+        If none is declared, the module is 1 without unit. It is None if several are declared.
         """
         found = {one for wheel in wheels for one in self._modules.get(self.kin[wheel], ())}
         if len(found) > 1:
@@ -197,7 +197,7 @@ class TrainAssembly:
 
     @cached_property
     def _modules(self) -> Mapping[int, frozenset[tuple[Measure, Fraction]]]:
-        """The modules declared among wheels that share one."""
+        """Modules declared in each group of wheels that must share one."""
         found: dict[int, frozenset[tuple[Measure, Fraction]]] = {}
         for wheel, number in self.kin.items():
             found[number] = found.get(number, frozenset()) | self._declared(wheel)
@@ -211,7 +211,9 @@ class TrainAssembly:
 
     @cached_property
     def kin(self) -> Mapping[str, int]:
-        """Wheels that must share a module, for they mesh or mesh with wheels that do: the number of their group."""
+        """Group number of each wheel. Wheels that are connected by meshes, except those of worms, must share a
+        module.
+        """
         worms = {wheel for wheel, (_, kind) in self.train.wheels.items() if kind.kind == "worm"}
         pairs = [circuit.wheels for circuit in self.circuits if circuit.kind == "gear"]
         groups = joined_groups(self.train.wheels, [pair for pair in pairs if worms.isdisjoint(pair)])
@@ -219,7 +221,7 @@ class TrainAssembly:
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
-        """The sets of planets on carriers other than the frame; those declared alike are copies of the first."""
+        """Sets of planets on carriers other than the frame; isomorphic ones are copies of the first."""
         found: list[PlanetSet] = []
         for carrier in dict.fromkeys(mesh.carrier for mesh in self.meshes if mesh.carrier != self.train.frame):
             alike: dict[object, list[PlanetSet]] = {}
@@ -231,7 +233,7 @@ class TrainAssembly:
         return tuple(found)
 
     def _groups(self, carrier: str) -> list[list[str]]:
-        """Planets of a carrier, those together that mesh with each other."""
+        """Return the planets of a carrier, grouped by meshes between planets."""
         meshing = [mesh.links for mesh in self._meshes_of(carrier)]
         planets = [[link for link in links if self.tree.bears(carrier, link)] for links in meshing]
         return joined_groups(chain(*planets), planets)
@@ -251,16 +253,16 @@ class TrainAssembly:
         among = [mesh for mesh in self._meshes_of(carrier) if set(mesh.links) <= set(links)]
         if len(among) != len(links) - 1:
             return PlanetSet(carrier, None, tuple(links))
-        # equal sets start at the planet whose central wheels come first, so that they are connected alike
+        # start at the planet whose central wheels come first, so that equal sets have isomorphic trees
         start = min(links, key=lambda link: (self._mates(carrier, link) or ["\uffff"], links.index(link)))
         return PlanetSet(carrier, self._planet(carrier, start, None, among), tuple(links))
 
     def _mates(self, carrier: str, link: str) -> list[str]:
-        """Central wheels that a planet meets."""
+        """Return the central wheels with which a planet meshes."""
         return [mesh.wheels[1 - mesh.links.index(link)] for mesh in self._central(carrier, link)]
 
     def _central(self, carrier: str, link: str) -> list[AssemblyMesh]:
-        """Meshes of a planet with central wheels, by the names of those."""
+        """Return the meshes of a planet with central wheels, sorted by the names of those wheels."""
         found = [mesh for mesh in self._meshes_of(carrier) if link in mesh.links]
         sides = [(mesh, 1 - mesh.links.index(link)) for mesh in found]
         sides = [(mesh, side) for mesh, side in sides if not self.tree.bears(carrier, mesh.links[side])]
@@ -277,7 +279,7 @@ class TrainAssembly:
 
 
 def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
-    """Wheels of a set -> the wheels of a copy of it in their places."""
+    """Return the mapping from the wheels of a set to the corresponding wheels of its copy."""
     assert first.planets is not None
     assert other.planets is not None
     found: dict[str, str] = {}
@@ -288,7 +290,9 @@ def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class PlanetContact:
-    """A mesh of a planet: its own count, its mate's, and the sense of the pair (1 external, -1 with a ring)."""
+    """A mesh of a planet: its own count, the count of its mate, and the sense of the pair (1 external, -1 with a
+    ring).
+    """
 
     own: CountRef
     mate: CountRef
@@ -297,13 +301,13 @@ class PlanetContact:
 
 @dataclass(frozen=True, slots=True)
 class PlanetArm:
-    """A planet as its teeth see it: contacts with central wheels, and with planets outward of it."""
+    """Tooth counts of a planet's contacts with central wheels, and with its child planets."""
 
     central: tuple[PlanetContact, ...]
     outward: tuple[tuple[PlanetContact, PlanetArm], ...]
 
     def contacts(self) -> Iterator[PlanetContact]:
-        """All of them, those of planets farther out too."""
+        """Yield all contacts, including those of descendants."""
         yield from self.central
         for contact, arm in self.outward:
             yield contact
@@ -311,13 +315,16 @@ class PlanetArm:
 
 
 def planet_arm(planet: Planet) -> PlanetArm:
-    """A planet of a set, with those outward of it."""
+    """Return the contacts of a planet and of its descendants."""
     outward = tuple((planet_contact(planet, mesh, other), planet_arm(other)) for mesh, other in planet.outward)
     return PlanetArm(tuple(planet_contact(planet, mesh) for mesh in planet.central), outward)
 
 
 def planet_contact(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None) -> PlanetContact:
-    """A mesh of a planet. Of one with a single wheel only z phi matters, whatever its z: one tooth stands for it."""
+    """Return a mesh of a planet as a contact.
+
+    Only z phi of a planet with a single wheel matters, whatever its tooth count z, so that its count is replaced by 1.
+    """
     side = planet.side(mesh)
     own = mesh.parts[side] if len(planet.wheels) > 1 else 1
     return PlanetContact(own, 1 if other and len(other.wheels) == 1 else mesh.parts[1 - side], mesh.sense)
@@ -325,77 +332,82 @@ def planet_contact(planet: Planet, mesh: AssemblyMesh, other: Planet | None = No
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Whole numbers, or arrays of them, one a candidate."""
+    """Arithmetic of integers, or of integer arrays with one element for each candidate."""
 
     count: Callable[[CountRef], Any]
-    """The number or array that a count of a contact stands for."""
+    """Function that returns the number or array of a tooth count."""
     gcd: Callable[[Any, Any], Any]
-    """Greatest common divisor."""
+    """Greatest common divisor of two numbers."""
     bezout: Callable[[Any, Any], tuple[Any, Any, Any]]
-    """The same g of a and b, and u, v with u a + v b = g."""
+    """Extended Euclidean algorithm: g, u, v with u a + v b = g = gcd(a, b)."""
     reduced: Callable[[Any], Any]
-    """What is kept of a number that matters modulo the number of planets only."""
+    """Reduction of a number that matters only modulo the number of planets."""
 
 
 def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
-    """Whole numbers E: a set turned by t about the carrier's axis meshes too if E t is whole for each (t in turns).
+    """Return integers E: a set of planets rotated by t about the carrier's axis also meshes if every E t is an integer.
 
-    A mesh of wheels a and b holds z_a theta_a + z_b theta_b at a constant, modulo a pitch (angles in turns, seen from
-    the carrier; minus with a ring). Turning a set that meshes by t gives another one's place, and turns central wheels
-    by t too; they must come back to where they stand, for they are there already. So planets must have angles phi with
+    The angle t is in turns. A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo a pitch (angles in
+    turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the position of another
+    set, and rotates the central wheels by t too; they must return to their positions, because they are shared. So the
+    planets must have angles phi with
 
-        z_p phi_p + z_c t whole for every central wheel c (minus for a ring),
-        z_p phi_p + z_q phi_q whole for planets that mesh.
+        z_p phi_p + z_c t integer for every central wheel c (minus for a ring),
+        z_p phi_p + z_q phi_q integer for planets that mesh.
 
-    Walking from the planets farthest out to the first one, the angles of a planet that are left are those with
-    D phi = b t (mod 1), for whole D and b: a wheel c gives D = z_p, b = -z_c; two such conditions can be met together
-    if gcd(D1, D2) divides (D1 b2 - D2 b1) t, and are one, D = gcd(D1, D2) and b = u b1 + v b2, with u D1 + v D2 = D.
+    Planets are processed from the leaves of their tree to its root. The remaining angles of a planet satisfy
+    D phi = b t (mod 1) for integers D and b. A central wheel c gives D = z_p, b = -z_c. Two such conditions are
+    compatible if gcd(D1, D2) divides (D1 b2 - D2 b1) t; they combine to one condition with D = gcd(D1, D2) and b = u b1
+    + v b2, where u D1 + v D2 = D.
 
-    One planet with one wheel gives the textbooks' rule: z_s + z_r, and n planets stand evenly (t = 1/n) if n divides
-    that; one with two wheels (z_s z_q + z_r z_p)/gcd(z_p, z_q); two planets one after the other, z_r - z_s. The second
-    derivation is that of phase closure (`geartrain.kinematics.phasing`): loops through neighbouring planets must close.
+    A planet with one wheel gives the textbook rule: E = z_s + z_r, and n planets can be evenly spaced (t = 1/n) if n
+    divides it. A planet with two wheels gives (z_s z_q + z_r z_p)/gcd(z_p, z_q), and two planets in series give z_r -
+    z_s. A second derivation is phase closure (`geartrain.kinematics.phasing`): loops through neighbouring planets must
+    close.
     """
     found: list[Any] = []
-    left = _left(arm, kind, found)
-    # what any two conditions on one angle allow, all of them allow: they stand at whole multiples of one step
-    found += (_number(one, other, kind.gcd(one[0], other[0])) for one, other in combinations(left, 2))
+    left = _angle_conditions(arm, kind, found)
+    # pairwise compatible conditions are compatible together, because their solutions are multiples of one step
+    found += (_compatibility_number(one, other, kind.gcd(one[0], other[0])) for one, other in combinations(left, 2))
     return found
 
 
-def _left(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
-    """D and b of the conditions on the angle of a planet; numbers of those farther out are added to `found`."""
+def _angle_conditions(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
+    """Return D and b of the conditions on the angle of a planet; append the numbers of its descendants to `found`."""
     left = []
     for contact in arm.central:
         own, mate = kind.count(contact.own), kind.count(contact.mate)
         left.append((own, kind.reduced(-contact.sense * mate)))
     for contact, other in arm.outward:
-        further = _left(other, kind, found)
+        further = _angle_conditions(other, kind, found)
         if not further:
             continue
-        D, b = _joined(further, kind, found)
+        D, b = _combined_condition(further, kind, found)
         own, mate = kind.count(contact.own), kind.count(contact.mate)
-        # z phi of the planet farther out is known up to multiples of gcd(z, D)/D
+        # z phi of the child planet is known up to multiples of gcd(z, D)/D
         common = kind.gcd(mate, D)
         left.append((D // common * own, kind.reduced(-contact.sense * kind.reduced(mate // common) * b)))
     return left
 
 
-def _joined(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
-    """All conditions on an angle as one; numbers of their agreement are added to `found`."""
+def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
+    """Combine all conditions on an angle into one; append the numbers of their compatibility to `found`."""
     (D, b), *others = left
     for D2, b2 in others:
         common, u, v = kind.bezout(D, D2)
-        found.append(_number((D, b), (D2, b2), common))
+        found.append(_compatibility_number((D, b), (D2, b2), common))
         D, b = common, kind.reduced(kind.reduced(u) * b + kind.reduced(v) * b2)
     return D, b
 
 
-def _number(one: tuple[Any, Any], other: tuple[Any, Any], common: Any) -> Any:
+def _compatibility_number(one: tuple[Any, Any], other: tuple[Any, Any], common: Any) -> Any:
     return (one[0] * other[1] - other[0] * one[1]) // common
 
 
 def bezout(a: int, b: int) -> tuple[int, int, int]:
-    """Greatest common divisor g of two numbers from 0, and u, v with u a + v b = g (Euclid's algorithm).
+    """Return the common divisor g = gcd(a, b) of two non-negative integers, and u, v with u a + v b = g.
+
+    Extended Euclidean algorithm.
 
     >>> bezout(24, 18)
     (6, 1, -1)
@@ -408,31 +420,31 @@ def bezout(a: int, b: int) -> tuple[int, int, int]:
 
 
 def assembly_number(planet: Planet) -> int:
-    """G: equal sets of planets mesh with the same central wheels at angles that are whole multiples of 1/G turn.
+    """Return G: equal sets of planets mesh with the same central wheels at angles that are multiples of 1/G turn.
 
-    0 where they do at any angle.
+    0 if they mesh at any angle.
     """
     exact = PhaseArithmetic(int, gcd, bezout, lambda number: number)
     return gcd(*phase_numbers(planet_arm(planet), exact))
 
 
 def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
-    """Terms of the room between neighbouring equal planets: 2 a sin(pi/n) less their tips and what is to be left.
+    """Return the terms of the clearance between neighbouring equal planets: 2 a sin(pi/n) minus `tips`.
 
-    reach   2 a, with a from the central axis to a planet's: m (z_s + z_p), or m (z_r - z_p)
-    tips    m (z_p + 2 h) + clearance
+    reach   2 a, with the distance a from the central axis to a planet's: m (z_s + z_p), or m (z_r - z_p)
+    tips    m (z_p + 2 h) plus the required clearance
     chord   sin(pi/n)
     """
     return reach * chord, -tips
 
 
 def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    """Terms of the room between a planet and the one that meshes with its neighbour: (2 distance)^2 less (2 reach)^2.
+    """Return the terms of the clearance between a planet and the mate of its neighbour: (2 distance)^2 - tips^2.
 
     A, B   twice the distances of the two planets' axes from the central axis
-    D      twice their centre distance where they mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
-    tips   tip diameters, summed, and twice what is to be left
-    c, s   cosine and sine of the turn psi to the neighbour: the distance is that at the angle psi - delta,
+    D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
+    tips   sum of the tip diameters, and twice the required clearance
+    c, s   cosine and sine of the angle psi to the neighbour; the distance is taken at the angle psi - delta,
            (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
     """
     Q = A * A + B * B - D * D
@@ -440,12 +452,12 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
     return A * A, B * B, -c * Q, -s * sines, -tips * tips
 
 
-_MISS, _LITTLE = 0.1, 0.01  # pitches: more than any play takes up; less than any play
+_MISS, _NEGLIGIBLE = 0.1, 0.01  # phase errors (pitches): more than any backlash absorbs; less than any backlash
 ON_ECCENTRIC = 0.25
-"""Of the radius of a wheel: how far its axis may stand from that of its carrier for it to run on an eccentric."""
-_CLEAR = 0.2  # modules that neighbours should leave each other
-_FULL = 1.0  # addendum (modules) of teeth that are not declared
-_STUB = _FULL - float(SHIFT)  # the lowest that these may have
+"""Maximum distance of a wheel's axis from that of its carrier [radius of the wheel] for a wheel on an eccentric."""
+_CLEAR = 0.2  # recommended clearance of neighbours (modules)
+_FULL = 1.0  # addendum (modules) of undeclared teeth
+_STUB = _FULL - float(SHIFT)  # smallest addendum of undeclared teeth
 
 
 def check_planets(
@@ -455,7 +467,7 @@ def check_planets(
     sizes: PitchDistances,
     outlines: Callable[[], Mapping[str, PairOutline]],
 ) -> Iterator[BuildFinding]:
-    """Rules A1 to A3, for sets of two planets and more that mesh with the same central wheels and have equal counts."""
+    """Yield findings of rules A1 to A3, for two or more equal sets of planets with the same central wheels."""
     if len(train.gears) < 2:
         return
     for one in TrainAssembly(train, frozenset(), tree, tuple(circuits)).sets:
@@ -464,7 +476,7 @@ def check_planets(
             continue
         found = _EqualPlanets(train, tree, one, copies, sizes, outlines())
         yield from found.assembly()
-        yield from found.room()
+        yield from found.clearance()
 
 
 def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
@@ -473,7 +485,7 @@ def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
 
 
 class _EqualPlanets:
-    """Equal sets of planets of one carrier, evenly spaced unless all their axes have positions."""
+    """Equal sets of planets of one carrier, evenly spaced unless positions of all their axes are declared."""
 
     def __init__(
         self,
@@ -486,70 +498,66 @@ class _EqualPlanets:
     ) -> None:
         assert one.planets is not None
         self.train, self.one, self.planet, self.sizes, self.outlines = train, one, one.planets, sizes, outlines
-        self.tips: dict[str, float] = {}  # of declared teeth; the outermost, where the pairs of a wheel require several
+        self.tips: dict[str, float] = {}  # declared tip radii; the largest, if a wheel has different ones in its pairs
         for wheel, tip in (each for outline in outlines.values() for each in outline.tips.items()):
             self.tips[wheel] = max(tip, self.tips.get(wheel, 0.0))
         self.firsts = [self.planet.link, *(copy.planets.link for copy in copies if copy.planets is not None)]
         self.number = len(self.firsts)
         self.step = assembly_number(self.planet)
         axes = [tree.axis(link) for link in self.firsts]
-        self.points = _points(train, tree.axis(one.carrier), axes)
+        self.points = _planet_positions(train, tree.axis(one.carrier), axes)
         self.place = train.place("links", self.firsts[-1])
         self.names = ", ".join(f"'{link}'" for link in self.firsts)
 
     # -------------------------------------------------------------------------------------------------------- assembly
 
     def assembly(self) -> Iterator[BuildFinding]:
-        """Rule A1 for planets of one wheel, A2 for others."""
+        """Yield findings of rule A1 for planets with one wheel, and of A2 for others."""
         if not self.step:
             return
         rule = "A1" if len(self.planet.wheels) == 1 and not self.planet.outward else "A2"
         if self.points is not None:
-            yield from self._placed(rule, self.points)
+            yield from self._check_placed(rule, self.points)
         elif self.step % self.number:
-            yield self._uneven(rule)
+            yield self._uneven_spacing(rule)
 
-    def _placed(self, rule: str, points: Sequence[tuple[float, float]]) -> Iterator[BuildFinding]:
+    def _check_placed(self, rule: str, points: Sequence[tuple[float, float]]) -> Iterator[BuildFinding]:
         turns = [atan2(y, x) / tau for x, y in points]
         misses = [self.step * (turn - turns[0]) for turn in turns]
         off = [abs(miss - round(miss)) for miss in misses]
         worst = max(off)
-        if worst <= _LITTLE:
+        if worst <= _NEGLIGIBLE:
             return
         at = off.index(worst)
         what = (
             f"planet '{self.firsts[at]}' does not mesh where it is placed: its teeth are off by {worst:.3g} of a pitch"
         )
         why = (
-            f"seen from '{self.one.carrier}' it stands {360 * ((turns[at] - turns[0]) % 1):.6g} deg from "
-            f"'{self.firsts[0]}', and such planets go in every {self._degrees}"
+            f"relative to '{self.one.carrier}' it is {360 * ((turns[at] - turns[0]) % 1):.6g} deg from "
+            f"'{self.firsts[0]}', but such planets mesh only at multiples of {self._degrees}"
         )
         moved = [
             f"'{link}' {360 * (round(miss) / self.step % 1):.6g} deg"
             for link, miss, far in zip(self.firsts, misses, off, strict=True)
-            if far > _LITTLE
+            if far > _NEGLIGIBLE
         ]
         fix = f"place {', '.join(moved)} from '{self.firsts[0]}'"
         problem = Problem(what, why, self._fix(rule, fix), self.place)
         yield BuildFinding(rule, "error" if worst > _MISS and rule == "A1" else "note", problem)
 
-    def _uneven(self, rule: str) -> BuildFinding:
-        """Planets that cannot stand evenly: an error where they have no room elsewhere either."""
-        minimum = max((self._minimum_turn(planet, _STUB) for planet in self.planet.walk()), default=0.0)
+    def _uneven_spacing(self, rule: str) -> BuildFinding:
+        """Return the finding on planets that cannot be evenly spaced; an error if other spacings have no clearance."""
+        minimum = max((self._minimum_angle(planet, _STUB) for planet in self.planet.walk()), default=0.0)
         steps = max(1, ceil(minimum * self.step - 1e-9))
         fits = self.number * steps <= self.step
         whole, rest = divmod(self.step, self.number)
-        even = [count for count in range(2, self._most() + 1) if self.step % count == 0]
-        what = f"{self.number} equal planets {self.names} on '{self.one.carrier}' cannot stand evenly"
-        why = f"they go in every {self._degrees}, and {self.step} is no multiple of {self.number}"
+        even = [count for count in range(2, self._maximum_number() + 1) if self.step % count == 0]
+        what = f"{self.number} equal planets {self.names} on '{self.one.carrier}' cannot be evenly spaced"
+        why = f"they mesh only at multiples of {self._degrees}, and {self.step} is not a multiple of {self.number}"
         if not fits:
-            why += "; other places leave them no room"
-        others = f"{_listed(even)} would stand evenly" if even else "change a tooth count"
-        spread = (
-            f"give them places {whole} and {whole + 1} of these steps apart ({rest} times {whole + 1}), or "
-            if fits
-            else ""
-        )
+            why += "; other positions leave no clearance"
+        others = f"use {_enumerated(even)} planets, which can be evenly spaced" if even else "change a tooth count"
+        spread = f"space them by {whole} and {whole + 1} of these steps ({rest} times {whole + 1}), or " if fits else ""
         return BuildFinding(
             rule,
             "note" if fits or rule == "A2" else "error",
@@ -562,58 +570,64 @@ class _EqualPlanets:
 
     @staticmethod
     def _fix(rule: str, fix: str) -> str:
-        return fix if rule == "A1" else f"{fix}; or join the wheels of each planet at an angle of its own"
+        return fix if rule == "A1" else f"{fix}; or join the wheels of each planet at a different angle"
 
     # ------------------------------------------------------------------------------------------------------------ room
 
-    def room(self) -> Iterator[BuildFinding]:
-        """Rule A3."""
+    def clearance(self) -> Iterator[BuildFinding]:
+        """Yield findings of rule A3, the clearance between neighbours."""
         for planet in self.planet.walk():
-            for mesh in _once(planet):
+            for mesh in _one_mesh_per_wheel(planet):
                 if self._is_on_eccentric(planet, mesh):
-                    continue  # such discs stand beside each other along the axis
-                gap = self._gap(planet, mesh, self.number)
+                    continue  # discs on eccentrics are next to each other along the axis
+                gap = self._neighbour_clearance(planet, mesh, self.number)
                 if gap is not None and gap < _CLEAR:
-                    yield self._crowded(planet.own(mesh), gap)
+                    yield self._small_clearance(planet.own(mesh), gap)
             for mesh, other in planet.outward:
-                gap = self._passing(planet, other, mesh)
+                gap = self._passing_clearance(planet, other, mesh)
                 if gap is not None and gap < 0:
                     wheels = planet.own(mesh), other.own(mesh)
-                    what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets overlap"
-                    why = f"their tips would be {-gap:.4g} modules in each other"
-                    yield self._near(wheels, gap, what, why, "take fewer planets, or change their tooth counts")
+                    what = f"'{wheels[0]}' and the '{wheels[1]}' of the next of {self.number} equal sets collide"
+                    why = f"their tip circles overlap by {-gap:.4g} modules"
+                    yield self._clearance_finding(
+                        wheels, gap, what, why, "use fewer planets, or change their tooth counts"
+                    )
 
-    def _crowded(self, wheel: str, gap: float) -> BuildFinding:
+    def _small_clearance(self, wheel: str, gap: float) -> BuildFinding:
         module = self._module(wheel)
         far = f"{abs(gap):.4g} modules" if module is None else f"{abs(gap) * module:.4g} mm"
         grave = gap <= 0
-        what = f"the tips of {self.number} planets '{wheel}' " + (f"overlap by {far}" if grave else f"leave only {far}")
-        why = "neighbours stand 2 a sin(pi/n) apart, less than their tip diameter" + (
-            "" if grave else f" and {_CLEAR:g} modules"
+        what = f"the tips of {self.number} planets '{wheel}' " + (
+            f"overlap by {far}" if grave else f"have a clearance of only {far}"
+        )
+        why = "neighbours are 2 a sin(pi/n) apart, less than their tip diameter" + (
+            "" if grave else f" plus {_CLEAR:g} modules"
         )
         if self.points is not None:
-            why = why.replace("2 a sin(pi/n) apart", "where they are placed")
-        most = self._most() if self.points is not None else min(self._most(), self.number - 1)
-        return self._near((wheel, wheel), gap, what, why, f"take at most {most}, or smaller planets")
+            why = why.replace("2 a sin(pi/n) apart, less", "placed at a distance less")
+        most = self._maximum_number() if self.points is not None else min(self._maximum_number(), self.number - 1)
+        return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
-    def _near(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
-        """An error where tips overlap; a note where they do not, or where undeclared teeth can be made shorter."""
+    def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
+        """Return a finding on tip clearance: an error if tips overlap even with the shortest undeclared teeth, else a
+        note.
+        """
         free = sum(wheel not in self.tips for wheel in wheels)
         fits = _FULL + gap / free if free else 0.0
         if gap <= 0 and fits >= _STUB:
             what += f" unless their addenda are at most {floor(1000 * fits) / 1000:g}"
-            fix = f"declare a `tooth_form` with such an `addendum`, {fix}"
+            fix = f"declare a `tooth_form` with such an `addendum`, or {fix}"
         level: BuildLevel = "error" if gap <= 0 and fits < _STUB else "note"
         return BuildFinding("A3", level, Problem(what, why, fix, self.place))
 
     def _module(self, wheel: str) -> float | None:
-        """Transverse module (mm) of a wheel."""
+        """Return the transverse module (mm) of a wheel."""
         module = self.sizes.module(wheel)
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
-    def _gap(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Room (modules) between the tips of a wheel of neighbouring planets."""
-        tips = self._tips(planet, mesh)
+    def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
+        """Return the clearance (modules) between the tips of equal wheels of neighbouring planets."""
+        tips = self._tip_diameter(planet, mesh)
         if self.points is not None and planet is self.planet and number == self.number:
             module = self._module(planet.own(mesh))
             if module is None:
@@ -622,28 +636,30 @@ class _EqualPlanets:
                 sqrt((x - u) ** 2 + (y - v) ** 2) for at, (x, y) in enumerate(self.points) for u, v in self.points[:at]
             )
             return near / module - tips
-        reach = self._reach(planet, planet.own(mesh))
+        reach = self._axis_distance(planet, planet.own(mesh))
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """True of a wheel that reaches far round the axis about which its own is carried."""
+        """Return True for a wheel that is much larger than its distance from the axis of the carrier."""
         wheel = planet.own(mesh)
-        reach, count = self._reach(planet, wheel), self.train.wheels[wheel][1].count or 0
+        reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
 
-    def _tips(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
-        """Tip diameter (modules) of a planet's wheel, with this addendum where its teeth are not declared."""
+    def _tip_diameter(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
+        """Return the tip diameter (modules) of a planet's wheel, with `addendum` for undeclared teeth."""
         wheel = planet.own(mesh)
         declared = self.tips.get(wheel)
         return (self.train.wheels[wheel][1].count or 0) + 2 * addendum if declared is None else 2 * declared
 
-    def _apart(self, mesh: AssemblyMesh) -> float:
-        """Twice the distance (modules) at which the wheels of a pair mesh."""
+    def _mesh_distance(self, mesh: AssemblyMesh) -> float:
+        """Return twice the centre distance (modules) of a pair."""
         outline = self.outlines.get(mesh.name)
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
-    def _reach(self, planet: Planet, wheel: str = "") -> float | None:
-        """Twice the distance of a planet's axis from the central one, in modules of the wheel where it meets one."""
+    def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
+        """Return twice the distance of a planet's axis from the central axis (modules of the wheel); None if
+        unknown.
+        """
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -651,17 +667,17 @@ class _EqualPlanets:
         wheel = wheel or own
         scale = self.sizes.sizes.ratio(("wheel", own), ("wheel", wheel))
         slants = [self.train.wheels[each][1].slant for each in (own, wheel)]
-        return None if scale is None else self._apart(meshes[0]) * float(scale) * slants[0] / slants[1]
+        return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
-    def _passing(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Room (modules) between a planet and those that mesh with its neighbours; None where it is not known."""
-        A, B = self._reach(planet, planet.own(mesh)), self._reach(other, other.own(mesh))
+    def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
+        """Return the clearance (modules) between a planet and the mates of its neighbours; None if unknown."""
+        A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
             return None
-        D = self._apart(mesh)
+        D = self._mesh_distance(mesh)
         if not abs(A - B) <= D <= A + B:
             return None
-        tips = self._tips(planet, mesh) + self._tips(other, mesh)
+        tips = self._tip_diameter(planet, mesh) + self._tip_diameter(other, mesh)
         squares = []
         for step in range(1, self.number):
             turn = tau * step / self.number
@@ -669,30 +685,30 @@ class _EqualPlanets:
             squares.append(sum(terms))
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
-    def _minimum_turn(self, planet: Planet, addendum: float = _FULL) -> float:
-        """The least angle (turns) between neighbours that leaves their tips apart; `addendum` as of `_tips`."""
+    def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
+        """Return the smallest angle (turns) between neighbours with separate tips; see `_tip_diameter`."""
         found = 0.0
-        for mesh in _once(planet):
-            reach = self._reach(planet, planet.own(mesh))
+        for mesh in _one_mesh_per_wheel(planet):
+            reach = self._axis_distance(planet, planet.own(mesh))
             if reach:
-                found = max(found, 2 * asin(min(self._tips(planet, mesh, addendum) / reach, 1.0)) / tau)
+                found = max(found, 2 * asin(min(self._tip_diameter(planet, mesh, addendum) / reach, 1.0)) / tau)
         return found
 
-    def _most(self) -> int:
-        """Planets that have room, evenly spaced."""
-        minimum = max((self._minimum_turn(planet) for planet in self.planet.walk()), default=0.0)
+    def _maximum_number(self) -> int:
+        """Return the maximum number of evenly spaced planets without overlapping tips."""
+        minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number
 
 
-def _once(planet: Planet) -> list[AssemblyMesh]:
-    """A mesh for each wheel of a planet."""
+def _one_mesh_per_wheel(planet: Planet) -> list[AssemblyMesh]:
+    """Return one mesh for each wheel of a planet."""
     inward = [planet.inward] if planet.inward else []
     meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
 
 
-def _points(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
-    """Where planets stand about their carrier's axis (mm); None unless all positions are declared."""
+def _planet_positions(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
+    """Return the positions of planets relative to their carrier's axis (mm); None unless all are declared."""
     places = [train.axes[label].point if label in train.axes else None for label in (centre or "", *map(str, axes))]
     spots = [place for place in places if place is not None]
     if len(spots) < len(places):
@@ -701,6 +717,6 @@ def _points(train: Train, centre: str | None, axes: Sequence[str | None]) -> lis
     return [(dot(minus(spot, spots[0]), x), dot(minus(spot, spots[0]), y)) for spot in spots[1:]]
 
 
-def _listed(counts: Sequence[int]) -> str:
+def _enumerated(counts: Sequence[int]) -> str:
     *some, last = map(str, counts)
     return f"{', '.join(some)} or {last}" if some else last

@@ -1,9 +1,9 @@
-"""Whether wheels in mesh have one pitch, and axes the distances that their wheels require.
+"""Checks that wheels in mesh have one pitch, and that axes have the distances that their wheels require.
 
-Modules and distances are known as multiples of one another: wheels in mesh share a module (1), the distance of two axes
-is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2), and declared modules, positions
-and offsets give some in mm. A weighted union-find in exact fractions holds these statements; a statement about a
-quantity that is known already is judged.
+Modules and distances are known as multiples of each other. Wheels in mesh share a module (1). The distance of two axes
+is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions and
+offsets give some of them in mm. These statements are stored in a weighted union-find structure with exact fractions; a
+statement on a quantity that is already known is compared with it.
 """
 
 from __future__ import annotations
@@ -28,28 +28,32 @@ if TYPE_CHECKING:
     from geartrain.train import Train, Wheel
 
 PRESSURE = radians(20)
-"""Pressure angle (rad) of standard teeth, where none is declared."""
+"""Pressure angle (rad) of standard teeth, used if none is declared."""
 
 
 @lru_cache(maxsize=4096)
 def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
-    """Angle by which the corner of a planet's tooth passes that of a ring's on its way out (rad, about the ring).
+    """Return the angle by which a planet's tooth tip clears a ring's (rad, about the ring's axis).
 
     z1, z2     teeth of the planet and the ring; z2 > z1
-    pressure   rad; h1, h2 addenda in modules. Teeth without play; negative where the corners meet
-    Known as trochoid interference (Elements of Metric Gear Technology, SDP/SI, equations 5-6 and 5-7). When the
-    planet's corner stands on the ring's tip circle, at theta1 about its own axis and theta2 about the ring's (both from
-    the line of centres), the planet has turned from where its flank met the pitch point by
-    phi = theta1 + inv(alpha_a1) - inv(alpha), for the tooth is thinner at its tip, and the ring by phi z1/z2; the
-    corner of the ring's tooth ahead is then at phi z1/z2 + inv(alpha) - inv(alpha_a2).
-    -inf where the ring's tip circle lies within its base circle, or within the planet's tip circle. At 20 degrees and
-    full depth a ring of 34 to 77 teeth wants 9 more than the planet, a larger one 8; the source says "larger than 9".
+    pressure   pressure angle (rad)
+    h1, h2     addenda (modules)
+
+    Teeth without backlash; the angle is negative if the corners collide. Known as trochoid interference (Elements of
+    Metric Gear Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at
+    theta1 about its own axis and theta2 about the ring's (both from the line of centres), the planet has turned from
+    the position in which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth
+    is thinner at its tip, and the ring by phi z1/z2. The corner of the ring's next tooth is then at phi z1/z2 +
+    inv(alpha) - inv(alpha_a2).
+
+    -inf if the ring's tip circle lies within its base circle, or within the planet's tip circle. At 20 degrees and full
+    depth a ring of 34 to 77 teeth needs 9 teeth more than the planet, a larger one 8; the source gives "larger than 9".
     """
     r1, r2, a = z1 / 2 + h1, z2 / 2 - h2, (z2 - z1) / 2
     if a <= 0:
         return -inf
     out = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1)
-    if out > 1:  # a planet whose tips never reach the ring's tip circle has nothing to pass
+    if out > 1:  # the planet's tips never reach the ring's tip circle
         return inf
     if r2 <= r1 - a or 2 * r2 < z2 * cos(pressure):
         return -inf
@@ -62,10 +66,10 @@ def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
 
 @lru_cache(maxsize=4096)
 def radial_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
-    """Angle by which a planet's teeth clear the ring's when it is put in across its axis (rad, about the planet).
+    """Return the angle by which a planet's teeth clear the ring's in radial assembly (rad, about the planet's axis).
 
-    Arguments as of `tip_room`; negative where tips meet on the way (trimming interference, SDP/SI equations 5-9 to
-    5-11). At 20 degrees and full depth a ring wants 17 teeth more than the planet, one of 80 or 100 teeth 16.
+    Arguments as for `tip_room`. Negative if tips collide during assembly (trimming interference, SDP/SI equations 5-9
+    to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, one of 80 or 100 teeth 16.
     """
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
     lean = cos(tip2) / cos(tip1)
@@ -80,62 +84,60 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Teeth of the smallest ring in which standard teeth of a planet pass the ring's tips."""
-    # a ring of fewer than 34 teeth has its tip circle within its base circle
+    """Return the tooth count of the smallest ring without trochoid interference with a planet of standard teeth."""
+    # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
     return next(z for z in count(first) if tip_room(planet, z, PRESSURE, 1.0, 1.0) > 0)
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Rules R1 to R3: a ring has more teeth than its mate, and standard ones of a rigid mate enough more."""
+    """Yield findings of rules R1 to R3: ring smaller than its mate, trochoid interference, trimming interference."""
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
         ring, planet = pair.counts[pair.ring], pair.counts[1 - pair.ring]
         name, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
-        # a bent wheel's teeth go in and out along the radius, and clear the ring's on its short side
+        # the teeth of a flexible wheel engage radially, and clear the ring's at its minor axis
         judged = pair.form is None and not pair.declared[1 - pair.ring].flexible
         if ring <= planet:
-            why = (
-                f"the distance of their axes would be ({ring} - {planet})/2 modules, and a ring is larger than its mate"
-            )
-            fix = f"make the other wheel the ring, or write a ring of at least {minimum_ring(planet)}"
-            what = f"pair '{pair.name}': ring '{name}' {ring} does not hold '{mate}' {planet}"
+            why = f"the distance of their axes would be ({ring} - {planet})/2 modules, which must be positive"
+            fix = f"make the other wheel the ring, or use a ring of at least {minimum_ring(planet)} teeth"
+            what = f"pair '{pair.name}': ring '{name}' {ring} is too small for '{mate}' {planet}"
             yield BuildFinding("R1", "error", Problem(what, why, fix, pair.place))
         elif judged and 33 < ring < minimum_ring(planet):
-            what = f"pair '{pair.name}': tips of '{mate}' {planet} run into tips of the ring '{name}' {ring}"
-            why = "standard teeth of 20 degrees cross outside the mesh (trochoid interference)"
+            what = f"pair '{pair.name}': tips of '{mate}' {planet} collide with tips of the ring '{name}' {ring}"
+            why = "standard teeth of 20 degrees collide outside the mesh (trochoid interference)"
             fix = (
-                f"declare a tooth form with shorter addenda or a larger angle, or write a ring of "
-                f"{minimum_ring(planet)}"
+                "declare a tooth form with shorter addenda or a larger pressure angle, or use a ring of at least "
+                f"{minimum_ring(planet)} teeth"
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
         elif judged and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
-            what = f"pair '{pair.name}': '{mate}' {planet} must be pushed into the ring '{name}' {ring} along its axis"
-            why = "across it tips of standard teeth run into each other (trimming interference)"
-            fix = f"leave a way in from the side, or write a ring of {_radial_ring(planet)}"
+            what = f"pair '{pair.name}': '{mate}' {planet} can only be inserted axially into the ring '{name}' {ring}"
+            why = "in radial assembly the tips of standard teeth collide (trimming interference)"
+            fix = f"leave space for axial assembly, or use a ring of at least {_radial_ring(planet)} teeth"
             yield BuildFinding("R3", "note", Problem(what, why, fix, pair.place))
 
 
 def _radial_ring(planet: int) -> int:
-    """Teeth of the smallest ring that a planet with standard teeth is put into across its axis."""
+    """Return the tooth count of the smallest ring into which a planet with standard teeth can be inserted radially."""
     return next(z for z in count(max(minimum_ring(planet), 34)) if radial_room(planet, z, PRESSURE, 1.0, 1.0) >= 0)
 
 
 SLACK = Fraction(1, 50)
-"""Modules by which a distance may be off in any mesh: less than the play of any teeth that are cut."""
+"""Maximum error of a centre distance in any mesh [modules]; less than the backlash of cut teeth."""
 
 SHIFT = Fraction(1, 2)
-"""Modules that shifted profiles gain or take without spoiling a pair of involute wheels."""
+"""Change of centre distance that profile shift of a pair of involute wheels can compensate [modules]."""
 
 _FREE = Fraction(
     1, 40
-)  # of a distance: what wheels of no declared size may differ by, as if cut at pitches of their own
-_LOOSE = Fraction(1, 20)  # of a distance: teeth that run at any distance and have sizes of their own
+)  # relative difference of distance of wheels without declared size, as if cut with different pitches
+_LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their own sizes that run at any distance
 
 
 class PairOutline(NamedTuple):
-    """A pair with declared teeth as it is cut: distance of its axes, tip radius by wheel (transverse modules)."""
+    """A pair with declared teeth as it is cut: centre distance, and tip radius by wheel [transverse modules]."""
 
     distance: float
     tips: Mapping[str, float]
@@ -143,35 +145,34 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """A gear pair with what its declaration says of sizes. Pairs hold what belongs to the first and the second
-    wheel."""
+    """A gear pair with its declared sizes. Two-element fields refer to the first and the second wheel."""
 
     name: str
     place: str
     wheels: tuple[str, str]
     declared: tuple[Wheel, Wheel]
     axes: tuple[str, str]
-    """Labels, as the carrier sees them."""
+    """Labels of the axes relative to the carrier."""
     parallel: bool
-    """True if those have one direction."""
+    """True if the axes are parallel."""
     ring: int | None
     """Index of the wheel that is a ring; None for an external pair."""
     form: ToothForm | None
-    """Its teeth, its own or the train's; None where none are declared, or ideal ones."""
+    """Tooth form, by default the train's; None if none is declared or the form is ideal."""
 
     @property
     def counts(self) -> tuple[int, int]:
-        """Tooth counts."""
+        """Tooth counts of the two wheels."""
         return self.declared[0].count or 0, self.declared[1].count or 0
 
     @property
     def kinds(self) -> tuple[str, str]:
-        """How the teeth of the two stand."""
+        """Kinds of the two wheels."""
         return self.declared[0].kind, self.declared[1].kind
 
     @property
     def is_crossed(self) -> bool:
-        """True for spur wheels on axes that are not parallel, one at least with a helix angle: crossed helical ones."""
+        """True for crossed helical wheels: spur wheels on non-parallel axes, at least one of them helical."""
         return not self.parallel and any(wheel.is_helical for wheel in self.declared)
 
     @property
@@ -182,22 +183,22 @@ class PitchPair:
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Its axes, the same for all pairs between them."""
+        """Axis labels in alphabetical order, equal for all pairs between the same axes."""
         return min(self.axes), max(self.axes)
 
     @property
     def has_distance(self) -> bool:
-        """True for spur wheels on parallel axes: module and tooth counts give the distance of these."""
+        """True for spur wheels on parallel axes, whose centre distance follows from module and tooth counts."""
         return self.parallel and self.kinds == ("spur", "spur") and self.touching > 0
 
     @property
     def touching(self) -> Fraction:
-        """Distance (modules) at which pitch circles touch: (z1 + z2)/2, or the ring's z less its mate's, over 2.
+        """Distance (modules) at which the pitch circles touch: (z1 + z2)/2, or (z_ring - z)/2.
 
-        Over the cosine of the helix angle, where there is one.
+        It is divided by the cosine of the helix angle for helical teeth.
         """
         first, second = (Fraction(wheel.count or 0, 2) for wheel in self.declared)
-        if self.declared[0].is_helical:  # a module is that of the section across the teeth
+        if self.declared[0].is_helical:  # the declared module of helical wheels is the normal module
             first, second = (half * Fraction(self.declared[0].slant) for half in (first, second))
         if self.ring is None:
             return first + second
@@ -205,20 +206,20 @@ class PitchPair:
 
     @property
     def distance(self) -> Fraction:
-        """Distance (modules) that the teeth are designed for: where they touch, unless their form says another."""
+        """Design centre distance (modules): the tooth form's, else the distance at which the pitch circles touch."""
         form = self.form
         own = getattr(form, "centre_distance", None) if form is not None and form.conjugate else None
         module = self.modules[0] or self.modules[1]
         if own is not None and (own.unit is None or module):
             return own.value if own.unit is None else millimetres(own) / (module or 1)
-        return self.touching if form is None else _shifted(self, form)
+        return self.touching if form is None else _distance_without_backlash(self, form)
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction]:
-        """Least and greatest distance (modules) at which such teeth can be made to run, if not as well.
+        """Minimum and maximum centre distance (modules) at which such teeth can run, though possibly less well.
 
-        Where no teeth are declared, their profiles may be shifted; and where no size is declared either, wheels of
-        nearly one size have been cut at pitches of their own. Declared involutes run where they have more play.
+        If no teeth are declared, profiles may be shifted. If no size is declared either, wheels of nearly one size may
+        have been cut with different pitches. Declared involutes can run at distances with more backlash.
         """
         wanted, form = self.distance, self.form
         low = high = SLACK
@@ -232,8 +233,10 @@ class PitchPair:
         return wanted - low, wanted + high
 
 
-def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
-    """Distance (modules) without play: that of the pitch circles, but for involutes whose profiles are shifted."""
+def _distance_without_backlash(pair: PitchPair, form: ToothForm) -> Fraction:
+    """Return the distance (modules) without backlash: that of the pitch circles, except for profile-shifted
+    involutes.
+    """
     from geartrain.teeth.involute import Involute
 
     if not isinstance(form, Involute) or not any(figure.value for figure in form.shift):
@@ -246,12 +249,12 @@ def _shifted(pair: PitchPair, form: ToothForm) -> Fraction:
     try:
         wheels, slant = WheelPair(*counts, internal=pair.ring is not None, helix=abs(lean)), pair.declared[0].slant
         return Fraction(unplaced.involutes(wheels).distance * slant)
-    except GearTrainError:  # there are no such teeth, as is said of them
+    except GearTrainError:  # invalid teeth are reported by their own check
         return pair.touching
 
 
 def pitch_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> tuple[PitchPair, ...]:
-    """All gear pairs, in the order declared."""
+    """Return all gear pairs in the order of the declaration."""
     axes = Axes(train, tree)
     gears = {gear.name: (at, gear) for at, gear in enumerate(train.gears)}
     found = []
@@ -277,13 +280,13 @@ def pitch_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> tuple[
     return tuple(found)
 
 
-_EQUAL = Fraction(1, 10**6)  # of a distance: positions are rounded as they are written
+_EQUAL = Fraction(1, 10**6)  # relative tolerance of distances: written positions are rounded
 _MM = ("mm",)
 Node = tuple[str, ...]
 
 
 class PitchDistances:
-    """Modules and distances of axes of one train, as far as its declaration gives them."""
+    """Modules and centre distances of one train, as far as its declaration determines them."""
 
     def __init__(self, train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]) -> None:
         self.train, self.pairs = train, pairs
@@ -293,15 +296,17 @@ class PitchDistances:
         self.findings = [*self._modules(), *self._offsets(tree, circuits), *self._distances()]
 
     def module(self, wheel: str) -> Fraction | None:
-        """Module of a wheel (mm), its own or as its mates and its axes ask for; None where nothing gives it."""
+        """Return the module of a wheel (mm), declared or required by its mates and axes; None if it is undetermined."""
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Distance of two axes as a multiple of something that distances it is compared with share."""
+        """Return the distance of two axes as a multiple of a root quantity, which comparable distances share."""
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Words for a multiple of what the distance of a pair's axes is counted in: mm, else its modules."""
+        """Return a function that formats multiples of the root quantity of a pair's distance: in mm, else in
+        modules.
+        """
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
         return lambda size: _modules(size * module) if known is None else _mm(size * known)
@@ -328,8 +333,8 @@ class PitchDistances:
             "M1",
             "error",
             Problem(
-                f"pair '{pair.name}': two modules meet",
-                f"{sides[0]} and {sides[1]}, and teeth of two pitches do not fit each other",
+                f"pair '{pair.name}' has two modules",
+                f"{sides[0]} and {sides[1]}, and teeth of different pitches cannot mesh",
                 "give wheels that mesh the same `module`",
                 pair.place,
             ),
@@ -338,11 +343,11 @@ class PitchDistances:
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Distances that positions give, then those of pins in slots."""
+        """Record distances from positions, then those from offsets of pins in slots; yield contradictions."""
         offsets = {coupling.name: coupling.offset for coupling in self.train.couplings if coupling.offset is not None}
         for pair in self.pairs:
             if pair.parallel:
-                self._place(pair.axis_pair)
+                self._record_positions(pair.axis_pair)
         at = {coupling.name: number for number, coupling in enumerate(self.train.couplings)}
         for circuit in circuits:
             if circuit.id not in offsets:
@@ -350,7 +355,7 @@ class PitchDistances:
             labels = [tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
             axes, offset = (min(labels), max(labels)), millimetres(offsets[circuit.id])
             node = ("axes", *axes)
-            self._place(axes)
+            self._record_positions(axes)
             apart = self.sizes.ratio(node, _MM)
             if apart is not None and abs(apart - offset) > _EQUAL * max(apart, offset):
                 what = f"axes {_named(axes)} are {_mm(apart)} apart, and the offset of '{circuit.id}' is {_mm(offset)}"
@@ -361,8 +366,8 @@ class PitchDistances:
                 self.sizes.join(_MM, node, offset)
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
-    def _place(self, axes: tuple[str, str]) -> None:
-        """The distance of two parallel axes whose positions are declared."""
+    def _record_positions(self, axes: tuple[str, str]) -> None:
+        """Record the distance of two parallel axes whose positions are declared."""
         declared = [self.train.axes[label] for label in axes if label in self.train.axes]
         node = ("axes", *axes)
         if node in self.placed or len(declared) < 2 or axes[0] == axes[1]:
@@ -396,7 +401,7 @@ class PitchDistances:
             self.between.setdefault(node, []).append(pair)
 
     def _misplaced(self, pair: PitchPair, found: Fraction, by: str) -> Iterator[BuildFinding]:
-        """A pair on axes whose distance (modules) is declared."""
+        """Yield the finding on a pair whose required distance differs from the declared one (modules)."""
         wanted, off = pair.distance, found - pair.distance
         if abs(off) <= _EQUAL * sum(pair.counts) / 2:
             return
@@ -406,26 +411,31 @@ class PitchDistances:
         module = self.module(pair.wheels[0]) or Fraction(1)
         first, second = (f"'{wheel}' {count}" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
         what = (
-            f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart by {by}, "
+            f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart according to {by}, "
             f"and {first} and {second} of module {_mm(module)} need {_mm(wanted * module)}"
         )
         move, shift = f"move an axis by {_mm(abs(off) * module)}", f", or {shifts}" if shifts else ""
         if low <= found <= high or (shifts and pair.form is None):
-            yield BuildFinding("P1", "note", Problem(what, _effect(pair, off, module), move + shift, pair.place))
+            yield BuildFinding(
+                "P1", "note", Problem(what, _backlash_effect(pair, off, module), move + shift, pair.place)
+            )
             return
         why = f"their pitch circles {'are' if off > 0 else 'overlap by'} {_mm(abs(off) * module)}" + (
             " apart" if off > 0 else ""
         )
         fits = found / wanted * module
         fix = f"{move}, " + (
-            f"or drop the module: the distance asks for {_mm(fits)}"
+            f"or remove the module: the distance requires {_mm(fits)}"
             if rule == "M2"
             else f"or give both wheels module {_mm(fits)}"
         )
         yield BuildFinding(rule, "error", Problem(what, why, fix + shift, pair.place))
 
     def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
-        """A pair between axes that other pairs join, held against the one that asks for the most different distance."""
+        """Yield the finding on a pair whose required distance differs from that of another pair on the same axes.
+
+        The other pair is the one whose required distance differs most.
+        """
         wheel = ("wheel", pair.wheels[0])
         best: tuple[Fraction, PitchPair, Fraction] | None = None
         for other in self.between[("axes", *pair.axis_pair)][:_MOST]:
@@ -443,21 +453,23 @@ class PitchDistances:
         level: BuildLevel = "note" if max(low, minimum) <= min(high, most) else "error"
         yield BuildFinding("P2", level, self._two_distances(pair, other, scale, off, level == "error"))
 
-    def _two_distances(self, pair: PitchPair, other: PitchPair, scale: Fraction, off: Fraction, grave: bool) -> Problem:
+    def _two_distances(
+        self, pair: PitchPair, other: PitchPair, scale: Fraction, off: Fraction, is_error: bool
+    ) -> Problem:
         module = self.module(pair.wheels[0])
         wants = [self._length(each, module) for each in (other.distance * scale, pair.distance)]
         shared = set(pair.wheels) & set(other.wheels)
         what = (
-            f"pairs '{other.name}' and '{pair.name}' need two distances of axes {_named(pair.axis_pair)}: "
+            f"pairs '{other.name}' and '{pair.name}' need different distances of axes {_named(pair.axis_pair)}: "
             f"{wants[0]} and {wants[1]}"
         )
-        if not grave:
-            why = f"two axes have one distance, and teeth off the standard must bridge {self._length(off, module)}"
-            return Problem(what, why, _BRIDGE, pair.place)
-        why = f"two axes have one distance, and these differ by {self._length(off, module)}"
+        if not is_error:
+            why = f"two axes have only one distance, and the teeth must compensate for {self._length(off, module)}"
+            return Problem(what, why, _COMPENSATE, pair.place)
+        why = f"two axes have only one distance, and these differ by {self._length(off, module)}"
         teeth = 2 * off
         fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
-        fix += ", or give each its own pinion with a module of its own" if shared else ", or give one another module"
+        fix += ", or give each pair its own pinion and module" if shared else ", or give one pair another module"
         return Problem(what, why, fix, pair.place)
 
     @staticmethod
@@ -465,16 +477,16 @@ class PitchDistances:
         return _modules(modules) if module is None else _mm(modules * module)
 
 
-_MOST = 50  # pairs between two axes that a further one is held against
-_SHIFTS = (-1.0, 2.0)  # sums of shifts (modules) that full teeth of 20 degrees bear, from 20 and 40 teeth on nearly
-_BRIDGE = "shift profiles, give the pairs modules of their own, or change a tooth count"
+_MOST = 50  # pairs between two axes with which a further one is compared; bounds the cost for many coaxial pairs
+_SHIFTS = (-1.0, 2.0)  # range of the sum of shifts (modules) for full-depth teeth of 20 degrees, about 20 and 40 teeth
+_COMPENSATE = "shift profiles, give the pairs different modules, or change a tooth count"
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """The profile shifts with which involutes run at a distance (modules) without backlash, as a fix; "" if none do.
+    """Return profile shifts with which involutes run at a distance (modules) without backlash, as a fix; "" if none do.
 
     inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
-    cos(helix); in a ring z and x of its mate count negative. The rack of the form counts, else one of 20 degrees.
+    cos(helix). With a ring, z and x of its mate are negative. The rack angle is the tooth form's, else 20 degrees.
     """
     from geartrain.teeth.conjugate.involute_geometry import inv
 
@@ -493,21 +505,23 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     first, second, what = total / 2, total / 2, "the sum of the shifts"
     if pair.ring is not None:
         ring, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
-        first, second, what = 0.0, total, f"that of '{ring}' less that of '{mate}', which `pair` names first,"
+        first, second, what = 0.0, total, f"the shift of '{ring}' minus that of '{mate}', which `pair` names first,"
     key = f"shift: [{first:.4g}, {second:.4g}]"
     key = key if pair.form is not None else f"tooth_form: {{form: involute, {key}}}"
     return f"declare `{key}`: {what} must be {total:.4g}"
 
 
-def _effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """What a small step from the design does to the play, 2 da tan(alpha) of involutes (20 degrees without a form)."""
+def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
+    """Describe the effect of a small change of distance on backlash, 2 da tan(alpha) for involutes (20 degrees by
+    default).
+    """
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:
-        return f"they stand {_mm(abs(off) * module)} nearer than teeth without play allow"
+        return f"they are {_mm(abs(off) * module)} closer than teeth without backlash allow"
     if tight:
-        return "teeth cut to the standard jam there"
+        return "standard teeth jam at this distance"
     angle = getattr(pair.form, "rack_angle", None) or PRESSURE
-    return f"teeth cut to the standard have {_mm(2 * abs(off) * module * Fraction(tan(angle)))} more play there"
+    return f"standard teeth have {_mm(2 * abs(off) * module * Fraction(tan(angle)))} more backlash at this distance"
 
 
 def _named(axes: Sequence[str]) -> str:

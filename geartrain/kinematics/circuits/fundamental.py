@@ -1,8 +1,8 @@
-"""One fundamental circuit per gear pair and coupling: its carrier and its signed exact ratio; angles between shafts.
+"""Fundamental circuits of gear pairs and couplings with carrier and signed exact ratio; angles between shafts.
 
-Turning pairs form a tree. A gear pair (i, j) closes one circuit through it, and its carrier k is the link on the
-tree path where the axis label changes (the transfer vertex). Hanging every link of one axis on the link of that
-axis nearest the frame gives the same answer for every equivalent tree of coaxial joints, in constant time a pair.
+The turning pairs form a tree. A gear pair (i, j) closes one circuit through it, and its carrier k is the link on the
+tree path where the axis label changes (the transfer vertex). Attaching every link of an axis to the link of that axis
+nearest the frame gives the same result for every equivalent tree of coaxial joints, in constant time for each pair.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from geartrain.train import Train, Wheel
 class Circuit(NamedTuple):
     """A fundamental circuit and its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
 
-    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j; for a coupling i is the slot (or holes)
-    with a = 1 and j the pin with b = -m, m the winding number, equations (13) to (15).
+    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j. For a coupling, i is the slot (or
+    holes) with a = 1 and j the pin with b = -m, where m is the winding number, equations (13) to (15).
 
     Examples
     --------
@@ -39,56 +39,56 @@ class Circuit(NamedTuple):
     id: str
     """Name of the pair or coupling."""
     kind: str
-    """What closes the circuit."""
+    """Kind of the pair or coupling: gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
     i: str
     """Link of the first wheel, or of the slot."""
     j: str
     """Link of the second wheel, or of the pin."""
     carrier: str
-    """The link k that holds both axes (transfer vertex; Freudenstein and Yang 1972)."""
+    """Carrier k, the link with both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
     """Coefficient of link i, above 0."""
     b: int
     """Coefficient of link j."""
     wheels: tuple[str, str]
-    """Ids of the two wheels; of a coupling empty texts."""
+    """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""
-    """What is a convention in its sense; mostly empty."""
+    """Note if the sense of rotation is only a convention; usually empty."""
 
     @property
     def swings(self) -> bool:
-        """True of a pin in a slot, whose ratio is a mean; teeth may swing by their form besides."""
+        """True for a pin in a slot, whose ratio is a mean value; the ratio of teeth may also vary, by their form."""
         return self.kind in ("pin_and_slot", "pin_follower")
 
     @property
     def ratio(self) -> Fraction:
-        """tau = (w_i - w_k) / (w_j - w_k), signed and exact."""
+        """Signed exact ratio tau = (w_i - w_k) / (w_j - w_k)."""
         return Fraction(-self.b, self.a)
 
     @property
     def gain(self) -> Fraction:
-        """1 / tau = (w_j - w_k) / (w_i - w_k), signed and exact; for b other than 0."""
+        """Signed exact inverse ratio 1 / tau = (w_j - w_k) / (w_i - w_k); undefined for b = 0."""
         return Fraction(-self.a, self.b)
 
     @property
     def terms(self) -> tuple[tuple[str, int], ...]:
-        """The row of the Willis system: links with their coefficients in a w_i + b w_j - (a + b) w_k, none zero.
+        """Row of the Willis system: links with their non-zero coefficients in a w_i + b w_j - (a + b) w_k.
 
-        Speeds of a row are about the reference direction of parallel axes. Its transpose are the torques of a pair
-        without loss; its moduli those of its teeth's phases.
+        Speeds are about the reference direction of parallel axes. The transpose of the row gives the torques of a pair
+        without losses, and the row modulo 1 gives the phases of its teeth.
         """
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
-        # b is 0 for a follower, and a + b for a pin that turns its slot: the third link then has no part in it
+        # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
-        """The same pair with other tooth counts on its wheels; senses, and wheels not named, stay as they are.
+        """Return the same pair with other tooth counts; senses of rotation and other wheels are unchanged.
 
         Parameters
         ----------
         counts : mapping of str to int
-            Wheel -> tooth count, 1 or more.
+            Tooth count by wheel, 1 or more.
         """
         if self.kind != "gear" or counts.keys().isdisjoint(self.wheels):
             return self
@@ -98,7 +98,7 @@ class Circuit(NamedTuple):
 
 @collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
-    """The circuits of all gear pairs, then of all couplings, in the order declared."""
+    """Return the circuits of all gear pairs, then of all couplings, in the order of the declaration."""
     problems: list[Problem] = []
     axes = Axes(train, tree)
     circuits = []
@@ -113,7 +113,9 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             problems.append(_no_count(train, gear.pair, (wheel_i, wheel_j)))
             continue
         straight = wheel_i.helix_angle is None and wheel_j.helix_angle is None
-        if axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur":  # nearly all: no direction is looked at
+        if (
+            axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur"
+        ):  # fast path for nearly all pairs, without directions
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
             circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
             continue
@@ -154,10 +156,10 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
-    """The transfer vertex of the path i..j, or None where the axis does not change exactly once.
+    """Return the transfer vertex of the path i..j, or None unless the axis changes exactly once.
 
-    With every link hung on the top of its own axis, the path changes axis once in three cases: both tops are the
-    carrier; or the carrier is one link's top and shares the other's axis; or it hangs on the other link.
+    With every link attached to the top of its axis, the path changes axis once in three cases: both tops are the
+    carrier, or the carrier is one link's top and shares the other's axis, or it is attached to the other link.
     """
     parent, top = tree.parent, tree.top
     axis_i = parent[i][1] if i in parent else None
@@ -192,7 +194,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
 def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
     return Problem(
         f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
-        "a pin moves in its slot or hole in one plane, and these turn in two",
+        "a pin and its slot or hole must move in the same plane",
         "declare parallel directions in `axes`, or join the links by bevel wheels",
         train.place("couplings", at),
     )
@@ -202,20 +204,20 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     name = next(name for name, wheel in zip(pair, wheels, strict=True) if wheel.count is None)
     return Problem(
         f"wheel '{name}' has no tooth count yet",
-        "only `search` is declared, and a train is solved with numbers",
-        "add a `value` beside `search`",
+        "only `search` is declared, and speeds need a definite count",
+        "add a `value` besides `search`",
         train.place("links", train.wheels[name][0], "wheels", name),
     )
 
 
-_MEET = 1e-3  # of the distance of two declared points: nearer axes meet, for positions are rounded
+_MEET = 1e-3  # relative to the distance of two declared points: closer axes intersect, because positions are rounded
 
 
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
-    """Shaft angle of a gear pair (rad, between 0 and pi); None where its axes are parallel.
+    """Return the shaft angle of a gear pair (rad, between 0 and pi); None if its axes are parallel.
 
-    The sum of both cone angles, between the directions in which the wheels lie from the apex: an axis and its wheel's
-    `facing`. Raises `RangeError` where axes with positions pass each other.
+    It is the sum of both cone angles, measured between the directions in which the wheels lie from the apex, which
+    follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
     """
     axes = Axes(train, tree)
     if axes.plain:
@@ -227,20 +229,25 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     if not size:
         return None
     if passing_distance(axes, labels):
-        raise RangeError(Problem("its axes do not meet", "they pass each other", "correct the positions of its axes"))
+        raise RangeError(
+            Problem(
+                "its axes do not intersect", "axes of bevel wheels must intersect", "correct the positions of its axes"
+            )
+        )
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
-    return atan2(size, facing * dot(u, v))  # not acos, which loses half the digits near 0 and pi
+    return atan2(size, facing * dot(u, v))  # acos would lose half the digits near 0 and pi
 
 
 def bevels_on_one_side(
     train: Train, circuits: Iterable[Circuit], is_rotation: Callable[[str, str], bool]
 ) -> Iterator[tuple[str, str, str]]:
-    """Two bevels on parallel axes, and the bevel on another axis that both meet from the same side, by their `facing`.
+    """Yield two bevels on parallel axes, and the bevel on another axis that both meet from the same side, by their
+    `facing`.
 
-    Their axes pass through its apex, so that both would be in one place. The sides follow from the senses of the two
-    circuits.
+    Both axes pass through the apex of the third, so the two bevels would be in the same place. The sides follow from
+    the senses of rotation of the two circuits.
 
-    is_rotation   of two links, whether the axes between them are all parallel
+    is_rotation   function that returns whether all axes between two links are parallel
     """
     mates: dict[str, list[tuple[str, str, bool]]] = {}
     for circuit in circuits:
@@ -257,7 +264,7 @@ def bevels_on_one_side(
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
-    """How far from each other (m) two axes of different directions pass, 0 where they meet; None without positions."""
+    """Return the distance (m) of two axes of different directions, 0 if they intersect; None without positions."""
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:
         return None

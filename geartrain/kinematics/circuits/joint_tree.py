@@ -1,12 +1,11 @@
-"""The turning pairs as a tree rooted at the frame; directions and positions of the axes, and the signs of meshes.
+"""Turning pairs as a tree rooted at the frame; directions and positions of the axes, and the signs of meshes.
 
-For helical wheels in mesh: whether their teeth fit together, and which way one drives the other.
+Helical wheels in mesh are checked for compatible teeth, and their senses of rotation are determined.
 
-Rigid bodies: two links are one body if the twist of the one relative to the other vanishes, which is the sum of joint
-rates times screws of the axes on the way between them. Screws of two or three different lines are independent, so every
-joint on the way is closed, and not the sum of their rates alone (docs/theory.md, section 4). Four axes and more may
-make a linkage, whose ratio varies as it turns: it is refused, unless positions are declared and show that it cannot
-move.
+Rigid bodies: two links are one body if the relative twist vanishes. The twist is the sum of joint rates times screws of
+the axes between the links. Screws of two or three different lines are independent, so every joint on the path is
+closed, and not only the sum of their rates (docs/theory.md, section 4). Four or more axes may form a linkage, whose
+ratio varies; such a lock is refused unless declared positions show that the linkage cannot move.
 """
 
 from __future__ import annotations
@@ -30,36 +29,36 @@ from geartrain.train import StateCase, Train, Wheel
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """The turning pairs as a tree rooted at the frame."""
+    """Turning pairs as a spanning tree rooted at the frame."""
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
-    """Link -> (link nearer the frame, axis label), as declared."""
+    """Parent link (nearer the frame) and axis label by link, as declared."""
     top: Mapping[str, str]
-    """Link -> the link of the same axis nearest the frame, which bears it."""
+    """Link that carries the axis of each link: the first on the path to the frame that is not on the same axis."""
 
     def axis(self, link: str) -> str | None:
-        """The label of the joint nearest the frame; None for the frame itself."""
+        """Return the axis label of the joint nearest the frame; None for the frame itself."""
         return self.parent[link][1] if link in self.parent else None
 
     def above(self, link: str) -> str | None:
-        """The next link towards the frame, as declared; None for the frame itself."""
+        """Return the next link towards the frame, as declared; None for the frame itself."""
         return self.parent[link][0] if link in self.parent else None
 
     def bears(self, carrier: str, link: str) -> bool:
-        """True if the axis of `link` is one that the carrier bears and carries along."""
+        """Return True if the carrier carries the axis of `link`."""
         return self.top.get(link) == carrier
 
     def axis_seen_from(self, carrier: str, link: str) -> str:
-        """The axis on which a link of a circuit turns as seen from the circuit's carrier.
+        """Return the label of the axis about which a link of a circuit turns relative to the circuit's carrier.
 
-        Its own where the carrier bears it; else it is coaxial with the carrier, or bears the carrier's axis: the
-        carrier's own then.
+        It is the link's own axis if the carrier carries it. Otherwise the link is coaxial with the carrier, or carries
+        the carrier's axis, and the axis is the carrier's.
         """
         return self.parent[link if self.bears(carrier, link) else carrier][1]
 
     def path(self, i: str, j: str) -> tuple[list[str], list[str]]:
-        """The tree path from i to j: its links, and the axis labels between them."""
+        """Return the links of the tree path from i to j, and the axis labels between them."""
         up, down = ways_to_common_ancestor(i, j, self.above)
         labels = [self.parent[link][1] for link in [*up[:-1], *down[-2::-1]]]
         return up + down[-2::-1], labels
@@ -67,7 +66,7 @@ class Tree(FrozenFields):
 
 @collector_paused()
 def find_tree(train: Train) -> Tree:
-    """Root the turning pairs at the frame. Raises `DeclarationError` where they form no tree."""
+    """Build the tree of turning pairs with the frame as root. Raises `DeclarationError` if they do not form a tree."""
     if not train.revolutes and len(train.links) > 1:
         raise DeclarationError(_no_joints(train))
     joints: dict[str, list[tuple[str, str, int]]] = {link: [] for link in train.links}
@@ -84,7 +83,7 @@ def find_tree(train: Train) -> Tree:
     while queue:
         link = queue.popleft()
         for other, axis, at in joints[link]:
-            # by pair, not by link: two pairs that join the same two links close a cycle
+            # compare pairs, not links, because two pairs between the same links close a cycle
             if at in used:
                 continue
             used.add(at)
@@ -97,7 +96,7 @@ def find_tree(train: Train) -> Tree:
             if first_top != top[other]:
                 problems.append(_two_axes(train, axis, first_top, top[other], first_at, at))
             queue.append(other)
-    problems += [_loose(train, link) for link in train.links if link != train.frame and link not in parent]
+    problems += [_unconnected(train, link) for link in train.links if link != train.frame and link not in parent]
     if problems:
         raise DeclarationError(problems)
     return Tree(train.frame, parent, top)
@@ -116,9 +115,9 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
 def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, at: int) -> Problem:
     return Problem(
         f"axis label '{axis}' names two axes",
-        f"one is borne by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
+        f"one is carried by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
         "joints of one label are coaxial",
-        "give the second axis a label of its own",
+        "give the second axis a different label",
         train.place("revolutes", at),
     )
 
@@ -133,7 +132,7 @@ def _no_joints(train: Train) -> Problem:
     )
 
 
-def _loose(train: Train, link: str) -> Problem:
+def _unconnected(train: Train, link: str) -> Problem:
     return Problem(
         f"link '{link}' is not joined to the frame",
         f"no chain of turning pairs leads from it to '{train.frame}'",
@@ -145,47 +144,47 @@ def _loose(train: Train, link: str) -> Problem:
 # -------------------------------------------------------------------------------------------------------- helical pairs
 
 
-_SAME = 1e-6  # rad: angles as near as this are equal, for they are rounded as written
+_SAME = 1e-6  # rad: tolerance of angles, because written angles are rounded
 
 
 def check_parallel(first: Wheel, second: Wheel) -> None:
-    """Raises `GearTrainError` for wheels on parallel axes whose teeth do not lean alike.
+    """Raise `GearTrainError` for wheels on parallel axes whose helix angles or hands do not match.
 
-    Seen from without, teeth that touch lie along each other: hands are opposite, but the same in a ring. A hand that is
-    not declared is the one that fits.
+    Teeth in contact have the same direction, so the hands of an external pair are opposite and those of a ring and its
+    mate are equal. An undeclared hand is assumed to match.
     """
     angles = tuple(0.0 if wheel.helix_angle is None else wheel.helix_angle.si for wheel in (first, second))
     if abs(angles[0] - angles[1]) > _SAME:
-        told = " and ".join(f"{degrees(angle):.6g}" for angle in angles)
-        what = f"teeth that lean by {told} deg on parallel axes"
+        angles_text = " and ".join(f"{degrees(angle):.6g}" for angle in angles)
+        what = f"helix angles of {angles_text} deg on parallel axes do not match"
         fix = "give both wheels the same `helix_angle`, or `axes` that cross"
-        raise GearTrainError(Problem(what, "they would touch at their corners only", fix))
+        raise GearTrainError(Problem(what, "the teeth would touch only at their corners", fix))
     ring = first.internal or second.internal
     if first.hand and second.hand and (first.hand == second.hand) != ring:
-        what = f"a {first.hand} hand in mesh with a {second.hand} hand"
-        why = "teeth of a ring and its wheel lean the same way" if ring else "on parallel axes teeth lean opposite ways"
+        what = f"a {first.hand}-hand wheel meshes with a {second.hand}-hand wheel"
+        why = "a ring and its mate have the same hand" if ring else "wheels on parallel axes have opposite hands"
         raise GearTrainError(Problem(what, why, f"make one of them {'right' if first.hand == 'left' else 'left'}"))
 
 
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
-    """1 where two helical wheels on skew axes turn against each other as spur wheels do, else -1; and a note.
+    """Return 1 if two helical wheels on skew axes turn in opposite senses like spur wheels, else -1; and a note.
 
-    With the helix angles b of both (right hands above 0) and the angle S from the first axis to the second about the
-    way from the second to the first, teeth lie along each other where b1 + b2 = S, or S and half a turn; then
-    z1 w1 = -z2 w2, or z2 w2 ((12a), (12b) of docs/theory.md).
+    With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about
+    the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
+    -z2 w2, or z1 w1 = z2 w2 ((12a), (12b) of docs/theory.md).
 
     Parameters
     ----------
     wheels : tuple of Wheel
     angle : float
-        Between the directions of the axes (rad), 0 to pi.
+        Angle between the directions of the axes (rad), 0 to pi.
     side : int
-        1 where it turns about the way from the second axis to the first, -1 against it, 0 where that is not known.
+        1 if the angle is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown.
 
     Raises
     ------
     GearTrainError
-        If the teeth do not lie along each other.
+        If the teeth are not aligned.
     """
     lean = wheels[0].helix + wheels[1].helix
     fits = [
@@ -195,23 +194,26 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
         if abs(remainder(lean - way * angle - turned, 2 * pi)) <= _SAME
     ]
     if not fits:
-        raise GearTrainError(_not_along(wheels, angle, side))
+        raise GearTrainError(_not_aligned(wheels, angle, side))
     if len({sense for sense, _ in fits}) == 1:
         return fits[0][0], ""
-    note = "sense by convention (as if the second axis passed over the first): positions of the axes do not fix it"
+    note = (
+        "sense of rotation by convention (as if the second axis passed over the first): "
+        "positions of the axes do not determine it"
+    )
     return fits[0][0], note
 
 
 def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
-    """Helix angles (rad) of two wheels on skew axes, right hands above 0; None where none is declared.
+    """Return the helix angles (rad) of two wheels on skew axes, positive for right hands; None if none is declared.
 
-    The helix angle of a worm and the shaft angle fix that of its wheel by (12a), which may declare it too. A worm
-    without one leaves both unknown. `angle` and `side` as of `crossed_sense`.
+    The helix angle of a worm and the shaft angle determine that of its wheel by (12a); it may also be declared. A worm
+    without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
 
     Raises
     ------
     GearTrainError
-        If a worm's wheel declares another angle or hand than its worm needs.
+        If the wheel of a worm declares another helix angle or hand than the worm requires.
     """
     kinds = [wheel.kind for wheel in wheels]
     if "worm" not in kinds:
@@ -225,17 +227,17 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
         declared = {wheel.helix} if wheel.hand else {wheel.helix, -wheel.helix}
         leans = [lean for lean in leans if any(abs(lean - each) <= _SAME for each in declared)]
     if not leans:
-        raise GearTrainError(_not_along(wheels, angle, side))
+        raise GearTrainError(_not_aligned(wheels, angle, side))
     return (leans[0], worm.helix) if at else (worm.helix, leans[0])
 
 
-def _not_along(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
+def _not_aligned(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
     hands = [f"{degrees(abs(wheel.helix)):.6g} deg {wheel.hand or 'right'}" for wheel in wheels]
     over = " about the way from the second to the first" if side else ""
     return Problem(
-        f"teeth of {hands[0]} and {hands[1]} do not lie along each other",
-        f"axes that cross at {degrees(angle) * (side or 1):.6g} deg{over} ask for helix angles with that sum, right "
-        "hands counted above 0",
+        f"teeth of {hands[0]} and {hands[1]} are not aligned in mesh",
+        f"axes that cross at {degrees(angle) * (side or 1):.6g} deg{over} need helix angles with that sum, right "
+        "hands positive",
         "change a `helix_angle` or a `hand`, or the axes",
     )
 
@@ -249,8 +251,8 @@ _Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
 class Axes:
     """Directions of the axes of a train, and the signs that follow from them.
 
-    Speeds of parallel axes are summed as they are; over non-parallel joints the sum of joint speeds is kept,
-    which the scalar equation needs (Freudenstein, Longman and Chen 1984).
+    Speeds of parallel axes are added with their signs. Over non-parallel joints the sum of joint speeds is used, as the
+    scalar equation requires (Freudenstein, Longman and Chen 1984).
     """
 
     def __init__(self, train: Train, tree: Tree) -> None:
@@ -262,30 +264,34 @@ class Axes:
         lines = {label: _line(direction) for label, direction in {"": _Z, **self.directions}.items()}
         for label, line in lines.items():
             first.setdefault(line, (len(first), self.direction(label)))
-        # of each axis, the number of its line, and whether it points as the first declared one along it
+        # for each axis the number of its direction class, and its sense relative to the first axis of the class
         self._lines = {label: first[line][0] for label, line in lines.items()}
         self._senses = {
             label: 1 if dot(first[line][1], self.direction(label)) > 0 else -1 for label, line in lines.items()
         }
 
     def direction(self, label: str | None) -> ExactVector:
-        """Direction of an axis; z where none is declared."""
+        """Return the direction of an axis; z if none is declared."""
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
-        """-1 if the axis points against the first declared direction parallel to it."""
+        """Return -1 if the axis points against the first declared direction parallel to it, else 1."""
         return self._senses.get(label or "", 1)
 
     @property
     def link_signs(self) -> Mapping[str, int]:
-        """-1 for links whose axis points against the reference direction of its parallels: their speeds change sign."""
+        """-1 for links whose axis points against the reference direction of its parallel axes; their speeds change
+        sign.
+        """
         if self.plain:
             return {}
         return {link: -1 for link in self.links if self.sign(self.tree.axis(link)) < 0}
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links several non-parallel joints from the frame: their speed is a sum of joint speeds, not a rotation."""
+        """Links separated from the frame by non-parallel joints, whose speed is a sum of joint speeds, not a
+        rotation.
+        """
         if self.plain:
             return frozenset()
         sums: set[str] = set()
@@ -296,22 +302,28 @@ class Axes:
         return frozenset(sums)
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """True if the axes of all joints between two links are parallel, so that each turns seen from the other."""
+        """Return True if the axes of all joints between two links are parallel, so that their relative speed is a
+        rotation.
+        """
         return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """True if all these axes have one direction, or the opposite, in the pose where all angles are zero."""
+        """Return True if all these axes have the same or opposite direction in the pose in which all angles are 0."""
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """True if both axes have positions, and lie on one line; else two labels are two lines."""
+        """Return True if both axes have positions and are collinear; axes without positions count as different
+        lines.
+        """
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """A rotation about an axis: its direction, and the velocity of the origin; None without a position."""
+        """Return the screw of a rotation about an axis: direction, and velocity of the origin; None without a
+        position.
+        """
         here = self.positions.get(label)
         if here is None:
             return None
@@ -320,8 +332,11 @@ class Axes:
         return {at: part for at, part in enumerate(parts) if part}
 
     def _crossing(self, one: str, other: str) -> tuple[float, int]:
-        """The angle (rad) from the direction of one axis to that of another, 0 to pi, and its sense about the way back
-        from the other to the one: 0 where their positions do not tell."""
+        """Return the angle (rad) from one axis to another, 0 to pi, and its sense about the direction from the other to
+        the one.
+
+        The sense is 0 if the positions do not determine it.
+        """
         first, second = self.direction(one), self.direction(other)
         upright = cross(first, second)
         here, there = self.positions.get(one), self.positions.get(other)
@@ -330,13 +345,13 @@ class Axes:
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
-        """Helix angles (rad) of two wheels that slide along each other; None on parallel axes, or where unknown."""
+        """Return the helix angles (rad) of two wheels on skew axes; None for parallel axes, or if unknown."""
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self._crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """a and b of the circuit, and a note where a sign is a convention.
+        """Return a and b of the circuit, and a note if a sign is a convention.
 
-        Raises `GearTrainError` for wheels whose axes let them not mesh.
+        Raises `GearTrainError` for wheels that cannot mesh on their axes.
         """
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         if "worm" in (wheel_i.kind, wheel_j.kind):
@@ -352,7 +367,7 @@ class Axes:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not side_by_side and (wheel_i.internal or wheel_j.internal):
             what = "a ring on an axis that is not parallel to its mate's"
-            raise GearTrainError(Problem(what, "a ring meshes about a parallel axis", "use a bevel pair"))
+            raise GearTrainError(Problem(what, "a ring and its mate have parallel axes", "use a bevel pair"))
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
         if wheel_i.internal or wheel_j.internal:
@@ -360,47 +375,50 @@ class Axes:
         return z_i, z_j * side_i * side_j, ""
 
     def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Starts of the worm over teeth of the wheel; the sense follows from hand and positions."""
+        """Return the coefficients of a worm drive; the sense of rotation follows from hand and positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
         hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
         label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
-        self.helix_angles((label_i, label_j), (wheel_i, wheel_j))  # raises where the teeth do not lie along the thread
+        self.helix_angles((label_i, label_j), (wheel_i, wheel_j))  # raises if the teeth are not aligned with the thread
         here, there = self.positions.get(worm), self.positions.get(wheel)
         turn = Fraction(0)
         if here is not None and there is not None:
             arm, centre = _vector(here), _vector(there)
             reach = minus(arm, centre)
-            # the worm's thread drives the wheel's teeth against the direction in which it would screw itself
+            # the thread drives the wheel's teeth opposite to the direction in which the worm would advance
             turn = -hand * dot(self.direction(worm), cross(self.direction(wheel), reach))
         flip = self.sign(worm) * self.sign(wheel)
         if turn:
             return z_i, (-1 if turn > 0 else 1) * flip * z_j, ""
-        note = "sense by convention (a right-hand worm reverses): axes and positions of worm and wheel do not fix it"
+        note = (
+            "sense of rotation by convention (a right-hand worm reverses): "
+            "axes and positions of worm and wheel do not determine it"
+        )
         return z_i, hand * flip * z_j, note
 
 
 def _vector(figures: Iterable[Any]) -> ExactVector:
-    """Three figures as numbers, or three lengths in metres."""
+    """Return three figures as numbers, or three lengths in metres."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
     return x, y, z
 
 
 def _line(direction: ExactVector) -> ExactVector:
-    """The same for all directions parallel to one."""
+    """Return a canonical direction, equal for all parallel directions."""
     scale = next(part for part in direction if part)
     x, y, z = direction
     return x / scale, y / scale, z / scale
 
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
-"""Two links that turn about each other, and the axis between them: one label, or several that lie on one line."""
+"""Two links that turn about each other, and the labels of the axis between them, several if axes are collinear."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rigid:
-    """One prescription that makes two links one body: what it names, and the joints on the way between them."""
+    """One prescription that makes two links one body, and the joints on the path between them."""
 
     links: tuple[str, ...]
     """One link that is fixed, or two that are locked together."""
@@ -408,25 +426,25 @@ class Rigid:
 
     @property
     def labels(self) -> list[str]:
-        """The axes on the way."""
+        """Labels of the axes on the path."""
         return [label for _, _, labels in self.joints for label in labels]
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """The cases with every fixed link on an axis of the frame, and every lock between two coaxial links.
+    """Return the cases with every fixed link on an axis of the frame, and every lock between two coaxial links.
 
-    What was prescribed across several axes stands in them joint by joint, each with its cause in words. A case with
-    linkages, or with inputs whose link has no one axis in the frame, has them as its `problems`. Raises
-    `DeclarationError` where every case has some.
+    Prescriptions across several axes are replaced by locks of the joints on the path, each with its cause. A case with
+    linkages, or with inputs of links without a single axis in the frame, has them as its `problems`. Raises
+    `DeclarationError` if every case has problems.
     """
     lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
-    closed = [_closed(train, lines, sums, case) for case in cases]
+    closed = [_closed_case(train, lines, sums, case) for case in cases]
     if all(case.problems for case in closed):
         raise DeclarationError({str(problem): problem for case in closed for problem in case.problems}.values())
     return closed
 
 
-def _closed(train: Train, lines: JointLines, sums: frozenset[str], case: StateCase) -> StateCase:
+def _closed_case(train: Train, lines: JointLines, sums: frozenset[str], case: StateCase) -> StateCase:
     problems = list(_driven_sums(train, case, sums))
     across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]
     if across:
@@ -437,9 +455,10 @@ def _closed(train: Train, lines: JointLines, sums: frozenset[str], case: StateCa
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """The prescriptions of a case that a brake or clutch cannot make alone: two joints or more are left to close.
+    """Yield the prescriptions of a case that a brake or clutch cannot realise, because two or more joints must be
+    closed.
 
-    A link whose carrier is held, or locked to what it is locked to, has one joint left, as if its axis stood still.
+    A link whose carrier is fixed, or is part of the same body, has only one open joint.
     """
     lines = JointLines(train, tree)
     bodies = _Bodies(lines, case)
@@ -447,20 +466,22 @@ def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rig
 
 
 class JointLines:
-    """The axes of a train as lines: the way between two links, and whether axes lie on one line or may move."""
+    """Axes of a train as lines: the path between two links, collinear axes, and mobility of closed chains."""
 
     def __init__(self, train: Train, tree: Tree) -> None:
         self.frame, self._tree, self._axes = tree.frame, tree, Axes(train, tree)
 
     def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """The joints between two links, one for each line; each link hung on the one that bears its axis."""
+        """Return the joints between two links, one for each line, with each link attached to the carrier of its
+        axis.
+        """
         parent, top = self._tree.parent, self._tree.top
         up, down = ways_to_common_ancestor(a, b, top.get)
         steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
         steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
         found: list[JointOnLine] = []
         for start, end, label in steps:
-            if found and self._alike(found[-1][2][-1], label):
+            if found and self._same_line(found[-1][2][-1], label):
                 before = found.pop()
                 labels = before[2] if before[2][-1] == label else (*before[2], label)
                 found.append((before[0], end, labels))
@@ -468,20 +489,20 @@ class JointLines:
                 found.append((start, end, (label,)))
         return tuple(found)
 
-    def _alike(self, one: str, other: str) -> bool:
+    def _same_line(self, one: str, other: str) -> bool:
         return one == other or self._axes.are_one_line(one, other)
 
     def rigid(self, labels: Sequence[str]) -> bool:
-        """Whether a chain of these axes that is closed into a ring cannot move."""
-        # up to three different lines have independent screws in every pose; of more only the rank in this pose tells
-        if len(labels) <= 3 and not any(self._alike(one, other) for one, other in combinations(labels, 2)):
+        """Return whether a closed chain of turning pairs with these axes cannot move."""
+        # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
+        if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
             return True
         screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]
         return len(screws) == len(labels) and eliminate(screws).rank == len(labels)
 
 
 def rigid_connections(lines: JointLines, case: StateCase) -> Iterator[Rigid]:
-    """Every prescription of a case that makes two links one body."""
+    """Yield every prescription of a case that makes two links one body."""
     for link in case.fixed:
         yield Rigid((link,), lines.joints(link, lines.frame))
     for a, b in case.locks:
@@ -489,7 +510,7 @@ def rigid_connections(lines: JointLines, case: StateCase) -> Iterator[Rigid]:
 
 
 class _Bodies:
-    """Which links are one body; grows with every joint that is closed."""
+    """Rigid bodies as disjoint sets of links, merged with every joint that is closed."""
 
     def __init__(self, lines: JointLines, case: StateCase) -> None:
         self._lines = lines
@@ -499,7 +520,7 @@ class _Bodies:
                 self._bodies.join(*rigid.joints[0][:2])
 
     def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
-        """The joints that must be closed, each with its cause, and the prescriptions that would make linkages."""
+        """Close joints; return them with their causes, and the prescriptions that would form linkages."""
         closed: list[tuple[Rigid, JointOnLine]] = []
         waiting = list(across)
         while waiting:
@@ -514,7 +535,7 @@ class _Bodies:
         return closed, waiting
 
     def open(self, rigid: Rigid) -> list[JointOnLine]:
-        """The joints of a prescription that nothing has closed yet."""
+        """Return the joints of a prescription that are not closed yet."""
         return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
     def _labels(self, rigid: Rigid) -> list[str]:
@@ -524,7 +545,7 @@ class _Bodies:
 def _joint_by_joint(
     frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
 ) -> StateCase:
-    """The case with its prescriptions across several axes replaced by the joints they close."""
+    """Return the case with its prescriptions across several axes replaced by the joints that they close."""
     spread = {rigid.links for rigid in across}
     fixed = [link for link in case.fixed if (link,) not in spread]
     locks = [lock for lock in case.locks if lock not in spread]
@@ -541,11 +562,11 @@ def _joint_by_joint(
 
 
 def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterator[Problem]:
-    """The inputs that prescribe a sum of joint speeds over axes in several directions."""
+    """Yield problems of inputs that prescribe a sum of joint speeds over non-parallel axes."""
     for link in sums.intersection(case.inputs):
         yield Problem(
             f"the input '{link}' has no speed about one axis",
-            "the axes between it and the frame are not parallel, and the sum of joint speeds over them is no rotation",
+            "the axes between it and the frame are not parallel, and the sum of its joint speeds is not a rotation",
             "drive a link whose axes up to the frame are parallel",
             train.place(*case.loc, link),
         )
@@ -555,15 +576,15 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
     links = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
     return Problem(
         f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which makes a linkage",
-        f"a ring of {len(rigid.joints)} turning pairs may move, with a ratio that varies as it turns; a gear train "
-        "has none such",
-        f"hold or lock a link on the way ({', '.join(links)}), or lock links that have their axis in common",
+        f"a closed chain of {len(rigid.joints)} turning pairs may move with a varying ratio, which a gear train "
+        "cannot have",
+        f"fix or lock a link in between ({', '.join(links)}), or lock coaxial links",
         train.place(*rigid_place(train, case, rigid.links)),
     )
 
 
 def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
-    """Where a rigid connection is declared."""
+    """Return the path at which a rigid connection is declared."""
     if links in case.clutches:
         return ("clutches", case.clutches[links])
     key = "fixed" if len(links) == 1 else "locks"

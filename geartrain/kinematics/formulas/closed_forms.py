@@ -1,10 +1,10 @@
-"""Rational functions of tooth counts as an engineer writes them: in factors, as text, LaTeX or an object of sympy.
+"""Rational functions of tooth counts in textbook notation: in factors, as text, LaTeX or a SymPy expression.
 
-Polynomials in tooth counts as products: one factor for each set of wheels that stand in none of the others.
+Polynomials in tooth counts are written as products in which no two factors have a wheel in common.
 
-Two variables i and j are in different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for values a and b
-at which P(a, b) is not 0: for then P is a quotient of products of a polynomial without i and one without j. In gear
-trains that is almost always the whole factorisation, since carriers with wheels of their own stand behind each other.
+Two variables i and j belong to different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for values a and
+b with P(a, b) not 0, because P is then a product of a polynomial without i and one without j, over a constant. For gear
+trains this is almost always the complete factorisation, because carriers in series have separate wheels.
 """
 
 from __future__ import annotations
@@ -34,20 +34,20 @@ _VALUES = (2, 3, 5, 7, 11, 13)
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """A whole number times powers of variables times sums, which have no variable in common."""
+    """An integer times powers of variables times sums without a common variable."""
 
     content: int
-    """0 for a polynomial without terms."""
+    """Integer factor; 0 for the zero polynomial."""
     powers: Exponents
-    """By variable."""
+    """Exponent of each variable."""
     sums: tuple[tuple[Term, ...], ...]
-    """Each of two terms or more, terms of highest powers first."""
+    """Factors of two or more terms, with the terms of highest powers first."""
 
     @classmethod
     def of(cls, terms: Sequence[Term], point: Sequence[int], known: Sequence[Laurent] = ()) -> FactoredPolynomial:
-        """The factors of a polynomial with powers from 0 up; sums that are not 0 at a point are above 0 there.
+        """Factor a polynomial with non-negative exponents; each sum that is not 0 at `point` is positive there.
 
-        known   factors that it may have, which are tried first
+        known   possible factors, which are tried first
         """
         width = len(point)
         given = Laurent.of(terms, width)
@@ -60,7 +60,7 @@ class FactoredPolynomial:
         for factor in known:
             while (quotient := divide(left, factor)) is not None:
                 left, found = quotient, [*found, factor]
-        sums = [_positive(each, point) for each in (*found, *_parted(left)) if len(each) > 1]
+        sums = [_positive_at_point(each, point) for each in (*found, *_separate_factors(left)) if len(each) > 1]
         back = product([Laurent.of(each, width) for each in sums], width)
         exponents = next(iter(back.terms))
         content = rest.terms[exponents] / back.terms[exponents]
@@ -68,43 +68,43 @@ class FactoredPolynomial:
         return cls(int(content), powers, tuple(sums))
 
 
-def _positive(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
+def _positive_at_point(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
     terms = p.sorted_terms()
     value = whole(terms, point) or terms[0].coefficient
     found = terms if value > 0 else (-p).sorted_terms()
-    return tuple(sorted(found, key=lambda term: term.coefficient < 0))  # what is added stands first
+    return tuple(sorted(found, key=lambda term: term.coefficient < 0))  # positive terms first
 
 
-def _parted(p: Laurent) -> Iterator[Laurent]:
-    """Factors without a variable in common, up to a number."""
+def _separate_factors(p: Laurent) -> Iterator[Laurent]:
+    """Yield factors without a common variable, up to a constant."""
     used = [at for at in range(p.width) if any(exponents[at] for exponents in p.terms)]
     groups = [{at} for at in used]
     for i, j in combinations(used, 2):
         one, other = (next(group for group in groups if at in group) for at in (i, j))
-        if one is not other and not _are_apart(p, i, j):
+        if one is not other and not _are_separable(p, i, j):
             groups.remove(other)
             one |= other
     for group in groups:
-        yield _alone(p, [at for at in used if at not in group]).primitive()
+        yield _with_numbers(p, [at for at in used if at not in group]).primitive()
 
 
-def _are_apart(p: Laurent, i: int, j: int) -> bool:
+def _are_separable(p: Laurent, i: int, j: int) -> bool:
     for value in _VALUES:
-        at_i, at_j = _with(p, i, value), _with(p, j, value + 1)
-        both = _with(at_i, j, value + 1)
+        at_i, at_j = _substitute(p, i, value), _substitute(p, j, value + 1)
+        both = _substitute(at_i, j, value + 1)
         if both:
             return p * both == at_i * at_j
     return False
 
 
-def _alone(p: Laurent, others: Sequence[int]) -> Laurent:
-    """A polynomial with some variables at values at which it is not 0."""
+def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
+    """Return the polynomial with some variables replaced by numbers at which it is not 0."""
     for at in others:
-        p = next(found for value in _VALUES if (found := _with(p, at, value)))
+        p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
     return p
 
 
-def _with(p: Laurent, at: int, value: int) -> Laurent:
+def _substitute(p: Laurent, at: int, value: int) -> Laurent:
     found: dict[Exponents, Fraction] = {}
     for exponents, coefficient in p.terms.items():
         key = (*exponents[:at], 0, *exponents[at + 1 :])
@@ -117,12 +117,12 @@ def _with(p: Laurent, at: int, value: int) -> Laurent:
 
 _PLAIN = re.compile(r"\w+")
 _MOST_SPLIT = 3
-"""Terms of a sum that is divided term by term."""
+"""Maximum number of terms of a sum that is divided term by term."""
 
 
 @dataclass(frozen=True)
 class _Style:
-    """How parts are put together."""
+    """Notation of symbols, powers, quotients and brackets."""
 
     symbol: Callable[[str], str]
     power: Callable[[str, int], str]
@@ -146,7 +146,7 @@ _LATEX = _Style(
 
 @dataclass(frozen=True)
 class ClosedForm(Result):
-    """A rational function of tooth counts in lowest terms, and its value at the declared ones.
+    """A rational function of tooth counts in lowest terms, and its value at the declared counts.
 
     See Also
     --------
@@ -156,49 +156,49 @@ class ClosedForm(Result):
     KEYS = ("text", "latex", "value", Key("wheels", "formula.wheels"))
 
     formula: Formula
-    """Its numerator and denominator, exactly."""
+    """Exact numerator and denominator."""
     counts: Mapping[str, int] = field(repr=False)
-    """Declared count by wheel, of all wheels in it at least."""
+    """Declared count by wheel, at least of all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
-    """Sums that may be factors of it: wheels, and terms with exponents parallel to them."""
+    """Possible factors: wheels, and terms whose exponents refer to them."""
 
     def __str__(self) -> str:
-        """As text."""
+        """Return the formula as text."""
         return self.text
 
     _repr_html_ = None  # type: ignore[assignment]  # notebooks show the formula
 
     def _repr_latex_(self) -> str:
-        """As notebooks show it."""
+        """Return the formula in LaTeX for notebooks."""
         return f"${self.latex}$"
 
     @property
     def value(self) -> Fraction | None:
-        """At the declared counts; None where the denominator is 0 there."""
+        """Value at the declared counts; None if the denominator is 0."""
         return self.formula.value(self.counts)
 
     @cached_property
     def text(self) -> str:
-        """Such as `z_s/(z_s + z_r)`, or `1 + z_r/z_s`."""
-        return self._written(_TEXT)
+        """Formula as text, such as `z_s/(z_s + z_r)`, or `1 + z_r/z_s`."""
+        return self._format(_TEXT)
 
     @cached_property
     def latex(self) -> str:
-        """The same in LaTeX."""
-        return self._written(_LATEX)
+        """Formula in LaTeX."""
+        return self._format(_LATEX)
 
     def sympy(self) -> Expr:
-        """An expression of sympy, numerator over denominator in factors; symbols are called `z_` and the wheel.
+        """Return a SymPy expression, factored numerator over denominator; symbols are named `z_` plus the wheel.
 
         Raises
         ------
         MissingExtraError
-            Without sympy, the extra `sympy`.
+            If SymPy (extra `sympy`) is not installed.
         """
         try:
             import sympy
         except ImportError:
-            raise MissingExtraError("sympy", "sympy", "an expression to reckon on with") from None
+            raise MissingExtraError("sympy", "sympy", "an expression for symbolic calculation") from None
         symbols = [sympy.Symbol(f"z_{wheel}", positive=True, integer=True) for wheel in self.formula.wheels]
 
         def summed(terms: Iterable[Term]) -> Any:
@@ -214,18 +214,18 @@ class ClosedForm(Result):
 
     @property
     def inverse(self) -> ClosedForm:
-        """One over it; the denominator is 0 where this is 0."""
+        """Reciprocal of the formula; its denominator is 0 where the formula is 0."""
         width, wheels = len(self.formula.wheels), self.formula.wheels
         top, bottom = (Laurent.of(terms, width) for terms in (self.formula.denominator, self.formula.numerator))
         return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)
 
     def elasticity(self, wheel: str) -> ClosedForm:
-        """(z/f) df/dz of one wheel's count z: by how many per cent f grows where z grows by one.
+        """Return the elasticity (z/f) df/dz in one wheel's count z: relative change of f over relative change of z.
 
         Parameters
         ----------
         wheel : str
-            A wheel; one that is not in the formula gives 0.
+            A wheel; 0 is returned for a wheel that is not in the formula.
         """
         width, wheels = len(self.formula.wheels), self.formula.wheels
         top, bottom = (Laurent.of(terms, width) for terms in (self.formula.numerator, self.formula.denominator))
@@ -240,23 +240,23 @@ class ClosedForm(Result):
 
     @property
     def poles(self) -> tuple[str, ...]:
-        """Where the denominator is 0, as equations between products of counts; none where it cannot be."""
+        """Zeros of the denominator, as equations between products of counts; empty if it cannot vanish."""
         sums = self._factored(self.formula.denominator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
     @property
     def zeros(self) -> tuple[str, ...]:
-        """The same of the numerator."""
+        """Zeros of the numerator, as equations between products of counts; empty if it cannot vanish."""
         sums = self._factored(self.formula.numerator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
     def _factored(self, terms: Sequence[Term]) -> FactoredPolynomial:
-        known = (self._own(*each) for each in self.known)
+        known = (self._converted(*each) for each in self.known)
         point = [self.counts[wheel] for wheel in self.formula.wheels]
         return FactoredPolynomial.of(terms, point, [each for each in known if each is not None])
 
-    def _own(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
-        """A sum in the wheels of this formula; None where it has others too."""
+    def _converted(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
+        """Return a sum in the variables of this formula; None if it has other wheels too."""
         own, used = self.formula.wheels, [at for at in range(len(wheels)) if any(each.exponents[at] for each in terms)]
         if any(wheels[at] not in own for at in used):
             return None
@@ -264,17 +264,17 @@ class ClosedForm(Result):
         spread = (Term(c, tuple(powers[place[wheel]] if wheel in place else 0 for wheel in own)) for c, powers in terms)
         return Laurent.of(spread, len(own))
 
-    def _written(self, style: _Style) -> str:
+    def _format(self, style: _Style) -> str:
         top, bottom = (self._factored(terms) for terms in (self.formula.numerator, self.formula.denominator))
-        split = self._split(style, top, bottom)
+        split = self._format_split(style, top, bottom)
         if split:
             return split
         sign = "-" if top.content * bottom.content < 0 else ""
         above, below = (_product(each, self.formula.wheels, style) for each in (top, bottom))
         return sign + (above if below == "1" else style.over(above, below))
 
-    def _split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
-        """1 plus quotients, where a short sum stands above, of which one term is all that stands below."""
+    def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
+        """Write a short sum over one of its terms as 1 plus quotients; "" for other formulas."""
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
             return ""
         one = next((term for term in top.sums[0] if term.exponents == bottom.powers), None)
@@ -295,12 +295,12 @@ class ClosedForm(Result):
 
 
 def _times_derivative(p: Laurent, at: int) -> Laurent:
-    """z dp/dz: every term times its power of z."""
+    """Return z dp/dz: every term times its exponent of z."""
     return Laurent(p.width, {exponents: c * exponents[at] for exponents, c in p.terms.items() if exponents[at]})
 
 
 def _product(p: FactoredPolynomial, wheels: Sequence[str], style: _Style) -> str:
-    """Without its sign."""
+    """Return the text of a product without its sign."""
     parts = [] if abs(p.content) == 1 else [str(abs(p.content))]
     for wheel, power in zip(wheels, p.powers, strict=True):
         if power:
@@ -328,7 +328,7 @@ def _has_both_signs(terms: Sequence[Term]) -> bool:
 
 
 def _equation(terms: Sequence[Term], wheels: Sequence[str]) -> str:
-    """What is added equals what is taken away."""
+    """Return the text of an equation: sum of positive terms = sum of negative terms."""
     added = [term for term in terms if term.coefficient > 0]
     taken = [Term(-term.coefficient, term.exponents) for term in terms if term.coefficient < 0]
     return f"{_sum(added, wheels, _TEXT)} = {_sum(taken, wheels, _TEXT)}"

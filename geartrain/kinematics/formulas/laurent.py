@@ -1,7 +1,7 @@
-"""Laurent polynomials in tooth counts, sums of monomials whose exponents may be negative; their common divisors.
+"""Laurent polynomials in tooth counts (sums of monomials with integer exponents of either sign), and their divisors.
 
 Tooth counts are positive, so every monomial is a unit: division by it is exact, and it never vanishes. Common divisors
-follow by pseudo-remainders over one variable after the other; formulas of trains are short once wheels are grouped.
+are computed from pseudo-remainders in one variable after another. Formulas of trains are short once wheels are grouped.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from geartrain.numerics.elimination import PRIME
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Products of terms in one step past which polynomials are too long to be of use; some seconds."""
+"""Maximum number of products of terms in one step; above it (some seconds) polynomials are too long to be useful."""
 
 
 class Term(NamedTuple):
-    """A whole coefficient times a product of powers; exponents stand in parallel to wheels, or to groups."""
+    """An integer coefficient times a product of powers; exponents are in the order of wheels, or of groups."""
 
     coefficient: int
     exponents: Exponents
 
 
 class TooLongError(Exception):
-    """A polynomial has grown past every use."""
+    """Error raised if a polynomial becomes too long to be useful."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,21 +41,21 @@ class Laurent:
 
     width: int
     terms: Mapping[Exponents, Fraction]
-    """Exponents -> coefficient, none of them 0."""
+    """Non-zero coefficient by exponents."""
 
     @classmethod
     def constant(cls, value: Fraction | int, width: int) -> Laurent:
-        """A number."""
+        """Return a constant polynomial."""
         return cls(width, {(0,) * width: Fraction(value)} if value else {})
 
     @classmethod
     def variable(cls, at: int, width: int) -> Laurent:
-        """The variable with index `at`."""
+        """Return the variable with index `at`."""
         return cls(width, {tuple(int(other == at) for other in range(width)): Fraction(1)})
 
     @classmethod
     def of(cls, terms: Iterable[Term], width: int) -> Laurent:
-        """The sum of some terms."""
+        """Return the sum of some terms."""
         total: dict[Exponents, Fraction] = {}
         for coefficient, exponents in terms:
             total[exponents] = total.get(exponents, Fraction(0)) + coefficient
@@ -87,26 +87,26 @@ class Laurent:
 
     @property
     def is_unit(self) -> bool:
-        """True for a single monomial, which can be divided by."""
+        """True for a single monomial, by which division is exact."""
         return len(self.terms) == 1
 
     @property
     def is_constant(self) -> bool:
-        """True for a number."""
+        """True for a constant polynomial."""
         return not any(any(exponents) for exponents in self.terms)
 
     @property
     def is_definite(self) -> bool:
-        """True if it never vanishes for positive counts, because all its terms have one sign."""
+        """True if it cannot vanish for positive counts, because all its terms have the same sign."""
         return len({value > 0 for value in self.terms.values()}) == 1
 
     def inverse(self) -> Laurent:
-        """1 over a unit."""
+        """Return the inverse of a unit."""
         ((exponents, value),) = self.terms.items()
         return Laurent(self.width, {tuple(-power for power in exponents): 1 / value})
 
     def modulo(self, point: Sequence[int], prime: int) -> int:
-        """The value modulo a prime, at residues other than 0."""
+        """Return the value modulo a prime, at non-zero residues."""
         total = 0
         for exponents, value in self.terms.items():
             product = value.numerator * pow(value.denominator, -1, prime)
@@ -117,39 +117,41 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """The least power of every variable: of all monomials that divide it, the greatest."""
+        """Return the lowest exponent of every variable, which are those of the largest monomial that divides all
+        terms.
+        """
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
     def shifted(self, by: Exponents) -> Laurent:
-        """Times the monomial with exponents `by`."""
+        """Return the product with the monomial of exponents `by`."""
         return Laurent(
             self.width, {tuple(map(int.__add__, exponents, by)): value for exponents, value in self.terms.items()}
         )
 
     def scaled(self, factor: Fraction) -> Laurent:
-        """Times a number other than 0."""
+        """Return the product with a non-zero number."""
         return Laurent(self.width, {exponents: value * factor for exponents, value in self.terms.items()})
 
     def content(self, *others: Laurent) -> Fraction:
-        """The positive rational that leaves whole coefficients without a common divisor, here and in `others`."""
+        """Return the positive rational by which division makes coefficients, here and in `others`, coprime integers."""
         values = [value for each in (self, *others) for value in each.terms.values()]
         return Fraction(math.gcd(*(v.numerator for v in values)), math.lcm(*(v.denominator for v in values)))
 
     def primitive(self) -> Laurent:
-        """The simplest multiple by a unit: powers from 0 up, whole coefficients with no common divisor."""
+        """Return the primitive part: multiple by a unit with lowest exponents 0 and coprime integer coefficients."""
         if not self.terms:
             return self
         return self.shifted(tuple(-power for power in self.lowest())).scaled(1 / self.content())
 
     def sorted_terms(self) -> tuple[Term, ...]:
-        """The terms of a polynomial with whole coefficients, highest powers first."""
+        """Return the terms of a polynomial with integer coefficients, highest powers first."""
         return tuple(Term(int(self.terms[exponents]), exponents) for exponents in sorted(self.terms, reverse=True))
 
 
 def _sum(
     total: dict[Exponents, Fraction], terms: Iterable[tuple[Exponents, Fraction]], factor: Fraction | int
 ) -> dict[Exponents, Fraction]:
-    """total += factor * terms in place, dropping what cancels."""
+    """Add factor * terms to `total` in place, and drop terms that cancel."""
     for exponents, value in terms:
         known = total.get(exponents)
         new = factor * value if known is None else known + factor * value
@@ -161,15 +163,16 @@ def _sum(
 
 
 def product(factors: Iterable[Laurent], width: int) -> Laurent:
-    """The product of some polynomials; 1 of none."""
+    """Return the product of some polynomials; 1 for an empty sequence."""
     return reduce(Laurent.__mul__, factors, Laurent.constant(1, width))
 
 
 def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
-    """The determinants of n rows and n + 1 columns, one for each column left out; the others keep their order.
+    """Return the determinants of n rows and n + 1 columns, one for each omitted column; the order of the others is
+    kept.
 
-    Row by row, one partial sum for each set of columns used so far (a set of bits): no division, and sparse rows
-    reach few of the 2^n sets. Raises `TooLongError` past `MOST_PRODUCTS`.
+    Dynamic programming over rows with one partial sum for each set of used columns (a bit mask). It needs no division,
+    and sparse rows reach few of the 2^n sets. Raises `TooLongError` beyond `MOST_PRODUCTS`.
     """
     partial = {0: Laurent.constant(1, width)}
     work = 0
@@ -182,7 +185,7 @@ def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
                 work += len(value) * len(entry)
                 if work > MOST_PRODUCTS:
                     raise TooLongError
-                # the columns used before that stand right of this one: as many swaps
+                # sign of the permutation: number of used columns to the right
                 step = -(value * entry) if (used >> (column + 1)).bit_count() & 1 else value * entry
                 mask = used | 1 << column
                 found[mask] = found[mask] + step if mask in found else step
@@ -193,18 +196,20 @@ def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
 
 
 def divide(p: Laurent, q: Laurent) -> Laurent | None:
-    """p / q if q divides p among Laurent polynomials, else None. q is not 0."""
+    """Return p / q if the non-zero q divides p among Laurent polynomials, else None."""
     if q.is_unit:
         return p * q.inverse()
     low_p, low_q = p.lowest(), q.lowest()
-    rest = dict(p.shifted(_minus(low_p)).terms)
-    divisor = q.shifted(_minus(low_q)).terms
+    rest = dict(p.shifted(_negated(low_p)).terms)
+    divisor = q.shifted(_negated(low_q)).terms
     lead = max(divisor)
-    queue = [_minus(exponents) for exponents in rest]  # a heap gives its least: the highest powers
+    queue = [
+        _negated(exponents) for exponents in rest
+    ]  # negated, because the heap returns the smallest and the highest powers are needed
     heapify(queue)
     found: dict[Exponents, Fraction] = {}
     while queue:
-        top = _minus(heappop(queue))
+        top = _negated(heappop(queue))
         if top not in rest:
             continue
         step = tuple(map(int.__sub__, top, lead))
@@ -216,7 +221,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
         for exponents, value in divisor.items():
             at = tuple(map(int.__add__, exponents, step))
             if at not in rest:
-                heappush(queue, _minus(at))
+                heappush(queue, _negated(at))
             new = rest.get(at, Fraction(0)) - factor * value
             if new:
                 rest[at] = new
@@ -226,30 +231,30 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
 
 
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
-    """The greatest common divisor among Laurent polynomials, primitive; 1 where there is none.
+    """Return the primitive common divisor of highest degree of two Laurent polynomials; 1 if they are coprime.
 
-    Primitive remainders in one variable after another, over the rationals; that nothing is common is mostly seen at
-    once, by the remainders of images modulo a prime, whose degree is never too small.
+    Euclid's algorithm with primitive remainders over the rationals, in one variable after another. Coprime polynomials
+    are usually recognised at once by their images modulo a prime, whose common divisor never has too low a degree.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:
         return p if p else q
     shared = [at for at in range(p.width) if _degree(p, at) and _degree(q, at)]
-    shared = [at for at in shared if _may_share(p, q, at)]
+    shared = [at for at in shared if _may_have_common_divisor(p, q, at)]
     if not shared:
         return Laurent.constant(1, p.width)
     for whole, other in ((p, q), (q, p)):
         if len(whole) <= len(other) and divide(other, whole) is not None:
             return whole
-    # in the variable of least degree Euclid's algorithm takes the fewest steps
+    # Euclid's algorithm needs the fewest steps in the variable of lowest degree
     return _remainders(p, q, min(shared, key=lambda at: min(_degree(p, at), _degree(q, at))))
 
 
 def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Euclid's algorithm in one variable, the contents (in the others) apart."""
+    """Apply Euclid's algorithm in one variable, with the contents (in the other variables) handled separately."""
     content_p, content_q = _content(p, at), _content(q, at)
     content = common_divisor(content_p, content_q)
-    p, q = _exactly(p, content_p), _exactly(q, content_q)
+    p, q = _divide_exactly(p, content_p), _divide_exactly(q, content_q)
     if _degree(p, at) < _degree(q, at):
         p, q = q, p
     while True:
@@ -258,11 +263,11 @@ def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
             return (content * q).primitive()
         if not _degree(rest, at):
             return content
-        p, q = q, _exactly(rest, _content(rest, at)).primitive()
+        p, q = q, _divide_exactly(rest, _content(rest, at)).primitive()
 
 
 def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """The remainder of a multiple of p by q, as polynomials in one variable."""
+    """Return the remainder of a multiple of p divided by q, as polynomials in one variable."""
     degree = _degree(q, at)
     lead = _coefficient(q, at, degree)
     while p and _degree(p, at) >= degree:
@@ -273,7 +278,7 @@ def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
 
 
 def _content(p: Laurent, at: int) -> Laurent:
-    """The common divisor of the coefficients of p as a polynomial in one variable."""
+    """Return the common divisor of the coefficients of p as a polynomial in one variable."""
     found = Laurent.constant(0, p.width)
     for power in {exponents[at] for exponents in p.terms}:
         found = common_divisor(found, _coefficient(p, at, power))
@@ -291,31 +296,33 @@ def _degree(p: Laurent, at: int) -> int:
     return max(exponents[at] for exponents in p.terms) if p else 0
 
 
-def _exactly(p: Laurent, q: Laurent) -> Laurent:
+def _divide_exactly(p: Laurent, q: Laurent) -> Laurent:
     found = divide(p, q)
     assert found is not None, "a content divides what it is the content of"
     return found
 
 
-def _minus(exponents: Exponents) -> Exponents:
+def _negated(exponents: Exponents) -> Exponents:
     return tuple(-power for power in exponents)
 
 
-def _may_share(p: Laurent, q: Laurent, at: int) -> bool:
-    """False only if no common divisor holds the variable: the others are given numbers modulo a prime."""
+def _may_have_common_divisor(p: Laurent, q: Laurent, at: int) -> bool:
+    """Return False only if no common divisor contains the variable; the others are set to random numbers modulo a
+    prime.
+    """
     draw = random.Random(len(p) * 1000 + len(q))
-    # at a random point the degree of the common divisor may come out too large, never too small
+    # at a random point the degree of the common divisor may be too high, never too low
     point = [draw.randrange(1, PRIME) for _ in range(p.width)]
     left, right = (_image(each, at, point) for each in (p, q))
     if len(left) <= _degree(p, at) and len(right) <= _degree(q, at):
-        return True  # both leading coefficients vanish by accident: nothing is known
+        return True  # both leading coefficients vanish by coincidence, so nothing is known
     while right:
         left, right = right, _remainder(left, right)
     return len(left) > 1
 
 
 def _image(p: Laurent, at: int, point: Sequence[int]) -> list[int]:
-    """Coefficients by power, modulo the prime, without zeros at the end."""
+    """Return the coefficients by power at a point modulo the prime, without trailing zeros."""
     image = [0] * (_degree(p, at) + 1)
     for exponents, value in p.terms.items():
         alone = Laurent(p.width, {tuple(0 if o == at else e for o, e in enumerate(exponents)): value})
@@ -324,7 +331,7 @@ def _image(p: Laurent, at: int, point: Sequence[int]) -> list[int]:
 
 
 def _remainder(p: Sequence[int], q: Sequence[int]) -> list[int]:
-    """Remainder of univariate polynomials modulo the prime."""
+    """Return the remainder of univariate polynomials modulo the prime."""
     rest = list(p)
     inverse = pow(q[-1], -1, PRIME)
     while len(rest) >= len(q):

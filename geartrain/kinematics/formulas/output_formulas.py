@@ -1,7 +1,8 @@
-"""Every output of a declared train as an exact rational function of the tooth counts that are free.
+"""Outputs of a declared train as exact rational functions of the free tooth counts.
 
-Seen from one carrier, the links that mesh turn at monomial multiples of one unknown. What couples these components,
-and what is held, locked and driven, are rows of monomials and sums of monomials, eliminated by Markowitz pivoting.
+Relative to one carrier, the speeds of links that mesh are monomial multiples of one unknown. The equations that couple
+these components, and those of brakes, locks and inputs, are rows of Laurent polynomials. They are eliminated by
+Markowitz pivoting on monomials, and the remaining core is solved by Cramer's rule.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from geartrain.train import StateCase, Teeth, Train, Wheel
 from geartrain.train.fields import MOST_TEETH
 
 Row = dict[int, Laurent]
-"""A linear form: column -> coefficient. Columns >= 0 are unknowns; column -1 holds what is given."""
+"""A linear form as coefficients by column. Columns >= 0 are unknowns; column -1 is the prescribed part."""
 
 GIVEN = -1
 _Residues = dict[int, int]
@@ -35,7 +36,7 @@ _Residues = dict[int, int]
 
 @dataclass(frozen=True, slots=True)
 class SymbolicValue:
-    """A numerator over the product of the determinants of some blocks, each once."""
+    """A numerator over the product of the determinants of some blocks, each to the first power."""
 
     numerator: Laurent
     blocks: frozenset[int] = frozenset()
@@ -43,52 +44,52 @@ class SymbolicValue:
 
 @dataclass(frozen=True, slots=True)
 class SymbolicSolution:
-    """The unknowns of a system as functions."""
+    """Unknowns of a system as rational functions."""
 
     width: int
     point: Sequence[int]
     pivots: Sequence[tuple[int, Row]]
-    """(column, rest): column = -rest, rest free of all columns taken before it."""
+    """Pairs (column, rest) with column = -rest; rest is free of all columns taken before it."""
     values: Mapping[int, SymbolicValue]
-    """What the core gives for its columns; columns left free count as 0."""
+    """Solution of the core by column; free columns count as 0."""
     determinants: Sequence[Laurent]
-    """Of the core's blocks."""
+    """Determinants of the blocks of the core."""
     span: Mapping[int, _Residues]
-    """The core's rows at a point taken at random, in echelon form: leading column -> row."""
+    """Rows of the core at a random point in echelon form, by leading column."""
     conditions: Sequence[tuple[int, Laurent]]
-    """(row, function): what must vanish for the system to hold, and the row it is left of."""
+    """Pairs of a row and the function that remains of it, which must vanish for the system to be consistent."""
 
     def value(self, form: Mapping[int, Laurent]) -> SymbolicValue | None:
-        """A linear form of the unknowns; None where the system leaves it free."""
+        """Return the value of a linear form of the unknowns; None if the system does not determine it."""
         rest = dict(form)
         for column, equal in self.pivots:
             factor = rest.pop(column, None)
             if factor is not None:
                 add_into(rest, equal, -factor)
         free = {c: entry.modulo(self.point, PRIME) for c, entry in rest.items() if c != GIVEN}
-        if _cleared(free, self.span):
+        if _reduced_row(free, self.span):
             return None
         return _combined(rest, self.values, self.determinants, self.width)
 
     def denominator(self, value: SymbolicValue) -> Laurent:
-        """The product of a value's determinants."""
+        """Return the product of a value's determinants."""
         return product((self.determinants[block] for block in sorted(value.blocks)), self.width)
 
 
 def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None = None) -> SymbolicSolution:
-    """Solve rows that must all vanish. Which of them determine the unknowns is decided at a random point.
+    """Solve rows that must all vanish. A random point decides which of them determine the unknowns.
 
-    preferred   an assignment that is known to be meant: if more rows than unknowns are coupled, those are used that
-                are independent there; without it, rows that hold what is given come first
+    preferred   an assignment of intended counts. If there are more coupled rows than unknowns, rows that are
+                independent there are used; without it, rows with prescribed values come first
 
-    Raises `TooLongError` where so many unknowns depend on each other that their functions are of no use.
+    Raises `TooLongError` if too many unknowns depend on each other for their functions to be useful.
     """
-    # always the same point, so that a question has one answer
+    # fixed seed, so that results are reproducible
     draw = random.Random(width)
-    # a polynomial that is not 0 vanishes at a random point with a chance below its degree over the prime, 2^61 - 1
-    # (Schwartz and Zippel)
+    # a non-zero polynomial vanishes at a random point with a probability of at most degree / (2^61 - 1)
+    # (Schwartz-Zippel lemma)
     point = [draw.randrange(1, PRIME) for _ in range(width)]
-    pivots, core, conditions = _divide_out(rows)
+    pivots, core, conditions = _eliminate_monomials(rows)
     chosen, span = _independent(core, point)
     leading = span
     if preferred is not None and len(chosen) < len(core):
@@ -104,7 +105,7 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
 
 
 class _LaurentRing:
-    """Laurent polynomials, whose units are the monomials."""
+    """Ring of Laurent polynomials, whose units are the monomials."""
 
     modulus = 0
 
@@ -115,10 +116,10 @@ class _LaurentRing:
         return len(entry)
 
 
-def _divide_out(
+def _eliminate_monomials(
     rows: Sequence[Row],
 ) -> tuple[list[tuple[int, Row]], list[tuple[int, Row]], list[tuple[int, Laurent]]]:
-    """Eliminate by monomials. Pivots, the core, and conditions."""
+    """Eliminate with monomials as pivots. Return the pivots, the remaining core, and conditions."""
     pivots, left = eliminate_units(rows, _LaurentRing())
     core = [(at, row) for at, row in left if row.keys() - {GIVEN}]
     core.sort(key=lambda pair: (GIVEN not in pair[1], pair[0]))
@@ -127,11 +128,11 @@ def _divide_out(
 
 
 def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple[list[int], dict[int, _Residues]]:
-    """The first rows that are independent at a point modulo the prime, and their echelon form."""
+    """Return the first rows that are independent at a point modulo the prime, and their echelon form."""
     chosen: list[int] = []
     span: dict[int, _Residues] = {}
     for at, (_, row) in enumerate(rows):
-        rest = _cleared({c: entry.modulo(point, PRIME) for c, entry in row.items() if c != GIVEN}, span)
+        rest = _reduced_row({c: entry.modulo(point, PRIME) for c, entry in row.items() if c != GIVEN}, span)
         if rest:
             lead = min(rest)
             inverse = pow(rest[lead], -1, PRIME)
@@ -140,8 +141,8 @@ def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple
     return chosen, span
 
 
-def _cleared(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Residues:
-    """What is left of a row when the echelon's leading columns are eliminated from it; no zeros."""
+def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Residues:
+    """Return a row after elimination of the leading columns of an echelon form, without zeros."""
     rest = {column: value for column, value in row.items() if value}
     while True:
         lead = next((column for column in sorted(rest) if column in span), None)
@@ -159,7 +160,7 @@ def _cleared(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Residues
 def _solve_core(
     rows: Sequence[Row], columns: Sequence[int], width: int
 ) -> tuple[dict[int, SymbolicValue], list[Laurent]]:
-    """The unknowns of a square core block by block; the other columns count as 0."""
+    """Solve a square core block by block; the other columns count as 0."""
     place = {column: at for at, column in enumerate(columns)}
     blocks = find_blocks([[place[column] for column in row if column in place] for row in rows])
     assert blocks is not None, "a system of full rank has a matching"
@@ -177,7 +178,7 @@ def _solve_core(
         ]
         *replaced, whole = minors(matrix, width)
         for column, index in inside.items():
-            # Cramer's rule: the right side stands last, and moves over the columns after the one it replaces
+            # Cramer's rule: the right-hand side is the last column, and moves past the columns after the replaced one
             odd = (size - 1 - index) & 1
             values[column] = SymbolicValue(-replaced[index] if odd else replaced[index], used | {number})
         determinants.append(whole)
@@ -187,7 +188,7 @@ def _solve_core(
 def _combined(
     form: Mapping[int, Laurent], values: Mapping[int, SymbolicValue], determinants: Sequence[Laurent], width: int
 ) -> SymbolicValue:
-    """A form of the core's columns and of what is given, over one denominator."""
+    """Return a form of the core's columns and the prescribed part, over one denominator."""
     used = frozenset().union(*(values[column].blocks for column in form if column in values))
     return SymbolicValue(_over_blocks(form, values, determinants, used, width), used)
 
@@ -199,7 +200,7 @@ def _over_blocks(
     used: frozenset[int],
     width: int,
 ) -> Laurent:
-    """The numerator of a form over the product of the determinants of the blocks `used`."""
+    """Return the numerator of a form over the product of the determinants of the blocks `used`."""
     total = Laurent.constant(0, width)
     for column, entry in form.items():
         value = SymbolicValue(Laurent.constant(1, width)) if column == GIVEN else values.get(column)
@@ -214,7 +215,7 @@ def _over_blocks(
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """A circuit that closes a loop: the product of the loop's ratios, and the component it closes in."""
+    """A circuit that closes a loop, with the product of the loop's ratios and its component."""
 
     circuit: int
     product: Laurent
@@ -222,13 +223,13 @@ class Chord:
 
 
 class SymbolicEquations:
-    """The rows of one case, all of which must vanish, in unknowns numbered as in `reduce_components`.
+    """Equations of one case as rows that must vanish, in unknowns numbered as in `reduce_components`.
 
-    circuits   with any counts that make no two free wheels alike
-    free       wheel -> index of its variable
+    circuits   with any counts that are different for all free wheels
+    free       index of the variable by wheel
 
-    rows, origin   the equations, and in words what each of them states
-    chords         loops that close for some of the free counts only
+    rows, origin   the equations, and the statement that each of them expresses
+    chords         circuits whose loops close for some of the free counts only
     """
 
     def __init__(
@@ -250,23 +251,23 @@ class SymbolicEquations:
         self.chords = tuple(chord for chord in loops if not chord.product.is_constant)
         self._reduced = reduce_components(replace(parts, breaking=never))
         self.parts = parts
-        stated = [*self._coupling(), *self._held(case), *self._driven(case)]
+        stated = [*self._coupling_rows(), *self._fixed_rows(case), *self._input_rows(case)]
         self.rows = [row for row, _ in stated]
         self.origin = [words for _, words in stated]
 
     def relative(self, link: str, base: str) -> Row:
-        """The speed of a link as seen from another, about the first one's axis, as a form of the unknowns."""
+        """Return the speed of a link relative to another, about the axis of the first, as a form of the unknowns."""
         row = self._form(self.parts.index[link])
-        add_into(row, self._form(self.parts.index[base]), self._number(-1))
-        sign = self._number(self._signs.get(link, 1))
+        add_into(row, self._form(self.parts.index[base]), self._constant(-1))
+        sign = self._constant(self._signs.get(link, 1))
         return {column: entry * sign for column, entry in row.items()}
 
     def unknown(self, group: int) -> Row:
-        """The unknown of one component."""
-        return {group: self._number(1)}
+        """Return the unknown of one component."""
+        return {group: self._constant(1)}
 
     def _find_ratios(self, parts: Components) -> list[Laurent]:
-        """The speed of every node relative to its carrier, over that of its component's unknown."""
+        """Return the speed of every node relative to its carrier, over its component's unknown."""
         found: dict[int, Laurent] = {}
         for start in range(len(parts.node_link)):
             chain = []
@@ -274,24 +275,24 @@ class SymbolicEquations:
             while node not in found and parts.node_parent[node] >= 0:
                 chain.append(node)
                 node = parts.node_parent[node]
-            found.setdefault(node, self._number(1))
+            found.setdefault(node, self._constant(1))
             for child in reversed(chain):
-                step = self._step(parts.circuits[parts.node_circuit[child]], parts.links[parts.node_link[child]])
+                step = self._speed_ratio(parts.circuits[parts.node_circuit[child]], parts.links[parts.node_link[child]])
                 found[child] = found[parts.node_parent[child]] * step
         return [found[node] for node in range(len(parts.node_link))]
 
-    def _step(self, circuit: Circuit, to: str) -> Laurent:
-        """Speed of one link of a circuit over that of the other, in their carrier's frame."""
-        a, b = self._side(circuit, 0), self._side(circuit, 1)
+    def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
+        """Return the speed of one link of a circuit over that of the other, relative to their carrier."""
+        a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())
 
-    def _side(self, circuit: Circuit, side: int) -> Laurent:
-        """a or b of a circuit: a variable with its sign, where the wheel is free."""
+    def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
+        """Return a or b of a circuit; for a free wheel, its variable with the sign of the coefficient."""
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.kind == "gear" else None
         if variable is None:
-            return self._number(given)
+            return self._constant(given)
         size = Laurent.variable(variable, self.width)
         return size if given > 0 else -size
 
@@ -299,53 +300,53 @@ class SymbolicEquations:
         chord = parts.circuits[at]
         carrier = parts.index[chord.carrier]
         i, j = (parts.node(parts.index[link], carrier) for link in (chord.i, chord.j))
-        around = self._step(chord, chord.j) * self._ratios[i] * self._ratios[j].inverse()
+        around = self._speed_ratio(chord, chord.j) * self._ratios[i] * self._ratios[j].inverse()
         return Chord(at, around, parts.node_group[i])
 
     def _form(self, link: int) -> Row:
-        """The speed of a link, unsigned, as a form of the unknowns."""
+        """Return the speed of a link, without axis sign, as a form of the unknowns."""
         reduced = self._reduced
         if link == self.parts.frame:
             return {}
         own = reduced.own.get(link)
-        return {own: self._number(1)} if own is not None else self._seen_from(self.parts.nodes_of[link][0])
+        return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
-    def _seen_from(self, node: int) -> Row:
-        """The speed of a node's link: its carrier's plus its own relative to it."""
+    def _relative_form(self, node: int) -> Row:
+        """Return the speed of a node's link: the speed of its carrier plus its relative speed."""
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
         if carrier != parts.frame:
-            row[self._reduced.own[carrier]] = self._number(1)
+            row[self._reduced.own[carrier]] = self._constant(1)
         return row
 
-    def _coupling(self) -> Iterator[tuple[Row, str]]:
+    def _coupling_rows(self) -> Iterator[tuple[Row, str]]:
         parts = self.parts
         for (kind, subject, node), numbers in zip(self._reduced.origin, self._reduced.equations, strict=True):
             if kind == "share":
                 row = self._form(subject)
-                add_into(row, self._seen_from(node), self._number(-1))
+                add_into(row, self._relative_form(node), self._constant(-1))
                 yield row, f"'{parts.links[subject]}' is driven in more than one way"
-            else:  # a component that is held on its carrier, whatever the counts
-                yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' holds its wheels"
+            else:  # a component that is locked to its carrier for all counts
+                yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' locks its wheels"
 
-    def _held(self, case: StateCase) -> Iterator[tuple[Row, str]]:
+    def _fixed_rows(self, case: StateCase) -> Iterator[tuple[Row, str]]:
         index = self.parts.index
         for link in case.fixed:
             yield self._form(index[link]), case.says(link)
         for a, b in case.locks:
             row = self._form(index[a])
-            add_into(row, self._form(index[b]), self._number(-1))
+            add_into(row, self._form(index[b]), self._constant(-1))
             yield row, case.says(a, b)
 
-    def _driven(self, case: StateCase) -> Iterator[tuple[Row, str]]:
+    def _input_rows(self, case: StateCase) -> Iterator[tuple[Row, str]]:
         for link, speed in case.inputs.items():
             row = self._form(self.parts.index[link])
             if speed:
-                row[GIVEN] = self._number(-speed * self._signs.get(link, 1))
+                row[GIVEN] = self._constant(-speed * self._signs.get(link, 1))
             yield row, f"'{link}' is an input"
 
-    def _number(self, value: Fraction | int) -> Laurent:
+    def _constant(self, value: Fraction | int) -> Laurent:
         return Laurent.constant(value, self.width)
 
 
@@ -357,23 +358,28 @@ Counts = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Formulas(Mapping[str, Formula], Result):
-    """The outputs of a train in one state, as functions of its free wheels. As a mapping it is `outputs`.
+    """Outputs of a train in one state, as functions of its free wheels. As a mapping it is `outputs`.
 
-    A loop closes or holds its wheels still. Only the first is followed here, so a train that is to run with a loop of
-    free wheels that does not close has no formulas; a loop of fixed counts is followed either way.
+    A loop is either consistent, or it locks its wheels. Only the first case is considered for loops with free wheels,
+    so a train that runs with an inconsistent loop of free wheels has no formulas. Loops of fixed counts may be of
+    either kind.
     """
 
     outputs: Mapping[str, Formula]
-    """Output name -> its speed in the train's unit (or the difference, for `relative_to`), exactly."""
+    """Exact speed of each output in the train's unit (a difference of speeds for `relative_to`)."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 for the train to turn: loops that close, links driven or held in more ways than
-    one. `label` says what each comes from. A constant other than 0 says that the train never turns. The outputs hold
-    where all conditions do."""
+    """Functions that must all be 0 for the train to turn, because of loops, or of links driven or fixed in several
+    ways.
+
+    The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where
+    all conditions are satisfied.
+    """
     exclusions: tuple[Formula, ...]
-    """Functions that must not be 0: where one is, the train is locked or free though the outputs have values,
-    because the factor is cancelled in them."""
+    """Functions that must not be 0. Where one vanishes, the train is locked or free although the outputs have values,
+    because the factor cancels in them.
+    """
     undetermined: tuple[str, ...]
-    """Outputs that the inputs do not determine, whatever the counts."""
+    """Outputs that the inputs do not determine for any counts."""
 
     def __getitem__(self, name: str) -> Formula:
         return self.outputs[name]
@@ -385,7 +391,7 @@ class Formulas(Mapping[str, Formula], Result):
         return len(self.outputs)
 
     def turns(self, counts: Mapping[str, int]) -> bool:
-        """True if every condition holds at these counts, and no exclusion strikes."""
+        """Return True if at these counts every condition is 0, and no exclusion is 0."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 
@@ -393,38 +399,38 @@ class Formulas(Mapping[str, Formula], Result):
 def find_formulas(
     train: Train, state: str | None, free: Mapping[str, Counts], inputs: Mapping[str, int] | None = None
 ) -> Formulas:
-    """Every output of one state as a function of the counts of the free wheels.
+    """Return every output of one state as a function of the counts of the free wheels.
 
-    state    a declared state, or None for what is declared outside of states
-    free     wheel id -> its allowed counts; all other wheels keep their declared count
-    inputs   speeds in place of the declared ones, of the same links
+    state    a declared state, or None for a train without states
+    free     allowed counts by wheel; all other wheels keep their declared count
+    inputs   speeds of the input links, instead of the declared ones
 
-    Raises `QuestionError` for wheels or states the train does not have, and for trains whose coupled part is too
-    large; `DeclarationError` where a wheel that is not free has no count.
+    Raises `QuestionError` for wheels or states that the train does not have, and for trains whose coupled part is too
+    large; `DeclarationError` if a wheel that is not free has no count.
     """
     _check(train, state, free)
     tree = find_tree(train)
     (case,) = close_joints(train, tree, [train.case(state)])
     if inputs is not None:
         case = replace(case, inputs={link: Fraction(speed) for link, speed in inputs.items()})
-    # rings last, as sums and products of counts are written
+    # rings last, as usual in formulas
     wheels = tuple(
         sorted((name for name in train.wheels if name in free), key=lambda name: train.wheels[name][1].internal)
     )
     equations = _equations(train, tree, case, wheels, free)
     try:
-        return _read_off(train, case, equations, wheels)
+        return _collect_formulas(train, case, equations, wheels)
     except TooLongError:
         raise QuestionError(_too_coupled(train)) from None
 
 
 def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
-    """The same declaration, checked already, with other tooth counts on some wheels; marks and doubts are kept.
+    """Return the same validated declaration with other tooth counts; line numbers and uncertainties are kept.
 
-    counts   wheel id -> tooth count, from 1 to 10^12
+    counts   tooth count by wheel, from 1 to 10^12
 
-    Cost is linear in the number of links. Raises `QuestionError` for wheels the train does not have, and for what is
-    no tooth count.
+    The cost is linear in the number of links. Raises `QuestionError` for wheels that the train does not have, and for
+    invalid tooth counts.
     """
     _check_wheels(train, counts)
     _check_counts(train, counts)
@@ -434,12 +440,12 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
         changed = wheel.model_copy(update={"teeth": _with_value(wheel, int(count))})
         links[link] = links[link].model_copy(update={"wheels": {**links[link].wheels, name: changed}})
     copied = train.model_copy(update={"links": links})
-    copied.__dict__.pop("wheels", None)  # a copy takes along what was found on the first one
+    copied.__dict__.pop("wheels", None)  # the copy contains the cached property of the original
     return copied
 
 
 def _with_value(wheel: Wheel, count: int) -> int | Teeth:
-    """The count with the wheel's doubt, where the doubt allows it."""
+    """Return the count with the wheel's range or choices if these allow it, else only the count."""
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return count
@@ -451,12 +457,12 @@ def _with_value(wheel: Wheel, count: int) -> int | Teeth:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """The rows of what matters to the outputs. Free wheels stand in with large random counts, so none are alike."""
-    stand_in = with_counts(train, {name: free[name][0] for name in wheels})
-    # large and random: no two free wheels are alike, so that no loop closes by accident
+    """Return the equations that affect the outputs. Free wheels are represented by distinct large random counts."""
+    representative = with_counts(train, {name: free[name][0] for name in wheels})
+    # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
-    circuits = [circuit.with_counts(sizes) for circuit in find_circuits(stand_in, tree)]
+    circuits = [circuit.with_counts(sizes) for circuit in find_circuits(representative, tree)]
     requested = {link for name, output in case.outputs.items() for link in output.links(name, train.frame)}
     kept = {train.frame, *requested, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)}
     circuits = relevant_circuits(circuits, kept)
@@ -466,8 +472,8 @@ def _equations(
     return SymbolicEquations(links, train.frame, circuits, case, Axes(train, tree).link_signs, variables)
 
 
-def _read_off(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
-    """Outputs, and what must and must not vanish, from the solved equations."""
+def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
+    """Return the outputs, conditions and exclusions from the solved equations."""
     solution = solve_rows(equations.rows, equations.width, _declared(train, wheels))
     outputs: dict[str, Formula] = {}
     undetermined: list[str] = []
@@ -482,13 +488,13 @@ def _read_off(train: Train, case: StateCase, equations: SymbolicEquations, wheel
         if not common.is_definite:
             cancelled[name] = common
     stated = [(equations.origin[row], left) for row, left in solution.conditions]
-    stated += _loops(equations, solution)
+    stated += _loop_conditions(equations, solution)
     excluded = [(f"the motion of '{name}' is determined", common) for name, common in cancelled.items()]
-    return Formulas(outputs, _zeros(stated, wheels), _zeros(excluded, wheels), tuple(undetermined))
+    return Formulas(outputs, _zero_conditions(stated, wheels), _zero_conditions(excluded, wheels), tuple(undetermined))
 
 
-def _loops(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """What closes the loops of free wheels: their product is 1, or the wheels of the loop do not roll."""
+def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
+    """Yield the conditions of loops of free wheels: ratio product 1, unless the wheels of the loop are at rest."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
@@ -501,8 +507,8 @@ def _loops(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator
         yield f"loop {' - '.join(loop.links)} closes", left
 
 
-def _zeros(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
-    """Functions of which only the zeros count, over one of their own monomials; each once."""
+def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
+    """Return functions of which only the zeros matter, divided by one of their monomials, without duplicates."""
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
@@ -513,7 +519,7 @@ def _zeros(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tupl
 
 
 def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
-    """The declared counts of the free wheels, if all have one."""
+    """Return the declared counts of the free wheels, or None if one is not declared."""
     counts = [train.wheels[name][1].count for name in wheels]
     return [count for count in counts if count is not None] if all(counts) else None
 
@@ -533,19 +539,21 @@ def _check_wheels(train: Train, wheels: Mapping[str, object]) -> None:
     for name in wheels:
         if name not in train.wheels:
             fix = suggest(name, train.wheels)
-            raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
+            raise QuestionError(
+                Problem(f"'{train.name}' has no wheel '{name}'", "only declared wheels have tooth counts", fix)
+            )
 
 
 def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
     for name, count in counts.items():
         if not 0 < count <= MOST_TEETH or count != int(count):
-            fix = "a tooth count is a whole number from 1 to 10^12"
-            raise QuestionError(Problem(f"{count} is not a tooth count", f"wheel '{name}' is to have it", fix))
+            fix = "give a whole number from 1 to 10^12"
+            raise QuestionError(Problem(f"{count} is not a tooth count", f"it is given for wheel '{name}'", fix))
 
 
 def _too_coupled(train: Train) -> Problem:
     return Problem(
         f"'{train.name}' is too coupled for formulas",
-        "so many speeds depend on each other that, written out, they would have millions of terms",
-        "free fewer wheels, or ask for fewer outputs",
+        "its formulas would have millions of terms, because many speeds depend on each other",
+        "free fewer wheels, or request fewer outputs",
     )

@@ -1,6 +1,6 @@
-"""Rational functions of tooth counts: exact values, fast values with their accuracy, and monomial groups.
+"""Rational functions of tooth counts: exact values, fast values with error bounds, and monomial groups.
 
-A monomial group holds wheels on which the function depends through one monomial only.
+A monomial group is a set of wheels on which the function depends only through one monomial.
 """
 
 from __future__ import annotations
@@ -24,29 +24,29 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MonomialGroup(Result):
-    """Wheels of one class: the function sees only x, the product of their counts to the powers `exponents`."""
+    """A class of wheels on which the function depends only through x, the product of their counts to `exponents`."""
 
     KEYS = (Key("exponents", "by_wheel"), "degree")
 
     wheels: tuple[str, ...]
-    """In the order declared."""
+    """Wheels in the order of the declaration."""
     exponents: Exponents
-    """Not 0; usually 1 or -1, the first positive."""
+    """Non-zero exponents; usually 1 or -1, the first positive."""
     degree: int
-    """Greatest power of x in the function's numerator or denominator; 1 makes it a Moebius function of x."""
+    """Highest power of x in the numerator or denominator; for 1 the function is a Moebius function of x."""
 
     @property
     def by_wheel(self) -> dict[str, int]:
-        """The exponents by wheel."""
+        """Exponent of each wheel."""
         return dict(zip(self.wheels, self.exponents, strict=True))
 
     @property
     def roundings(self) -> int:
-        """Roundings in one `monomials`: its relative error is below this times 2^-53, but for its square."""
+        """Number of roundings in `monomials`; to first order its relative error is below this number times 2^-53."""
         return sum(map(abs, self.exponents))
 
     def monomials(self, columns: Mapping[str, Any]) -> NDArray[np.float64]:
-        """x of many assignments (wheel -> counts, which broadcast); see `roundings` for the error."""
+        """Return x for many assignments (counts by wheel, as arrays that broadcast); see `roundings` for the error."""
         import numpy as np
 
         top: NDArray[np.float64] = np.ones(())
@@ -63,15 +63,15 @@ class MonomialGroup(Result):
 
 @dataclass(frozen=True, slots=True)
 class MonomialGrouping:
-    """Polynomials rewritten in as few monomials as they allow, up to one common monomial."""
+    """Polynomials rewritten in the smallest possible number of monomials, up to a common monomial factor."""
 
     members: tuple[Mapping[int, int], ...]
-    """For each group, variable -> its exponent in the group's monomial."""
+    """Exponent by variable in the monomial of each group."""
     rewritten: tuple[Laurent, ...]
-    """The polynomials in the groups' monomials, all powers >= 0."""
+    """Polynomials in the monomials of the groups, with non-negative exponents."""
 
     def back(self, p: Laurent, width: int) -> Laurent:
-        """A polynomial in the groups' monomials as one in the first variables."""
+        """Convert a polynomial in the monomials of the groups to the original variables."""
 
         def spread(exponents: Exponents) -> Exponents:
             full = [0] * width
@@ -87,14 +87,15 @@ Member = TypeVar("Member")
 
 
 def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[Exponents, dict[Member, int]]:
-    """Keys whose lists of whole numbers are multiples of one list: that list -> each key with its multiple.
+    """Group keys whose integer lists are multiples of one list; return for each class its list and the multiple of each
+    key.
 
-    The lists of the classes have no common divisor, and begin with a positive number beside zeros. Keys with nothing
-    but zeros are in none.
+    The lists of the classes are primitive (their entries are coprime), and their first non-zero entry is positive. Keys
+    with zero lists are left out.
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
-        # multiples of one list are the same list once divided by their common divisor and sign
+        # canonical form: divide by the common divisor and the sign of the first non-zero entry
         size = math.gcd(*steps)
         if size:
             size = size if next(step for step in steps if step) > 0 else -size
@@ -103,11 +104,12 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
 
 
 def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
-    """The coarsest classes of variables such that a quotient of the polynomials sees each through one monomial.
+    """Find the coarsest classes of variables such that a quotient of the polynomials depends on each through one
+    monomial.
 
-    Dividing all by one monomial changes no quotient, so only differences of exponents count. A monomial of a class
-    stays the same along all directions that change its variables alone if and only if their differences, listed
-    over all terms, are multiples of one list. For a quotient in lowest terms no coarser classes exist.
+    Division of all polynomials by one monomial changes no quotient, so only differences of exponents matter. A class
+    depends on one monomial if and only if the lists of its variables' exponent differences, over all terms, are
+    multiples of one list. For a quotient in lowest terms no coarser classes exist.
     """
     terms = [exponents for p in polynomials for exponents in p.terms]
     columns = enumerate(zip(*terms, strict=True))
@@ -127,7 +129,7 @@ def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
 
 
 def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
-    """A polynomial with powers >= 0 at whole numbers."""
+    """Evaluate a polynomial with non-negative exponents at integers."""
     total = 0
     for coefficient, exponents in terms:
         for count, power in zip(point, exponents, strict=True):
@@ -140,7 +142,7 @@ def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
 def substituted(
     terms: Iterable[Term], wheels: Sequence[str], left: Sequence[str], counts: Mapping[str, int]
 ) -> Laurent:
-    """The polynomial in the wheels left over."""
+    """Substitute counts in a polynomial, and return it in the remaining wheels."""
     rest = [
         Term(
             whole(
@@ -155,7 +157,7 @@ def substituted(
 
 
 def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
-    """A polynomial as a reader would write it: `3 a b^2 - c`."""
+    """Return a polynomial as text such as `3 a b^2 - c`."""
     words: list[str] = []
     for coefficient, exponents in terms:
         powers = [f"{w}^{e}" if e > 1 else w for w, e in zip(wheels, exponents, strict=True) if e]
@@ -170,29 +172,30 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Formula:
-    """A rational function of tooth counts, reduced: numerator and denominator have no factor in common.
+    """A rational function of tooth counts in lowest terms: numerator and denominator are coprime.
 
-    A denominator without terms is 0: a function that has no value anywhere, which `fixed` may leave.
+    A denominator without terms is 0. Such a function, which `fixed` may return, has no value anywhere.
     """
 
     label: str
-    """The output it gives, or what a condition comes from."""
+    """Output that the formula gives, or the cause of a condition."""
     wheels: tuple[str, ...]
-    """The free wheels it depends on, in the order declared."""
+    """Free wheels on which the function depends, in the order of the declaration."""
     numerator: tuple[Term, ...]
-    """Terms whose exponents are parallel to `wheels`, all >= 0; coefficients are whole, with no common."""
+    """Terms with non-negative exponents in the order of `wheels`; integer coefficients, coprime with the denominator's.
+    """
     denominator: tuple[Term, ...]
-    """Divisor over both; the first coefficient of the denominator is positive."""
+    """Terms like those of the numerator; the first coefficient is positive."""
     groups: tuple[MonomialGroup, ...]
-    """The coarsest classes of wheels such that it depends on each class through one monomial only."""
+    """Coarsest classes of wheels such that the function depends on each through one monomial only."""
     upper: tuple[Term, ...]
-    """Numerator and denominator once more, with exponents parallel to `groups`, all >= 0."""
+    """Numerator in the monomials of `groups`, with non-negative exponents."""
     lower: tuple[Term, ...]
-    """Numerator and denominator once more, with exponents parallel to `groups`, all >= 0."""
+    """Denominator in the monomials of `groups`, with non-negative exponents."""
 
     @property
     def constant(self) -> Fraction | None:
-        """The value, if it depends on no wheel and has one."""
+        """Value of a function that does not depend on any wheel; None otherwise, or if it has no value."""
         return None if self.wheels else self.value({})
 
     @property
@@ -201,36 +204,39 @@ class Formula:
         return any(term.coefficient < 0 for term in self.denominator) or not self.denominator
 
     def value(self, counts: Mapping[str, int]) -> Fraction | None:
-        """The exact value; None where the denominator vanishes: the train is locked or free there.
+        """Return the exact value; None if the denominator vanishes, so that the train is locked or free.
 
-        counts   wheel -> count, of all `wheels` at least
+        counts   tooth count by wheel, at least of all `wheels`
         """
-        point = [int(counts[wheel]) for wheel in self.wheels]  # numpy's would overflow
+        point = [int(counts[wheel]) for wheel in self.wheels]  # Python integers, because numpy's would overflow
         bottom = whole(self.denominator, point)
         return Fraction(whole(self.numerator, point), bottom) if bottom else None
 
     def values(self, columns: Mapping[str, Ints]) -> Floats:
-        """Values of many assignments at once, nan or infinite at poles; `accuracy` bounds their error.
+        """Return the values of many assignments, nan or infinite at poles; `accuracy` bounds their error.
 
-        columns   wheel -> counts, arrays that broadcast against each other
+        columns   counts by wheel, arrays that broadcast against each other
         """
         return self._bounded(columns)[0]
 
     def accuracy(self, columns: Mapping[str, Ints]) -> Floats:
-        """A bound on the relative error of `values`: |value - exact| <= accuracy |exact|, cancellation included.
+        """Return a bound on the relative error of `values`: |value - exact| <= accuracy |exact|, including
+        cancellation.
 
-        Infinite where cancellation leaves no digit, at poles, and beyond the range of float64.
+        Infinite if cancellation leaves no digit, at poles, and beyond the range of float64.
         """
         import numpy as np
 
         value, error = self._bounded(columns)
         with np.errstate(all="ignore"):
-            # the exact value is at least |value| - error in size
+            # |exact| is at least |value| - error
             found = np.where(error > 0, error / (np.abs(value) - error), 0.0)
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """The function of the remaining wheels when some have their counts; wheels it lacks are passed over."""
+        """Return the function of the remaining wheels with some counts substituted; wheels not in the formula are
+        ignored.
+        """
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
             return self
@@ -238,7 +244,7 @@ class Formula:
         return make_formula(self.label, left, *parts)[0]
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
+        """Return plain data for JSON."""
         return {
             "label": self.label,
             "text": str(self),
@@ -255,7 +261,7 @@ class Formula:
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
     def _bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Values and bounds on their absolute errors."""
+        """Return values and bounds on their absolute errors."""
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import BoundedQuotient, in_range, products_of
@@ -273,9 +279,9 @@ class Formula:
 def make_formula(
     label: str, wheels: Sequence[str], numerator: Laurent, denominator: Laurent
 ) -> tuple[Formula, Laurent]:
-    """A formula in lowest terms, and what was cancelled beyond units (1 where nothing was).
+    """Return a formula in lowest terms, and the cancelled common divisor (1 if nothing but units was cancelled).
 
-    wheels   the variables of both polynomials, by index
+    wheels   variables of both polynomials, by index
     """
     if not denominator:
         return Formula(label, (), (Term(1, ()),), (), (), (Term(1, ()),), ()), Laurent.constant(1, len(wheels))
@@ -284,19 +290,19 @@ def make_formula(
     common = common_divisor(top, bottom)
     cancelled = grouping.back(common, len(wheels))
     if not common.is_constant:
-        quotients = [grouping.back(_over(each, common), len(wheels)) for each in (top, bottom)]
-        grouping = find_grouping(quotients)  # what is left may fall into fewer classes
+        quotients = [grouping.back(_quotient(each, common), len(wheels)) for each in (top, bottom)]
+        grouping = find_grouping(quotients)  # the quotients may have fewer classes
         top, bottom = grouping.rewritten
     return _formula(label, wheels, grouping, top, bottom), cancelled
 
 
 def _listed(terms: Sequence[Term]) -> list[list[Any]]:
-    """Terms for JSON; a coefficient too long for Python to write is text."""
+    """Return terms for JSON; coefficients too long for a JSON number are text."""
     return [[c if is_short(c, 600) else fraction_text(c), list(exponents)] for c, exponents in terms]
 
 
 def _formula(label: str, wheels: Sequence[str], grouping: MonomialGrouping, top: Laurent, bottom: Laurent) -> Formula:
-    """The formula of two coprime polynomials in the groups' monomials."""
+    """Return the formula of two coprime polynomials in the monomials of the groups."""
     used = sorted(variable for members in grouping.members for variable in members)
     spread = [grouping.back(each, len(wheels)) for each in (top, bottom)]
     lowest = list(map(min, *(each.lowest() for each in spread if each))) if top else list(spread[1].lowest())
@@ -319,7 +325,7 @@ def _formula(label: str, wheels: Sequence[str], grouping: MonomialGrouping, top:
     return Formula(label, tuple(wheels[at] for at in used), numerator, denominator, groups, upper, lower)
 
 
-def _over(p: Laurent, q: Laurent) -> Laurent:
+def _quotient(p: Laurent, q: Laurent) -> Laurent:
     found = divide(p, q)
     assert found is not None, "a common divisor divides"
     return found

@@ -1,4 +1,4 @@
-"""What the speed of an output is, written in tooth counts and in the speeds of the inputs."""
+"""Speed of an output as a formula in tooth counts and the speeds of the inputs."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InputShare(Result):
-    """What one input adds to an output."""
+    """Contribution of one input to an output."""
 
     KEYS = ("input", "speed", "ratio")
 
     input: str
     """Link that is driven."""
     speed: Fraction
-    """Its declared speed [unit of the train]."""
+    """Declared speed of the input [unit of the train]."""
     ratio: ClosedForm
-    """Output over input while all other inputs stand still."""
+    """Output over input, with all other inputs at rest."""
 
 
 @dataclass(frozen=True)
 class OutputFormula(Result):
-    """The speed of an output: the sum over all inputs of a ratio times the input's speed.
+    """Speed of an output: the sum over all inputs of a ratio times the input's speed.
 
     See Also
     --------
-    geartrain.GearTrain.formula : gives it.
+    geartrain.GearTrain.formula : method that returns it
     """
 
     KEYS = ("output", "state", "text", "latex", "value", "shares", "conditions", "poles")
@@ -48,13 +48,13 @@ class OutputFormula(Result):
     output: str
     """Name of the output."""
     state: str | None
-    """The state."""
+    """Name of the state; None for a train without states."""
     shares: tuple[InputShare, ...]
-    """By input; without those on which the output does not depend."""
+    """Contribution of each input on which the output depends."""
     conditions: tuple[str, ...] = ()
-    """Equations between counts without which the train does not turn: loops that close."""
+    """Equations between tooth counts that are necessary for motion, because they close loops."""
     poles: tuple[str, ...] = ()
-    """Equations between counts at which the output is locked, or free."""
+    """Equations between tooth counts at which the output is locked or free."""
 
     def _summary(self) -> str:
         names = ", ".join(share.input for share in self.shares)
@@ -62,30 +62,30 @@ class OutputFormula(Result):
         return f"{self.output}{state} by {names or 'no input'}"
 
     def __str__(self) -> str:
-        """As text."""
+        """Return the formula as text."""
         return self.text
 
     _repr_html_ = None  # type: ignore[assignment]  # notebooks show the formula
 
     def _repr_latex_(self) -> str:
-        """As notebooks show it."""
+        """Return the formula in LaTeX for notebooks."""
         return f"${self.latex}$"
 
     @property
     def ratio(self) -> ClosedForm:
-        """Output over input, where there is one input.
+        """Output over input, if there is exactly one input.
 
         Raises
         ------
         ValueError
-            Where there are several, or none.
+            If there are several inputs, or the output does not depend on any.
         """
         (share,) = self.shares
         return share.ratio
 
     @property
     def value(self) -> Fraction | None:
-        """The speed at the declared counts and inputs [unit of the train]; None where it is not determined there."""
+        """Speed at the declared counts and inputs [unit of the train]; None if it is not determined there."""
         values = [share.ratio.value for share in self.shares]
         if any(value is None for value in values):
             return None
@@ -93,21 +93,21 @@ class OutputFormula(Result):
 
     @property
     def text(self) -> str:
-        """Such as `carrier = z_s/(z_s + z_r) · sun`; a link's name stands for its speed."""
+        """Formula as text, such as `carrier = z_s/(z_s + z_r) · sun`; the name of a link denotes its speed."""
         return f"{self.output} = {self._sum('text', str)}"
 
     @property
     def latex(self) -> str:
-        """The same in LaTeX."""
-        return f"{_speed(self.output)} = {self._sum('latex', _speed)}"
+        """Formula in LaTeX."""
+        return f"{_speed_symbol(self.output)} = {self._sum('latex', _speed_symbol)}"
 
     def sympy(self) -> Expr:
-        """The speed as an expression of sympy: counts `z_...`, speeds of inputs `w_...`.
+        """Return the speed as a SymPy expression with symbols `z_...` for counts and `w_...` for speeds of inputs.
 
         Raises
         ------
         MissingExtraError
-            Without sympy, the extra `sympy`.
+            If SymPy (extra `sympy`) is not installed.
         """
         parts = [share.ratio.sympy() for share in self.shares]
         import sympy
@@ -125,7 +125,7 @@ class OutputFormula(Result):
 
 
 def _times(ratio: str, speed: str, style: str) -> str:
-    """A ratio times a speed, in brackets where it is a sum."""
+    """Return a ratio times a speed as text, with brackets if the ratio is a sum."""
     if ratio in ("1", "-1"):
         return ratio[:-1] + speed
     dot = " · " if style == "text" else r"\,"
@@ -136,9 +136,10 @@ def _times(ratio: str, speed: str, style: str) -> str:
 
 
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    """Of all outputs of a state, or of some, in the order declared; without those that are not determined.
+    """Yield the formulas of all outputs of a state, or of some, in the order of the declaration.
 
-    All wheels with a count are free; those without, and couplings, are as in `find_formulas`, whose errors these are.
+    Outputs that are not determined are left out. All wheels with a count are free variables. Wheels without a count,
+    and couplings, are treated as in `find_formulas`, which also raises the errors.
     """
     case = train.case(state)
     for name in outputs:
@@ -152,13 +153,15 @@ def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ())
             shares = tuple(
                 InputShare(link, case.inputs[link], ClosedForm(each[name], counts)) for link, each in found.items()
             )
-            told = [each for formulas in found.values() for each in formulas.conditions]
+            required = [each for formulas in found.values() for each in formulas.conditions]
             excluded = [each for formulas in found.values() for each in formulas.exclusions]
             poles = [text for share in shares for text in share.ratio.poles] + _zeros(excluded, counts)
-            yield OutputFormula(name, state, tuple(filter(_matters, shares)), _once(_zeros(told, counts)), _once(poles))
+            yield OutputFormula(
+                name, state, tuple(filter(_is_nonzero, shares)), _unique(_zeros(required, counts)), _unique(poles)
+            )
 
 
-def _matters(share: InputShare) -> bool:
+def _is_nonzero(share: InputShare) -> bool:
     return bool(share.ratio.formula.numerator)
 
 
@@ -166,9 +169,9 @@ def _zeros(formulas: Sequence[Formula], counts: Mapping[str, int]) -> list[str]:
     return [text for each in formulas for text in ClosedForm(each, counts).zeros]
 
 
-def _once(texts: Sequence[str]) -> tuple[str, ...]:
+def _unique(texts: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(texts))
 
 
-def _speed(link: str) -> str:
+def _speed_symbol(link: str) -> str:
     return r"\omega_{\mathrm{" + link.replace("_", r"\_") + "}}"

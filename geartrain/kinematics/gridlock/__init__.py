@@ -1,4 +1,4 @@
-"""Why meshes lock a train, and the least set of them to disengage so that it moves."""
+"""Gridlock: causes for which meshes lock a train, and the smallest set of meshes to disengage so that it moves."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Links that mesh in one carrier's frame as a plain graph with gains, walked once; it knows no gears.
+"""Meshes of one carrier as a gain graph (links as nodes, speed ratios as gains), and its search algorithms.
 
-Speeds are measured in units that make as many meshes as possible say "equal": a mesh then has a gain other than 1
-only where a first walk found its loop open. A loop turns if the product of its gains is 1.
+Speeds are measured in units in which as many meshes as possible have the gain 1. A mesh has another gain only if it
+closed an inconsistent loop in a first search. A loop can turn if the product of its gains is 1.
 """
 
 from __future__ import annotations
@@ -17,29 +17,31 @@ from geartrain.numerics.graphs import tree_path, ways_to_common_ancestor
 
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
-"""A closed walk: at each step the node it leaves and the mesh it takes."""
+"""A closed walk as a list of steps: the node that a step leaves, and the mesh that it uses."""
 
 
 def inverse(gain: Gain) -> Gain:
-    """The gain walked backwards; signs stay integers, which are fast."""
-    return gain if gain == 1 or gain == -1 else 1 / Fraction(gain)  # a float never: products must close exactly
+    """Return the inverse gain; signs stay integers, which are fast."""
+    return (
+        gain if gain == 1 or gain == -1 else 1 / Fraction(gain)
+    )  # never a float, because products are compared with 1 exactly
 
 
 @dataclass(frozen=True)
 class GainGraph:
-    """Nodes 0..size-1 and meshes between them, by position."""
+    """Graph with nodes 0..size-1 and meshes as edges, addressed by index."""
 
     size: int
     ends: Sequence[tuple[int, int]]
-    """Of each mesh; two meshes may join the same nodes."""
+    """Two nodes of each mesh; several meshes may join the same nodes."""
     gains: Mapping[int, Gain]
-    """Mesh -> speed of its second end over that of its first, where that is not 1."""
+    """Gain by mesh, if it is not 1: speed of its second end over that of its first."""
     firm: frozenset[int] = frozenset()
-    """What cannot be disengaged (pins in slots)."""
+    """Meshes that cannot be disengaged (pins in slots)."""
 
     @cached_property
     def at(self) -> list[list[int]]:
-        """The meshes of each node."""
+        """Meshes of each node."""
         meshes: list[list[int]] = [[] for _ in range(self.size)]
         for mesh, (first, second) in enumerate(self.ends):
             meshes[first].append(mesh)
@@ -47,24 +49,24 @@ class GainGraph:
         return meshes
 
     def gain(self, mesh: int, start: int) -> Gain:
-        """Speed gained over a mesh that is left from `start`."""
+        """Return the gain of a mesh in the direction away from `start`."""
         gain = self.gains.get(mesh, 1)
         return gain if start == self.ends[mesh][0] else inverse(gain)
 
     def other(self, mesh: int, start: int) -> int:
-        """The far end of a mesh."""
+        """Return the far end of a mesh."""
         first, second = self.ends[mesh]
         return first + second - start
 
     def product(self, loop: GainLoop) -> Gain:
-        """Product of the gains round a loop."""
+        """Return the product of the gains around a loop."""
         total: Gain = 1
         for node, mesh in loop:
             total = total * self.gain(mesh, node)
         return total
 
     def part(self, meshes: Sequence[int]) -> tuple[GainGraph, list[int]]:
-        """The network of some meshes alone, in the order given, and the nodes it keeps."""
+        """Return the subgraph of some meshes, in the order given, and the nodes that it has."""
         nodes = list(dict.fromkeys(node for mesh in meshes for node in self.ends[mesh]))
         number = {node: at for at, node in enumerate(nodes)}
         ends = [(number[self.ends[mesh][0]], number[self.ends[mesh][1]]) for mesh in meshes]
@@ -74,36 +76,39 @@ class GainGraph:
 
 
 class GainWalk(NamedTuple):
-    """A breadth-first walk: nodes as reached, the mesh and node each was reached by (-1 at a root), and speeds."""
+    """Result of a breadth-first search.
+
+    Nodes in the order of discovery, predecessor node and mesh of each (-1 for a root), and speeds.
+    """
 
     order: list[int]
     parent: list[int]
     entry: list[int]
     speed: list[Gain]
     breaking: dict[int, Gain]
-    """Meshes that contradict the walk -> by how much, from first end to second."""
+    """Meshes that are inconsistent with the search tree, with the factor of inconsistency from first end to second."""
     chords: list[int]
     """All other meshes that close a loop."""
 
     def above(self, node: int) -> int | None:
-        """The node from which another was reached; None for a root."""
+        """Return the predecessor of a node; None for a root."""
         return self.parent[node] if self.parent[node] >= 0 else None
 
     def loop(self, mesh: int, ends: tuple[int, int]) -> GainLoop:
-        """The loop a chord closes, from where its two ways to the root part; the chord follows its first end."""
+        """Return the loop that a chord closes, starting at the common ancestor of its ends."""
         up, down = ways_to_common_ancestor(*ends, self.above)
         there = [(self.parent[node], self.entry[node]) for node in up[-2::-1]]
         return [*there, (ends[0], mesh), *((node, self.entry[node]) for node in down[:-1])]
 
 
 def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Sequence[int] = ()) -> GainWalk:
-    """Walk all nodes breadth first, from `roots` where possible, leaving some meshes out."""
+    """Search all nodes breadth first, from `roots` if possible, without some meshes."""
     gone = bytearray(len(network.ends))
     for mesh in without:
         gone[mesh] = 1
     size, at, ends, gains = network.size, network.at, network.ends, network.gains
     parent, entry = [-1] * size, [-1] * size
-    speeds: list[Gain] = [0] * size  # 0: not reached
+    speeds: list[Gain] = [0] * size  # 0 means not reached
     order: list[int] = []
     done = 0
     for root in (*roots, *range(size)):
@@ -123,7 +128,7 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Se
                     speeds[there] = speeds[here] * network.gain(mesh, here) if mesh in gains else speeds[here]
                     parent[there], entry[there] = here, mesh
                     order.append(there)
-                    gone[mesh] = 1  # in the tree
+                    gone[mesh] = 1  # tree edge
     breaking: dict[int, Gain] = {}
     chords = []
     for mesh, (first, second) in enumerate(ends):
@@ -138,23 +143,23 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Se
 
 
 def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
-    """True if every loop closes once some meshes are out."""
+    """Return True if every loop is consistent after removal of some meshes."""
     return not walk_gain_graph(network, without).breaking
 
 
 def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
-    """Every mesh that frees a connected network all by itself, in linear time.
+    """Return every mesh whose removal alone frees a connected network, in linear time.
 
-    Such a mesh lies on any loop that does not close, so one such loop is laid out as a path of the walk's tree plus
-    its chord. A chord's way through the tree covers a stretch of that path. A mesh of the path frees the network if
-    every chord that contradicts covers it, all by the same amount, and no chord that agrees does.
+    Such a mesh lies on every inconsistent loop, so one such loop is taken as a tree path plus its chord. The tree path
+    of any other chord covers an interval of that path. A mesh of the path frees the network if every inconsistent chord
+    covers it, all with the same factor, and no consistent chord covers it.
     """
     if not found.breaking:
         return []
     chord = next(iter(found.breaking))
     path = tree_path(*network.ends[chord], found.above)
     anchors = _anchors(found, path)
-    # each chord covers a stretch of the path: +1 where it begins, -1 where it ends, and sums tell how many are open
+    # each chord covers an interval of the path: +1 at its start, -1 at its end; prefix sums count covering chords
     opened, agreed, amounts = [0] * (len(path) + 1), [0] * (len(path) + 1), set()
     for mesh, amount in found.breaking.items():
         low, high = (anchors[end] for end in network.ends[mesh])
@@ -175,11 +180,11 @@ def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
 
 
 def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
-    """Where each node's way through the tree meets a path, as a position on it."""
+    """Return for each node the position at which its tree path joins a given path."""
     anchors = [-1] * len(found.order)
     for at, node in enumerate(path):
         anchors[node] = at
-    # the node of the path nearest the root: what hangs on no node of the path comes over this one
+    # the node of the path nearest the root, through which all nodes outside its subtrees are reached
     top = next(at for at, node in enumerate(path) if found.parent[node] not in path[max(0, at - 1) : at + 2])
     for node in found.order:
         if anchors[node] < 0:
@@ -189,7 +194,7 @@ def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
 
 
 def biconnected_blocks(network: GainGraph) -> list[list[int]]:
-    """The meshes of each part that no single node holds together (Hopcroft and Tarjan 1973), without recursion."""
+    """Return the meshes of each biconnected component (Hopcroft and Tarjan 1973), without recursion."""
     order, low = [0] * network.size, [0] * network.size
     used = bytearray(len(network.ends))
     found: list[list[int]] = []
@@ -231,29 +236,29 @@ def biconnected_blocks(network: GainGraph) -> list[list[int]]:
 def shortest_loop(
     network: GainGraph, without: Collection[int] = (), starts: Sequence[int] | None = None
 ) -> GainLoop | None:
-    """A shortest loop that does not close, among those through `starts` (default: any node)."""
+    """Return a shortest inconsistent loop through one of `starts` (default: any node)."""
     best: GainLoop | None = None
     for start in range(network.size) if starts is None else starts:
         loop = _loop_through(network, without, start, len(best) if best else 2 * network.size + 1)
         if loop is not None and (best is None or len(loop) < len(best)):
             best = loop
-            if len(best) == 2:  # none is shorter
+            if len(best) == 2:  # the shortest possible loop
                 break
     return best
 
 
 def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop | None:
-    """Breadth-first search for a loop shorter than `below` that contradicts the walk from `start`."""
+    """Find an inconsistent loop shorter than `below` by breadth-first search from `start`."""
     speed: dict[int, Gain] = {start: 1}
     came: dict[int, tuple[int, int]] = {}
     depth = {start: 0}
     best: tuple[int, int, int] | None = None
     queue = [start]
     for here in queue:
-        if 2 * depth[here] + 1 >= below:  # what closes from here on is as long as the best at least
+        if 2 * depth[here] + 1 >= below:  # loops found from here on are not shorter than the best
             break
         for mesh in network.at[here]:
-            # by mesh, not by node: two meshes between the same nodes make a loop
+            # compare meshes, not nodes, because two meshes between the same nodes form a loop
             if mesh in without or (here in came and mesh == came[here][1]):
                 continue
             there = network.other(mesh, here)

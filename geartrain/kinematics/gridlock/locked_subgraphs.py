@@ -1,4 +1,4 @@
-"""From a train's components to its gridlock: one network for each component with a loop that does not close."""
+"""Gridlock of a train: one gain graph for each component with an inconsistent loop."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000
-"""Meshes up to which those about several carriers are tried; each trial solves the train."""
-_ONE_BY_ONE = 200  # meshes up to which each is tried alone
-_TRIALS = 3000  # sets that are tried at most
+"""Maximum number of meshes for the search over several carriers; each trial solves the train."""
+_ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
+_TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
-    """A component as a network: its carrier, links by node, and circuits by mesh."""
+    """A component as a gain graph: its carrier, links by node, and circuits by mesh."""
 
     carrier: str
     links: list[str]
@@ -35,24 +35,24 @@ class LockedNetwork(NamedTuple):
 
 @collector_paused()
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
-    """Whether the meshes of a train let it move; brakes, locks and inputs are left aside, and so are followers.
+    """Find the locked parts of a train, without regard to brakes, locks, inputs and followers.
 
-    A follower only swings: that its mean speed is 0 is no fault of a mesh.
+    A follower only oscillates; its mean speed of 0 is not caused by a mesh.
     """
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
         return Gridlock()
-    jams = tuple(_jam(parts, jammed) for jammed in find_locked_networks(parts))
+    jams = tuple(_locked_subgraph(parts, jammed) for jammed in find_locked_networks(parts))
     gone = {mesh for jam in jams for mesh in jam.release.meshes}
-    ordinary = all(carrier == parts.frame for carrier in parts.group_carrier)  # nothing then couples components
-    held = () if ordinary else _held(part, gone)
+    ordinary = all(carrier == parts.frame for carrier in parts.group_carrier)  # then components are not coupled
+    held = () if ordinary else _locked_links(part, gone)
     if held:
-        return Gridlock(jams, held, _coupled(part, gone, sum(jam.release.at_least for jam in jams)))
+        return Gridlock(jams, held, _coupled_removal(part, gone, sum(jam.release.at_least for jam in jams)))
     return Gridlock(jams, (), join_removals(jam.release for jam in jams) if jams else None)
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """The networks of all components with a loop that does not close, in units in which all other meshes say equal."""
+    """Return the gain graphs of all components with an inconsistent loop, in units in which all other gains are 1."""
     size = len(parts.links)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
     gains = {chord: _gain(parts, chord) for chord in parts.breaking}
@@ -92,12 +92,12 @@ def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
 
 
 def _gain(parts: Components, chord: int) -> Gain:
-    """By how much a circuit contradicts the walk through its component, from its first link to its second."""
+    """Return the factor by which a circuit is inconsistent with the search tree, from its first link to its second."""
     gain = parts.closing_product(chord)
     return -1 if gain == -1 else gain
 
 
-def _jam(parts: Components, jammed: LockedNetwork) -> LockedSubgraph:
+def _locked_subgraph(parts: Components, jammed: LockedNetwork) -> LockedSubgraph:
     network = jammed.network
     found = walk_gain_graph(network)
     choice = choose_removal(network, found)
@@ -138,37 +138,39 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
     return SolvedPart(part.links, part.frame, circuits, part.first)
 
 
-def _held(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """The links that meshes hold still, whatever their teeth, once some meshes are out.
+def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
+    """Return the links that meshes lock for any tooth counts, after removal of some meshes.
 
-    A ratio can keep a link upright, and all that it drives at rest, while the train moves. Other teeth would move
-    such links, so what counts is to stand still with other ratios too.
+    A ratio can keep one link from rotating, and all links that it drives at rest, while the train moves. With other
+    tooth counts these links would move, so only links that are at rest for other ratios too are counted.
     """
     less = _without(part, gone)
-    still = _still(less)
+    still = _stationary_links(less)
     if not still:
         return ()
-    always = set(_still(_varied(less)))
+    always = set(_stationary_links(_with_random_ratios(less)))
     return tuple(link for link in still if link in always)
 
 
-def _still(part: SolvedPart) -> tuple[str, ...]:
+def _stationary_links(part: SolvedPart) -> tuple[str, ...]:
     mobility = find_mobility(part.reduced, 0)
     if mobility.by_rank:
         return mobility.still
     return tuple(link for link in part.links if link != part.frame)
 
 
-def _varied(part: SolvedPart) -> SolvedPart:
-    """The train with another ratio for every link about every carrier; loops keep their products."""
+def _with_random_ratios(part: SolvedPart) -> SolvedPart:
+    """Return the train with another ratio for every link and carrier; the ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
-        # long and random: that a link then stands still by accident is next to impossible (Schwartz-Zippel)
-        return Random(f"{link} {carrier}").randrange(10**6, 10**7)  # by name, so that it stays when meshes go
+        # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma)
+        return Random(f"{link} {carrier}").randrange(
+            10**6, 10**7
+        )  # seeded by name, so that it does not change when meshes are removed
 
     circuits = [
         circuit._replace(
-            # each link's speed about the carrier times a factor of its own: products round loops stay as they are
+            # each link's relative speed is multiplied by its own factor, which cancels in the product around a loop
             a=circuit.a * factor(circuit.j, circuit.carrier),
             b=circuit.b * factor(circuit.i, circuit.carrier),
         )
@@ -177,56 +179,63 @@ def _varied(part: SolvedPart) -> SolvedPart:
     return SolvedPart(part.links, part.frame, circuits, part.first)
 
 
-def _frees(part: SolvedPart, gone: Collection[str]) -> bool:
-    """True if every loop closes and every link can move once some meshes are out."""
+def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
+    """Return True if every loop is consistent and every link can move after removal of some meshes."""
     less = _without(part, gone)
-    return not less.reduced.components.breaking and not _held(part, gone)
+    return not less.reduced.components.breaking and not _locked_links(part, gone)
 
 
-def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Meshes about several carriers that free the train: a least set if few are at stake, else none of which can stay.
+def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
+    """Return meshes of several carriers whose removal frees the train: a smallest set for few meshes, else a minimal
+    one.
 
-    None where there are none, or too many to try.
+    None if such a set does not exist, or there are too many meshes to try.
     """
     toothed = _without(part, ())
-    bound = {circuit.id for some in (toothed, _varied(toothed)) for circuit in relevant_circuits(some.circuits, ())}
+    bound = {
+        circuit.id
+        for some in (toothed, _with_random_ratios(toothed))
+        for circuit in relevant_circuits(some.circuits, ())
+    }
     gears = [circuit.id for circuit in toothed.circuits if circuit.kind == "gear" and circuit.id in bound]
-    if len(gears) > MOST_COUPLED or not _frees(part, gears):
+    if len(gears) > MOST_COUPLED or not _frees_train(part, gears):
         return None
     minimum = max(1, at_least)
-    singles = [gear for gear in gears if _frees(part, {gear})] if minimum == 1 and len(gears) <= _ONE_BY_ONE else []
+    singles = (
+        [gear for gear in gears if _frees_train(part, {gear})] if minimum == 1 and len(gears) <= _ONE_BY_ONE else []
+    )
     if singles:
         return MeshRemoval((singles[0],), "one", 1, tuple(singles))
-    needed = _needed(part, sorted(gears, key=lambda name: name not in gone))
-    # each mesh was tried alone, and none of them frees the train
+    needed = _minimal_removal(part, sorted(gears, key=lambda name: name not in gone))
+    # no single mesh frees the train
     minimum = max(minimum, 2) if len(gears) <= _ONE_BY_ONE else minimum
     if sum(comb(len(gears), size) for size in range(minimum, len(needed))) > _TRIALS:
         return MeshRemoval(tuple(needed), "greedy", minimum)
-    return _searched(part, gears, needed, range(minimum, len(needed)))
+    return _search_smaller_sets(part, gears, needed, range(minimum, len(needed)))
 
 
-def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:
-    """A set that frees the train and of which no mesh can stay, those early in the list first.
+def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
+    """Return a minimal set of meshes whose removal frees the train, preferring those early in the list.
 
-    Taking out more meshes never locks anything, so the shortest part of the list that does is found by halving; its
-    last mesh is needed, and the search goes on among those before it.
+    Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
+    Its last mesh is necessary, and the search continues among those before it.
     """
     needed: list[str] = []
     left = list(gears)
-    while not _frees(part, needed):
+    while not _frees_train(part, needed):
         low, high = 1, len(left)
         while low < high:
             middle = (low + high) // 2
-            low, high = (low, middle) if _frees(part, [*needed, *left[:middle]]) else (middle + 1, high)
+            low, high = (low, middle) if _frees_train(part, [*needed, *left[:middle]]) else (middle + 1, high)
         needed.append(left[low - 1])
         del left[low - 1 :]
     return needed
 
 
-def _searched(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
-    """All smaller sets tried, the smallest first."""
+def _search_smaller_sets(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
+    """Search all smaller sets exhaustively, in the order of size."""
     for size in sizes:
         for some in combinations(gears, size):
-            if _frees(part, some):
+            if _frees_train(part, some):
                 return MeshRemoval(some, "search", size)
     return MeshRemoval(tuple(kept), "search", len(kept))

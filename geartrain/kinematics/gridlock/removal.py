@@ -1,4 +1,4 @@
-"""What a gridlock report says: the loops at fault, and the meshes to disengage."""
+"""Result of a gridlock analysis: the inconsistent loops, and the meshes to disengage."""
 
 from __future__ import annotations
 
@@ -16,31 +16,34 @@ _WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "gre
 
 @dataclass(frozen=True, slots=True)
 class RemovalBound(Result):
-    """Loops that do not close, each mesh on at most `sharing` of them: one mesh frees no more than that many."""
+    """Lower bound on the number of meshes to remove, proved by inconsistent loops.
+
+    Each mesh belongs to at most `sharing` of the loops, so removal of one mesh resolves at most that number of loops.
+    """
 
     KEYS = ("sharing", "loops")
 
     loops: tuple[Loop, ...]
-    """Loops that do not close."""
+    """Inconsistent loops (ratio product other than 1)."""
     sharing: int
-    """The most loops to which one mesh belongs."""
+    """Maximum number of loops to which one mesh belongs."""
 
     @property
     def at_least(self) -> int:
-        """How many meshes must go."""
+        """Minimum number of meshes to remove."""
         return -(-len(self.loops) // self.sharing)
 
     def __str__(self) -> str:
         many = len(self.loops)
         if many == 1:
-            return "a loop that does not close needs one"
-        apart = "share no mesh" if self.sharing == 1 else "have each mesh in at most two of them"
-        return f"{many} loops that do not close {apart}"
+            return "a loop that does not close requires one removal"
+        loops = f"{many} loops that do not close"
+        return f"{loops} share no mesh" if self.sharing == 1 else f"each mesh is in at most two of {loops}"
 
 
 @dataclass(frozen=True, slots=True)
 class MeshRemoval(Result):
-    """Meshes to disengage so that every loop closes and all links held by them can move; none of them could stay.
+    """Meshes to disengage so that all locked links can move. None of them can be left out.
 
     See Also
     --------
@@ -52,15 +55,18 @@ class MeshRemoval(Result):
     meshes: tuple[str, ...]
     """Ids of the pairs."""
     method: RemovalMethod
-    """One: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh. matching,
-    search: exact, by matching the odd regions of a planar set (a T-join) or by branch and bound. greedy: a good set
-    without a proof that it is the least."""
+    """Method by which the set was found.
+
+    one: a single mesh is enough (for each part). loops: the same number of inconsistent loops share no mesh. matching,
+    search: exact, by matching the odd faces of a planar graph (a T-join) or by branch and bound. greedy: a heuristic
+    set, not proved to be the smallest.
+    """
     at_least: int
-    """A proved lower bound on how many meshes must go."""
+    """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """Where one mesh is enough: all that would do."""
+    """All alternatives, if a single mesh is enough."""
     proofs: tuple[RemovalBound, ...] = ()
-    """Loops that prove the bound; empty where it rests on the method alone."""
+    """Loops that prove the bound; empty if only the method proves it."""
 
     def _summary(self) -> str:
         return str(self)
@@ -76,26 +82,28 @@ class MeshRemoval(Result):
             return f"disengage {one}" if len(self.choices) == 1 else f"disengage one of {abridged_names(self.choices)}"
         many = len(self.meshes)
         text = f"disengage {many} meshes: {abridged_names(self.meshes)}" if many > 1 else f"disengage {self.meshes[0]}"
-        return f"{text}; {self._why()}"
+        return f"{text}; {self._reason()}"
 
-    def _why(self) -> str:
+    def _reason(self) -> str:
         proof = ", and ".join(map(str, self.proofs)) if sum(p.at_least for p in self.proofs) == self.at_least else ""
         if not self.minimum:
-            because = f", for {proof}" if proof else ""
-            return f"none of them can stay, but a smaller set may do; at least {self.at_least} must go{because}"
+            because = f", because {proof}" if proof else ""
+            return (
+                f"none of them is superfluous, but a smaller set may exist; at least {self.at_least} must go{because}"
+            )
         exact = {
-            "one": "one mesh is the least",
-            "matching": "the shortest way to pair the odd regions of the mesh graph, which is planar",
-            "search": "all smaller sets are ruled out by branch and bound",
-            "loops": "so many loops share no mesh",
-            "greedy": "no smaller set does",
+            "one": "at least one mesh must go",
+            "matching": "minimum-weight matching of the odd faces of the mesh graph, which is planar",
+            "search": "branch and bound excludes all smaller sets",
+            "loops": "the same number of loops share no mesh",
+            "greedy": "a smaller set does not exist",
         }
-        return f"no fewer will do: {proof or exact[self.method]}"
+        return f"this is the minimum: {proof or exact[self.method]}"
 
 
 @dataclass(frozen=True, slots=True)
 class LockedSubgraph(Result):
-    """One component that its meshes lock to its carrier, and what frees it.
+    """One component that its meshes lock to its carrier, and the meshes whose removal frees it.
 
     See Also
     --------
@@ -103,17 +111,17 @@ class LockedSubgraph(Result):
     """
 
     carrier: str
-    """The link from which the component is seen, and with which alone it can turn."""
+    """Carrier of the component, together with which all its links turn."""
     loop: Loop
-    """A loop that does not close."""
+    """Inconsistent loop (ratio product other than 1)."""
     links: tuple[str, ...]
     """All links of the component."""
     meshes: int
-    """How many meshes are between them."""
+    """Number of meshes of the component."""
     by: Literal["sign", "ratio"]
-    """Sign: every loop comes back at the same speed, some reversed. ratio: some at another speed."""
+    """Cause: sign, if all inconsistent loops have the ratio product -1; ratio otherwise."""
     release: MeshRemoval
-    """What frees this component alone."""
+    """Meshes whose removal frees this component."""
 
     def _summary(self) -> str:
         return str(self)
@@ -121,22 +129,23 @@ class LockedSubgraph(Result):
     def __str__(self) -> str:
         loop = self.loop
         if loop.product == -1:
-            why = "its reversing meshes are odd in number, so each wheel would turn against itself"
+            why = "it has an odd number of reversing meshes, so each wheel would have to turn both ways"
         elif loop.product < 0:
-            why = "each wheel would turn against itself, and at another speed"
+            why = "each wheel would have to turn both ways, at different speeds"
         else:
-            why = f"each wheel would turn at two speeds, {abridged_text(loop.product)} of each other"
+            why = f"each wheel would have to turn at two speeds with the ratio {abridged_text(loop.product)}"
         return f"{loop} does not close: {why}"
 
 
 @dataclass(frozen=True, slots=True)
 class Gridlock(Result):
-    """Whether the meshes of a train let it move, brakes and inputs left aside, and if not, how to free it.
+    """Locked parts of a train, without regard to brakes and inputs, and the meshes whose removal frees it.
 
     Notes
     -----
-    The least set of meshes is the frustration index of a graph with gains; where all gains are 1 and -1 and the graph
-    is planar it is a least T-join (Katai and Iwai 1978), else branch and bound; docs/theory.md, 7.
+    The size of the smallest set of meshes is the frustration index of a gain graph. If all gains are 1 and -1 and the
+    graph is planar, the set is a minimum T-join (Katai and Iwai 1978); otherwise it is found by branch and bound;
+    docs/theory.md, 7.
 
     Examples
     --------
@@ -155,55 +164,54 @@ class Gridlock(Result):
     KEYS = ("moves", "jams", "held", "release")
 
     jams: tuple[LockedSubgraph, ...] = ()
-    """Components with a loop that does not close, equation (21) of docs/theory.md."""
+    """Components with an inconsistent loop, equation (21) of docs/theory.md."""
     held: tuple[str, ...] = ()
-    """Links that meshes about several carriers hold still together, though each loop closes."""
+    """Links that meshes of several carriers lock together, although every loop is consistent."""
     release: MeshRemoval | None = None
-    """What frees the whole train; None if it moves, or if nothing was found."""
+    """Meshes whose removal frees the whole train; None if it moves, or if no set was found."""
 
     def _summary(self) -> str:
         return str(self)
 
     @property
     def moves(self) -> bool:
-        """True if no mesh holds anything still."""
+        """True if no link is locked by meshes."""
         return not self.jams and not self.held
 
     def __str__(self) -> str:
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """What is wrong and what to do, a sentence each; nothing for a train that moves.
+        """Yield one sentence for each problem and its remedy; nothing for a train that moves.
 
         Parameters
         ----------
         most : int
-            Components that are described; of the others only how many there are.
+            Maximum number of components that are described; for the others only their number is given.
         """
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"
             if len(self.jams) > 1 or self.held:
-                yield f"this one turns again: {jam.release}"
+                yield f"to free this part, {jam.release}"
         if len(self.jams) > most:
-            yield f"gridlock: {len(self.jams) - most} more parts of the train are locked by loops of their own"
+            yield f"gridlock: {len(self.jams) - most} more parts of the train are locked by other loops"
         if self.held:
-            stand = "stands" if len(self.held) == 1 else "stand"
-            closing = "" if self.jams else ", each loop of which closes"
-            by = f"held by meshes about several carriers together{closing}"
-            yield f"gridlock: {abridged_names(self.held)} {stand} still, {by}"
+            closing = "" if self.jams else ", although each loop closes"
+            by = f"locked by meshes of several carriers together{closing}"
+            yield f"gridlock: {abridged_names(self.held)} cannot move, {by}"
         if self.release is not None:
             yield f"to free the train, {self.release}"
         elif not self.moves:
-            yield "no set of meshes is known to free it: pins in slots hold it, or there are too many meshes to try"
+            yield "no set of meshes was found to free it: pins in slots lock it, or there are too many meshes to try"
 
 
 def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:
-    """The method that proves least: what was found part by part is only as good as that."""
+    """Return the method with the weakest proof, which is the proof of the combined result."""
     return max(methods, key=_WEAKER.index)
 
 
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
-    """Releases of components that have no mesh in common, as one."""
+    """Combine the removals of components without common meshes."""
     parts = tuple(releases)
     if len(parts) == 1:
         return parts[0]
@@ -217,7 +225,7 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
 
 
 def merge_bounds(proofs: Iterable[RemovalBound]) -> Iterator[RemovalBound]:
-    """Proofs about meshes that are not in common: loops that share no mesh are counted together."""
+    """Merge bounds on disjoint sets of meshes; loops that share no mesh are counted together."""
     every = list(proofs)
     apart = tuple(loop for proof in every if proof.sharing == 1 for loop in proof.loops)
     if apart:

@@ -1,12 +1,13 @@
-"""Which meshes to disengage: one where one is enough, a least set where that can be proved, else a good one.
+"""Choice of the meshes to disengage: a single one if that is enough, a smallest set if it can be proved, else a good
+one.
 
-Least sets of meshes by branch and bound, good sets by a greedy forest, and loops that prove a lower bound.
+Smallest sets are found by branch and bound, good sets by a greedy forest; loops without a common mesh prove a lower
+bound. For planar graphs whose gains are signs, the smallest set is found by matching:
 
-The least set of meshes that frees a planar set of gears whose loops fail by sign alone.
-
-Drawn in the plane, a mesh graph parts it into regions. A set of meshes frees the train if and only if, in the dual
-graph, it joins the regions with an odd loop round them in pairs: a T-join, and the least is a minimum-weight perfect
-matching of the odd regions by their distances (Edmonds and Johnson 1973; for signed graphs Katai and Iwai 1978).
+Drawn in the plane, a mesh graph divides it into faces. A set of meshes frees the train if and only if, in the dual
+graph, it joins the faces with an odd boundary in pairs, that is, if it is a T-join. The smallest one is a
+minimum-weight perfect matching of the odd faces by their distances (Edmonds and Johnson 1973; for signed graphs Katai
+and Iwai 1978).
 """
 
 from __future__ import annotations
@@ -39,9 +40,9 @@ if TYPE_CHECKING:
 def disjoint_loops(
     network: GainGraph, without: Collection[int] = (), firm: Collection[int] = ()
 ) -> list[GainLoop] | None:
-    """Loops that do not close and share no mesh but firm ones: each costs a mesh of its own.
+    """Return inconsistent loops that share no mesh other than firm ones, so that each requires the removal of one mesh.
 
-    Shortest first. None where a loop consists of firm meshes alone, so that nothing frees it.
+    Shortest loops are taken first. None if a loop consists of firm meshes only, so that it cannot be resolved.
     """
     used = set(without)
     loops: list[GainLoop] = []
@@ -55,20 +56,21 @@ def disjoint_loops(
 
 
 def minimal_removal(network: GainGraph, most: int, budget: int) -> list[int] | None:
-    """A least set of meshes that frees the network, of fewer than `most`; None if there is none, `most` being least.
+    """Find a smallest set of fewer than `most` meshes whose removal frees the network; None if none exists.
 
-    Branches on the meshes of a shortest loop that does not close: one of them has to go. A bound on what is left
-    comes from loops without a common mesh. Raises `OverBudgetError` after `budget` branches.
+    Branch and bound. It branches on the meshes of a shortest inconsistent loop, one of which must be removed. The
+    lower bound on the remaining removals is the number of loops without a common mesh. Raises `OverBudgetError` after
+    `budget` branches.
     """
-    return _Search(network, most, budget).run()
+    return _BranchAndBound(network, most, budget).run()
 
 
 class OverBudgetError(Exception):
-    """The search took more branches than allowed."""
+    """Error raised if branch and bound exceeds its number of branches."""
 
 
-class _Search:
-    """One branch and bound: `best` is the least set so far, `most` its size."""
+class _BranchAndBound:
+    """State of one branch and bound: `best` is the smallest set so far, `most` its size."""
 
     def __init__(self, network: GainGraph, most: int, budget: int) -> None:
         self.network, self.most, self.budget = network, most, budget
@@ -83,7 +85,7 @@ class _Search:
         if self.budget < 0:
             raise OverBudgetError
         loops = disjoint_loops(self.network, gone, kept)
-        # each of these loops costs a mesh of its own, so nothing below this branch is smaller than the best
+        # each of these disjoint loops requires one removal, so this branch cannot improve the best set
         if loops is None or len(gone) + len(loops) >= self.most:
             return
         if not loops:
@@ -94,37 +96,39 @@ class _Search:
             if mesh in kept or mesh in self.network.firm:
                 continue
             self._branch([*gone, mesh], kept)
-            # all sets with this mesh are tried: in what follows it stays, so that no set is tried twice
+            # all sets with this mesh have been tried; it is kept in what follows, so that no set is tried twice
             kept.add(mesh)
             passed.append(mesh)
         kept.difference_update(passed)
 
 
 def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list[GainLoop]]:
-    """Meshes that free the network, none of which could stay, and short loops without a common mesh.
+    """Return a minimal set of meshes whose removal frees the network, and short loops without a common mesh.
 
-    A forest of gains grows mesh by mesh and keeps what agrees: meshes on no short loop that fails first, those on
-    most such loops last. Nodes then move to the speed that most of their meshes ask for.
+    A spanning forest with gains grows mesh by mesh and keeps the consistent ones: first meshes on no short inconsistent
+    loop, last those on most such loops. Nodes then change to the speed for which most of their meshes are consistent.
     """
-    suspects, loops = _suspects(network, found)
+    suspects, loops = _inconsistent_loop_counts(network, found)
     tree = [mesh for mesh in found.entry if mesh >= 0]
     last = sorted(suspects, key=lambda mesh: suspects[mesh])
     calm = [mesh for mesh in (*tree, *found.chords, *found.breaking) if mesh not in suspects]
     best: list[int] | None = None
     for order in ([*calm, *last], [*tree, *found.chords, *found.breaking]):
-        first = _refused(network, order)
-        better = _improved(network, first)
+        first = _inconsistent_meshes(network, order)
+        better = _local_search(network, first)
         minimum = better if len(better) < len(first) else first
         if best is None or len(minimum) < len(best):
             best = minimum
     return best or [], loops
 
 
-def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict[int, int], list[GainLoop]]:
-    """How many loops of two to four meshes that fail each mesh lies on; and such loops without a common mesh.
+def _inconsistent_loop_counts(
+    network: GainGraph, found: GainWalk, most: int = 64
+) -> tuple[dict[int, int], list[GainLoop]]:
+    """Return the number of inconsistent loops of two to four meshes on which each mesh lies, and disjoint ones of them.
 
-    A loop that fails contains a mesh with a gain once the walk's speeds are taken as units, so only the
-    surroundings of those are looked at; nodes of very many meshes are passed over.
+    An inconsistent loop contains a mesh with a gain other than 1 if speeds are in the units of the search, so only the
+    neighbourhood of such meshes is searched. Nodes with more than `most` meshes are skipped.
     """
     times: dict[int, int] = {}
     loops: list[GainLoop] = []
@@ -138,7 +142,7 @@ def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict
             seen.add(meshes)
             for step in meshes:
                 times[step] = times.get(step, 0) + 1
-    # short loops first, for more of them fit beside each other; then by number, the same on every run
+    # short loops first, because more of them can be disjoint; then by number, for reproducible results
     for meshes_of in sorted(seen, key=lambda some: (len(some), sorted(some))):
         if taken.isdisjoint(meshes_of - network.firm):
             taken |= meshes_of - network.firm
@@ -147,7 +151,7 @@ def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict
 
 
 def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
-    """All loops of two, three and four meshes through one mesh."""
+    """Return all loops of two, three and four meshes through one mesh."""
     start, end = network.ends[mesh]
     loops: list[GainLoop] = []
     if max(len(network.at[start]), len(network.at[end])) > most:
@@ -172,7 +176,7 @@ def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
 
 
 def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
-    """A loop from the set of its meshes."""
+    """Arrange the set of meshes of a loop in their order."""
     left = sorted(meshes)
     first = left.pop(0)
     loop: GainLoop = [(network.ends[first][0], first)]
@@ -185,14 +189,16 @@ def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
     return loop
 
 
-def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
-    """Kruskal's forest with gains: the meshes that contradict those before them; firm ones come first."""
+def _inconsistent_meshes(network: GainGraph, order: Sequence[int]) -> list[int]:
+    """Return the meshes that are inconsistent with earlier ones in a forest with gains (Kruskal); firm ones come
+    first.
+    """
     up = list(range(network.size))
-    gain: list[Gain] = [1] * network.size  # speed over that of the node above
+    gain: list[Gain] = [1] * network.size  # speed over that of the parent node
     refused = []
     for mesh in (*network.firm, *(mesh for mesh in order if mesh not in network.firm)):
         first, second = network.ends[mesh]
-        (top, one), (other, two) = _top(up, gain, first), _top(up, gain, second)
+        (top, one), (other, two) = _root(up, gain, first), _root(up, gain, second)
         requested = one * network.gains[mesh] if mesh in network.gains else one
         if top != other:
             up[other], gain[other] = top, requested if two == 1 else requested * inverse(two)
@@ -201,8 +207,8 @@ def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
     return refused
 
 
-def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
-    """Union-find with path compression: the root above a node, and the node's speed over the root's."""
+def _root(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
+    """Return the root of a node and the node's speed over the root's (union-find with path compression)."""
     chain = []
     while up[node] != node:
         chain.append(node)
@@ -214,28 +220,28 @@ def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
     return node, total
 
 
-def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
-    """Let nodes near refused meshes take the speed most of their meshes ask for, as long as that helps."""
+def _local_search(network: GainGraph, refused: Sequence[int]) -> list[int]:
+    """Reduce a removal by local search: nodes take the speed for which most of their meshes are consistent."""
     speed = list(walk_gain_graph(network, refused).speed)
     queue = [node for mesh in refused for node in network.ends[mesh]]
     for here in queue:
         requested: dict[Gain, int] = {}
         for mesh in network.at[here]:
             there = network.other(mesh, here)
-            # a firm mesh outvotes all others together
+            # a firm mesh has more weight than all others together
             value = speed[there] * network.gain(mesh, there)
             requested[value] = requested.get(value, 0) + (len(network.ends) if mesh in network.firm else 1)
         best = max(requested, key=lambda value: requested[value])
-        # only strictly more votes move a node: the sum of votes that are met grows each time, and the loop ends
+        # only a strict majority moves a node: the number of consistent meshes grows each time, so the loop ends
         if requested[best] > requested.get(speed[here], 0):
             speed[here] = best
             queue += [network.other(mesh, here) for mesh in network.at[here]]
-    held = [mesh for mesh, (i, _) in enumerate(network.ends) if _agrees(network, speed, mesh, i)]
+    held = [mesh for mesh, (i, _) in enumerate(network.ends) if _is_consistent(network, speed, mesh, i)]
     agreeing = set(held)
-    return _refused(network, [*held, *(mesh for mesh in range(len(network.ends)) if mesh not in agreeing)])
+    return _inconsistent_meshes(network, [*held, *(mesh for mesh in range(len(network.ends)) if mesh not in agreeing)])
 
 
-def _agrees(network: GainGraph, speed: Sequence[Gain], mesh: int, start: int) -> bool:
+def _is_consistent(network: GainGraph, speed: Sequence[Gain], mesh: int, start: int) -> bool:
     return speed[start] * network.gains.get(mesh, 1) == speed[network.other(mesh, start)]
 
 
@@ -243,18 +249,18 @@ def _agrees(network: GainGraph, speed: Sequence[Gain], mesh: int, start: int) ->
 
 
 MOST_ODD = 300
-"""Odd regions up to which all of them are matched: the matching costs the cube of their number."""
+"""Maximum number of odd faces for matching, whose cost grows with the cube of their number."""
 
 
 class TJoin(NamedTuple):
-    """Meshes to take out; and the loops round the odd regions, where no two meshes join the same nodes."""
+    """Meshes to remove, and the boundaries of the odd faces if no two meshes join the same nodes."""
 
     meshes: list[int]
     odd: list[GainLoop]
 
 
 def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None:
-    """A least set for one block whose gains are signs; None if it is not planar or has too many odd regions."""
+    """Return a smallest set for one block whose gains are signs; None if it is not planar or has too many odd faces."""
     import networkx as nx
 
     nodes = _merged_edges(network)
@@ -265,11 +271,11 @@ def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None
     if not planar or not isinstance(drawing, nx.PlanarEmbedding):
         return None
     faces = _faces(drawing)
-    # each region's boundary multiplies to -1 or 1; a loop fails if it encloses an odd number of those with -1
-    odd = [at for at, face in enumerate(faces) if _fails(bundles, face)]
+    # the boundary of each face has the product -1 or 1; a loop is inconsistent if it encloses an odd number of -1
+    odd = [at for at, face in enumerate(faces) if _is_odd(bundles, face)]
     if len(odd) > most_odd:
         return None
-    signs = _signs(bundles, _join(bundles, faces, odd))
+    signs = _signs(bundles, _minimum_join(bundles, faces, odd))
     speed = [sign * signs.get(node, 1) for node, sign in nodes]
     gone = [mesh for mesh, (i, j) in enumerate(network.ends) if speed[i] * network.gains.get(mesh, 1) != speed[j]]
     simple = not network.firm and len(bundles) == len(network.ends)
@@ -279,7 +285,7 @@ def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None
 
 
 def _merged_edges(network: GainGraph) -> list[tuple[int, Gain]]:
-    """Each node's stand-in and its sign against it: nodes that firm meshes join count as one."""
+    """Return the representative of each node and its relative sign; nodes joined by firm meshes are merged."""
     merged: list[tuple[int, Gain]] = [(node, 1) for node in range(network.size)]
     done: set[int] = set()
     starts = {end for mesh in network.firm for end in network.ends[mesh]}
@@ -300,9 +306,10 @@ Pair = tuple[int, int]
 
 
 def _bundles(network: GainGraph, nodes: Sequence[tuple[int, Gain]]) -> dict[Pair, int]:
-    """For nodes in mesh: how many more of their meshes keep the sense than turn it; balanced ones are left out.
+    """Return for each pair of adjacent nodes the number of meshes with gain 1 minus that with gain -1, if not 0.
 
-    Whichever way two nodes turn, the fewer have to go; the difference is what a change of sense costs.
+    For either relative sense of two nodes the minority of their meshes must be removed. The difference is the cost of a
+    change of sense.
     """
     bundles: dict[Pair, int] = {}
     for mesh, (i, j) in enumerate(network.ends):
@@ -314,7 +321,7 @@ def _bundles(network: GainGraph, nodes: Sequence[tuple[int, Gain]]) -> dict[Pair
 
 
 def _faces(drawing: nx.PlanarEmbedding[int]) -> list[list[int]]:
-    """The nodes round each region."""
+    """Return the nodes around each face of a planar embedding."""
     seen: set[Pair] = set()
     return [
         drawing.traverse_face(first, second, seen) for first, second in drawing.edges if (first, second) not in seen
@@ -325,13 +332,13 @@ def _steps(face: Sequence[int]) -> list[Pair]:
     return list(zip(face, [*face[1:], face[0]], strict=True))
 
 
-def _fails(bundles: dict[Pair, int], face: Sequence[int]) -> bool:
-    """True if an odd number of bundles round a region turn the sense."""
+def _is_odd(bundles: dict[Pair, int], face: Sequence[int]) -> bool:
+    """Return True if an odd number of bundles around a face have a negative sign."""
     return sum(bundles[min(step), max(step)] < 0 for step in _steps(face)) % 2 == 1
 
 
 def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
-    """The sense of every node, with the sense of all bundles kept but those of the join."""
+    """Return the sign of every node such that all bundles except those of the join are consistent."""
     near: dict[int, list[tuple[int, int]]] = {}
     for (one, two), surplus in bundles.items():
         sign = -1 if (surplus < 0) != ((one, two) in join) else 1
@@ -349,8 +356,8 @@ def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
     return signs
 
 
-def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequence[int]) -> set[Pair]:
-    """The bundles crossed by a minimum T-join of the odd regions."""
+def _minimum_join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequence[int]) -> set[Pair]:
+    """Return the bundles crossed by a minimum T-join of the odd faces."""
     import networkx as nx
 
     side = {step: at for at, face in enumerate(faces) for step in _steps(face)}
@@ -358,16 +365,16 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
     for pair, surplus in bundles.items():
         one, two = side[pair], side[pair[1], pair[0]]
         if one != two:
-            dual[one].append((two, abs(surplus), pair))  # crossing a bundle costs the meshes that would go
+            dual[one].append((two, abs(surplus), pair))  # weight: number of meshes to remove when the bundle is crossed
             dual[two].append((one, abs(surplus), pair))
-    ways = {start: _ways(dual, start) for start in odd}
+    ways = {start: _shortest_paths(dual, start) for start in odd}
     graph: nx.Graph[int] = nx.Graph()
     graph.add_weighted_edges_from(
         (one, two, ways[one][0][two]) for at, one in enumerate(odd) for two in odd[at + 1 :] if two in ways[one][0]
     )
     join: set[Pair] = set()
     for one, two in nx.min_weight_matching(graph):
-        # ways that share a bundle cancel there: the join is their symmetric difference
+        # paths that share a bundle cancel there: the join is their symmetric difference
         came = ways[one][1]
         while two != one:
             two, pair = came[two]
@@ -375,10 +382,10 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
     return join
 
 
-def _ways(
+def _shortest_paths(
     dual: Sequence[Sequence[tuple[int, int, Pair]]], start: int
 ) -> tuple[dict[int, int], dict[int, tuple[int, Pair]]]:
-    """Dijkstra: distances from one region, and the region and bundle each was reached by."""
+    """Compute distances from one face by Dijkstra's algorithm, with predecessor face and bundle of each."""
     done: dict[int, int] = {}
     came: dict[int, tuple[int, Pair]] = {}
     near = {start: 0}
@@ -399,41 +406,41 @@ def _ways(
 
 
 SMALL = 20
-"""Meshes of a block up to which branch and bound always ends with a least set."""
+"""Number of meshes of a block up to which branch and bound always finds a smallest set."""
 LARGE = 10_000
-"""Meshes of a component past which only one mesh, or a greedy set, is looked for."""
-_MEDIUM = 300  # nodes, or meshes, up to which a loop is looked for from everywhere: that costs their square
+"""Number of meshes of a component above which only a single mesh or a greedy set is searched."""
+_MEDIUM = 300  # nodes or meshes up to which loops are searched from every node, at quadratic cost
 _SEARCHED = 100  # meshes of a block up to which branch and bound is tried
-_BRANCHES = 20_000  # times meshes: a second or two
+_BRANCHES = 20_000  # branches times meshes, one or two seconds
 
 
 class LoopPacking(NamedTuple):
-    """Loops that do not close, each mesh on at most `sharing` of them: so many over `sharing` meshes must go."""
+    """Inconsistent loops, with each mesh on at most `sharing` of them, which prove a lower bound."""
 
     loops: list[GainLoop]
     sharing: int
 
     @property
     def at_least(self) -> int:
-        """How many meshes must go at least."""
+        """Minimum number of meshes to remove."""
         return -(-len(self.loops) // self.sharing)
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes that free a network."""
+    """Meshes whose removal frees a network."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
-    """A proved lower bound; a set of that size is least."""
+    """Proved lower bound; a set of that size is a smallest one."""
     choices: list[int]
-    """For a single mesh: all that would do."""
+    """All alternatives, if a single mesh is enough."""
     bounds: list[LoopPacking]
-    """What proves the bound, where loops do."""
+    """Loops that prove the bound, if there are any."""
 
 
 def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
-    """The meshes to disengage in a connected network that does not turn; `found` is a walk through it."""
+    """Choose the meshes to disengage in a connected locked network; `found` is a search through it."""
     singles = single_mesh_removals(network, found)
     if singles:
         loop = LoopPacking([open_loop(network, found)], 1)
@@ -445,46 +452,48 @@ def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
     for block in biconnected_blocks(network):
         part, nodes = network.part(block)
         if not is_balanced(part):
-            choices.append(_placed(_choose_in_block(part), block, nodes))
-    return _joined(choices)
+            choices.append(_with_network_indices(_choose_in_block(part), block, nodes))
+    return _combined(choices)
 
 
 def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
-    """A short loop that does not close: a shortest one in all but large networks."""
+    """Return a short inconsistent loop, a shortest one except in large networks."""
     if network.size <= _MEDIUM:
         starts: Sequence[int] = range(network.size)
         best = None
     else:
-        # the loop shown is an example: of very many chords the first are enough to find a short one
+        # the loop is only an example, so the first chords are enough to find a short one
         chords = list(found.breaking)[:200]
         best = min((found.loop(chord, network.ends[chord]) for chord in chords), key=len)
-        starts = [node for node, _ in best[: 1 + 5000 // len(best)]]  # a way round each of them costs its length
+        starts = [
+            node for node, _ in best[: 1 + 5000 // len(best)]
+        ]  # bounds the cost, which is proportional to the length of the loop for each start
     loop = shortest_loop(network, (), starts)
     return loop if loop is not None and (best is None or len(loop) <= len(best)) else best or []
 
 
 def _choose_in_block(block: GainGraph) -> RemovalChoice:
-    """A least set for one block if it is small, or planar with signs only; else the best of what is tried."""
+    """Return a smallest set for one block if it is small, or planar with signs only; else the best set found."""
     found = walk_gain_graph(block)
     singles = single_mesh_removals(block, found)
     if singles:
         return RemovalChoice(
             sorted(singles)[:1], "one", 1, sorted(singles), [LoopPacking([open_loop(block, found)], 1)]
         )
-    plain = GainGraph(block.size, block.ends, found.breaking, block.firm)  # speeds in units of the walk's
+    plain = GainGraph(block.size, block.ends, found.breaking, block.firm)  # speeds in the units of the search
     small = len(block.ends) - len(block.firm) <= SMALL
     if not small and all(gain == -1 for gain in found.breaking.values()):
         join = planar_removal(plain)
         if join is not None:
             return RemovalChoice(
-                join.meshes, "matching", len(join.meshes), [], _proofs(plain, join.odd, len(join.meshes))
+                join.meshes, "matching", len(join.meshes), [], _loop_proofs(plain, join.odd, len(join.meshes))
             )
     meshes, loops = greedy_removal(plain, found)
-    bound = _bound(plain, loops)
+    bound = _better_packing(plain, loops)
     if bound.at_least == len(meshes) or len(block.ends) > _SEARCHED:
         return _greedy(meshes, bound)
     try:
-        # a small block has at most 2**SMALL sets of meshes, far within 10**9: its search always ends
+        # a small block has at most 2**SMALL sets of meshes, far below 10**9, so its search always ends
         better = minimal_removal(plain, len(meshes), 10**9 if small else _BRANCHES // len(block.ends))
     except OverBudgetError:
         return _greedy(meshes, bound)
@@ -497,14 +506,16 @@ def _greedy(meshes: list[int], bound: LoopPacking) -> RemovalChoice:
     return RemovalChoice(sorted(meshes), method, bound.at_least, [], [bound])
 
 
-def _bound(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
-    """The better of two collections of loops without a common mesh."""
+def _better_packing(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
+    """Return the better of two collections of loops without a common mesh."""
     more = disjoint_loops(network) if len(network.ends) <= _MEDIUM else None
     return LoopPacking(max((loops, more or []), key=len), 1)
 
 
-def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
-    """Loops that prove a matching least, if any are found: the odd regions, or loops without a common mesh."""
+def _loop_proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
+    """Return loops that prove a matching to be smallest, if any are found: odd faces, or loops without a common
+    mesh.
+    """
     apart: list[GainLoop] = []
     used: set[int] = set()
     for loop in sorted(odd, key=len):
@@ -514,12 +525,12 @@ def _proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[L
     for bound in (LoopPacking(apart, 1), LoopPacking(list(odd), 2)):
         if bound.at_least == minimum:
             return [bound]
-    bound = _bound(network, apart)
+    bound = _better_packing(network, apart)
     return [bound] if bound.at_least == minimum else []
 
 
-def _placed(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -> RemovalChoice:
-    """A block's choice in the numbers of the whole network."""
+def _with_network_indices(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -> RemovalChoice:
+    """Return the choice of a block with the indices of the whole network."""
     bounds = [
         LoopPacking([[(nodes[node], block[mesh]) for node, mesh in loop] for loop in bound.loops], bound.sharing)
         for bound in choice.bounds
@@ -528,8 +539,8 @@ def _placed(choice: RemovalChoice, block: Sequence[int], nodes: Sequence[int]) -
     return RemovalChoice(meshes, choice.method, choice.at_least, choices, bounds)
 
 
-def _joined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
-    """The choices of all blocks as one: no loop runs through two blocks, so bounds add up."""
+def _combined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
+    """Combine the choices of all blocks. No loop passes through two blocks, so bounds are added."""
     if len(choices) == 1:
         return choices[0]
     return RemovalChoice(
@@ -537,11 +548,11 @@ def _joined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
         weakest_method(choice.method for choice in choices),
         sum(choice.at_least for choice in choices),
         [],
-        _merged([bound for choice in choices for bound in choice.bounds]),
+        _merged_bounds([bound for choice in choices for bound in choice.bounds]),
     )
 
 
-def _merged(bounds: Sequence[LoopPacking]) -> list[LoopPacking]:
-    """Bounds of several blocks, those of loops without a common mesh as one."""
+def _merged_bounds(bounds: Sequence[LoopPacking]) -> list[LoopPacking]:
+    """Merge the bounds of several blocks; loops without a common mesh are counted together."""
     apart = [loop for bound in bounds if bound.sharing == 1 for loop in bound.loops]
     return ([LoopPacking(apart, 1)] if apart else []) + [bound for bound in bounds if bound.sharing > 1]

@@ -1,4 +1,4 @@
-"""Azimuths of the pitch points of a declared train: axes with positions, axes through one point, and their accuracy."""
+"""Azimuths of the pitch points of a declared train, on parallel or intersecting axes, with their accuracy."""
 
 from __future__ import annotations
 
@@ -29,62 +29,66 @@ EPS = 2 * UNIT_ROUNDOFF
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """A gear pair or coupling that has no known place, and why."""
+    """A gear pair or coupling with unknown position, and the reason."""
 
     name: str
-    """Of the pair."""
+    """Name of the pair."""
     why: str
-    """Why its place is not known."""
+    """Reason for which the position is unknown."""
 
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """The gear pairs whose place is known. All arrays have a row a pair and a column for each of its two wheels."""
+    """Gear pairs with known positions. All arrays have one row for each pair and one column for each of its two
+    wheels.
+    """
 
     circuits: tuple[Circuit, ...]
-    """The pairs; a wheel on the frame is a link of its own here, free to be mounted as it must."""
+    """Circuits of the pairs. Each wheel on the frame is a separate link here, because its mounting angle is free."""
     azimuth: Floats
     """Direction from the wheel's axis to the pitch point (turns, counterclockwise about its positive sense)."""
     slack: Floats
-    """How far off the azimuth may be (turns)."""
+    """Maximum error of the azimuth (turns)."""
     family: Sequence[tuple[int, int]]
-    """Contacts of one wheel with one number stand at known parts of a turn from each other."""
+    """Family of each contact. Contacts of one family are known rational fractions of a turn apart."""
     part: Sequence[tuple[Fraction, Fraction]]
-    """Those parts, from the first of the family."""
+    """Fraction of a turn from the first contact of the family."""
     guessed: frozenset[int] = frozenset()
-    """Families in which a part was recognised from rounded positions."""
+    """Families with a fraction that was recognised from rounded positions."""
     left_out: tuple[UnplacedPair, ...] = ()
-    """Pairs and couplings without a known place."""
+    """Pairs and couplings with unknown position."""
 
     @cached_property
     def teeth(self) -> Floats:
-        """Coefficients a and b of the pairs: tooth counts, the second negative where the sense is kept."""
+        """Coefficients a and b of the pairs: tooth counts, the second negative for internal pairs."""
         return np.array([(c.a, c.b) for c in self.circuits], float).reshape(-1, 2)
 
     @cached_property
     def constant(self) -> Floats:
-        """c of equation (1) of the page on closure, in pitches from 0 to 1: a theta_i + b theta_j = c (mod 1)."""
-        # whole pitches go before the sum, where they would eat digits; 1/2, for a tooth meets a gap
+        """Constant c of equation (1) of docs/closure.md, in pitches from 0 to 1: a theta_i + b theta_j = c (mod 1)."""
+        # integer pitches are removed before the sum, to keep digits; 1/2 because a tooth meets a gap
         whole: Floats = np.mod(np.mod(self.teeth * self.azimuth, 1.0).sum(axis=1) + 0.5, 1.0)
         return whole
 
     @cached_property
     def doubt(self) -> Floats:
-        """How far off `constant` may be (pitches)."""
-        # a pitch is 1 / z turn: what is unsure of an azimuth counts z times
+        """Maximum error of `constant` (pitches)."""
+        # a pitch is 1/z turn, so the error of an azimuth counts z times
         doubt: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
         return doubt
 
     @cached_property
     def scale(self) -> int:
-        """A denominator that all exact parts of a turn, and one half, have in common."""
+        """Common denominator of all exact fractions of a turn, and of one half."""
         found = {part.denominator for parts in self.part for part in parts}
-        # as objects: a common denominator of many parts may pass 64 bits
+        # dtype object, because the common denominator may exceed 64 bits
         return int(np.lcm.reduce(np.array([2, *found], dtype=object)))
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """c counted in parts of `scale`, with azimuths from the first contact of each family."""
+        """Constant c as an integer multiple of 1/`scale`, with azimuths relative to the first contact of each
+        family.
+        """
         scale, found = self.scale, []
         for circuit, (p, q) in zip(self.circuits, self.part, strict=True):
             here, there = p.numerator * (scale // p.denominator), q.numerator * (scale // q.denominator)
@@ -93,14 +97,14 @@ class PitchPoints:
 
 
 def mesh_nodes(parts: Components, circuits: Sequence[Circuit]) -> list[tuple[int, int]]:
-    """The two nodes of every pair: its links as seen from its carrier."""
+    """Return the two nodes of every pair, which are its links relative to its carrier."""
     index = parts.index
     at = {key: node for node, key in enumerate(zip(parts.node_link, parts.node_carrier, strict=True))}
     return [(at[index[c.i], index[c.carrier]], at[index[c.j], index[c.carrier]]) for c in circuits]
 
 
 def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[int, int]], Mapping[object, int]]:
-    """One family for each wheel's key, in order."""
+    """Return the family numbers of every pair, with one family for each distinct key, in order of first occurrence."""
     number: dict[object, int] = {}
     for pair in keys:
         for key in pair:
@@ -108,32 +112,32 @@ def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[
     return [(number[i], number[j]) for i, j in keys], number
 
 
-MOUNT = "\0"  # stands between the frame's name and that of a wheel mounted on it
+MOUNT = "\0"  # separates the frame's name from that of a wheel mounted on it
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
 _DECIMAL = re.compile(r"[.eE]")
-_COMPARED = 8  # families of a wheel that a new contact is compared with
+_COMPARED = 8  # families of a wheel with which a new contact is compared
 _Z: IntegerVector = (0, 0, 1)
 
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """An axis in whole numbers."""
+    """An axis in integer coordinates."""
 
     way: IntegerVector
-    """Its declared direction, and how far off that may be (rad)."""
+    """Declared direction."""
     unsure: float
-    """Its declared direction, and how far off that may be (rad)."""
+    """Maximum error of the direction (rad)."""
     sense: IntegerVector
-    """The way, turned into the direction about which its links count as positive."""
+    """Direction about which the speeds of its links are positive."""
     place: IntegerVector | None
-    """A point of it, in parts of one length for all, and how far off that may be; None if not declared."""
+    """A point of the axis, in a unit of length common to all axes; None if not declared."""
     error: Fraction
-    """A point of it, in parts of one length for all, and how far off that may be; None if not declared."""
+    """Maximum error of the point, in the same unit."""
 
 
 @collector_paused()
 def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> PitchPoints:
-    """The contacts of all gear pairs, in the pose in which moving axes are declared."""
+    """Return the contacts of all gear pairs, in the pose in which moving axes are declared."""
     axes = _axes(train)
     plain = _Axis(_Z, 0.0, _Z, None, Fraction(0))
     placed: list[Circuit] = []
@@ -163,7 +167,7 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
 
 
 def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
-    """The pair with a wheel of the frame on a link of its own: it is mounted as its mates want it."""
+    """Return the pair with a wheel of the frame on a separate link, because its mounting angle is free."""
     i, j = circuit.i, circuit.j
     if frame not in (i, j):
         return circuit
@@ -177,7 +181,7 @@ def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
 
 
 def _axes(train: Train) -> dict[str, _Axis]:
-    """Declared axes in whole numbers; a point of an axis in parts of one length for the whole train."""
+    """Return the declared axes in integers; points are multiples of one unit of length for the whole train."""
     points = {label: [part.base for part in axis.position] for label, axis in train.axes.items() if axis.position}
     unit = math.lcm(*{part.denominator for point in points.values() for part in point})
     senses: list[IntegerVector] = [_Z]
@@ -191,14 +195,14 @@ def _axes(train: Train) -> dict[str, _Axis]:
         place, error = None, Fraction(0)
         if axis.position:
             x, y, z = (part.numerator * (unit // part.denominator) for part in points[label])
-            place, error = (x, y, z), unit * Fraction(math.hypot(*map(_half, axis.position)))
+            place, error = (x, y, z), unit * Fraction(math.hypot(*map(_half_digit, axis.position)))
         found[label] = _Axis(way, unsure, sense, place, error)
     return found
 
 
 def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[IntegerVector, float, IntegerVector]:
-    """A direction, how far off it may be (rad), and that of its parallels which was met first."""
-    way = _whole([figure.value for figure in figures])
+    """Return a direction, its maximum error (rad), and the first known direction parallel to it."""
+    way = _integer_direction([figure.value for figure in figures])
     rough = math.hypot(*(float(figure.half or 0) for figure in figures))
     sense = next((known for known in senses if parallel(known, way)), None)
     if sense is None:
@@ -206,16 +210,16 @@ def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[
     return way, rough / math.hypot(*(float(figure.value) for figure in figures)), sense or way
 
 
-def _whole(parts: Sequence[Fraction]) -> IntegerVector:
-    """The shortest vector of whole numbers with a direction."""
+def _integer_direction(parts: Sequence[Fraction]) -> IntegerVector:
+    """Return the shortest integer vector with the given direction."""
     unit = math.lcm(*(part.denominator for part in parts))
     x, y, z = (int(part * unit) for part in parts)
     common = math.gcd(x, y, z)
     return x // common, y // common, z // common
 
 
-def _half(length: Quantity) -> float:
-    """Half a unit of the last decimal written (m); 0 for whole numbers and fractions, which are exact."""
+def _half_digit(length: Quantity) -> float:
+    """Return half a unit of the last decimal written (m); 0 for integers and fractions, which are exact."""
     number = _NUMBER.match(length.text)
     if number is None or not _DECIMAL.search(number[0]) or "/" in length.text or ":" in length.text:
         return 0.0
@@ -226,67 +230,71 @@ def _half(length: Quantity) -> float:
 # ------------------------------------------------------------------------------------------------------------ contacts
 
 _Contact = tuple[IntegerVector, IntegerVector, float, float]
-"""Vectors from both axes to the pitch point, across the axes; how far off as written, and in floats (turns)."""
+"""Vectors from both axes to the pitch point, normal to the axes; errors of written positions and of floats (turns)."""
 
 
 def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Contact | str:
-    """The contact of a pair, or why it has none."""
+    """Return the contact of a pair, or the reason for which it has none."""
     wheels = [train.wheels[name][1] for name in circuit.wheels]
     kinds = {wheel.kind for wheel in wheels}
     if "worm" in kinds:
-        return "a worm is set by shifting it along its axis"
+        return "the phase of a worm is set by shifting it along its axis"
     if not parallel(first.way, second.way) and any(wheel.is_helical for wheel in wheels):
-        return "helical wheels on skew axes are set by shifting one along its axis"
+        return "the phase of helical wheels on skew axes is set by shifting one along its axis"
     if parallel(first.way, second.way):
         if kinds != {"spur"}:
             return "a bevel pair on parallel axes has no pitch point"
-        return _side_by_side(first, second, [wheel.internal for wheel in wheels])
-    return _through_a_point(first, second, [wheel.facing for wheel in wheels])
+        return _parallel_contact(first, second, [wheel.internal for wheel in wheels])
+    return _intersecting_contact(first, second, [wheel.facing for wheel in wheels])
 
 
-def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
-    """Parallel axes: towards the other axis, but away from it from the axis of a wheel that runs in a ring."""
+def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
+    """Return the contact on parallel axes: towards the other axis, or away from it for the mate of a ring."""
     if first.place is None or second.place is None:
         return "the positions of its axes are not declared"
     way = across_whole(minus(second.place, first.place), first.sense)
     if not any(way):
-        return "its axes are one"
-    # across_whole lengthens by the square of the sense
-    length = _norm(way) / dot(first.sense, first.sense)  # a Fraction: positions may have hundreds of digits
+        return "its axes coincide"
+    # across_whole scales by the square of the length of `sense`
+    length = _norm(way) / dot(first.sense, first.sense)  # exact, because positions may have hundreds of digits
     rounded = _turns(float((first.error + second.error) / length))
     back = minus((0, 0, 0), way)
-    # 4 roundings of an arctangent of exact whole numbers
+    # four roundings in the arctangent of exact integers
     return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
 
 
-def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
-    """Axes through one point: towards the side to which the mate's cone opens."""
+def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
+    """Return the contact on intersecting axes: towards the side to which the mate's cone opens."""
     if first.place is not None and second.place is not None:
         apart = dot(minus(second.place, first.place), cross(first.way, second.way))
         reach = _norm(minus(second.place, first.place))
         slack = first.error + second.error + reach * Fraction(first.unsure + second.unsure)
         if abs(apart) > slack * _norm(first.way) * _norm(second.way):
-            return "its axes do not meet"
+            return "its axes do not intersect"
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
     sine = float(_norm(cross(n, m)) / (_norm(n) * _norm(m)))
     rounded = _turns((first.unsure + second.unsure) / sine)
-    # the smaller the angle between the axes, the more of a direction across one is rounding
+    # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
     return across_whole(m, first.way), across_whole(n, second.way), rounded, 16 * EPS / sine
 
 
 def _norm(vector: IntegerVector) -> Fraction:
-    """Length of a vector to 64 bits and more; its numbers may have hundreds of digits."""
+    """Return the length of a vector to at least 64 bits; its components may have hundreds of digits."""
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 
 
 def _turns(sine: float) -> float:
-    return math.asin(sine) / math.tau if sine < 1 else 0.5  # rounding as large as the distance: anywhere
+    return (
+        math.asin(sine) / math.tau if sine < 1 else 0.5
+    )  # rounding as large as the distance: the direction is unknown
 
 
 def _azimuths(
     ways: Sequence[tuple[IntegerVector, IntegerVector]], senses: Sequence[tuple[IntegerVector, IntegerVector]]
 ) -> Floats:
-    """Turns counterclockwise about the sense of each axis, from x as seen along it (from y where it is nearly x)."""
+    """Return azimuths in turns, counterclockwise about each axis, from the projection of x (of y if the axis is nearly
+    x).
+    """
     if not ways:
         return np.zeros((0, 2))
     frames: dict[IntegerVector, tuple[list[float], list[float]]] = {}
@@ -305,7 +313,7 @@ def _azimuths(
 def _frame(sense: IntegerVector) -> tuple[list[float], list[float]]:
     n = np.array(_floats(sense))
     n /= np.linalg.norm(n)
-    # x, unless what is left of it across n would be mostly rounding
+    # x, unless its component normal to n would be mostly rounding error
     start = np.array([1.0, 0.0, 0.0]) if abs(n[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     first = start - (start @ n) * n
     first /= np.linalg.norm(first)
@@ -313,10 +321,10 @@ def _frame(sense: IntegerVector) -> tuple[list[float], list[float]]:
 
 
 def _floats(vector: IntegerVector) -> tuple[float, float, float]:
-    """A direction in floats; numbers of hundreds of digits are divided first."""
+    """Convert a direction to floats; components of hundreds of digits are scaled first."""
     x, y, z = vector
     top = max(abs(x), abs(y), abs(z))
-    if top.bit_length() < 300:  # and so are squares and products within float64
+    if top.bit_length() < 300:  # squares and products are within float64
         return float(x), float(y), float(z)
     return float(Fraction(x, top)), float(Fraction(y, top)), float(Fraction(z, top))
 
@@ -331,7 +339,7 @@ def _families(
     rounded: Sequence[float],
     blurred: Sequence[float],
 ) -> tuple[list[tuple[int, int]], list[tuple[Fraction, Fraction]], frozenset[int]]:
-    """Contacts of one link that stand at known parts of a turn from each other."""
+    """Return families of contacts of one link that are known rational fractions of a turn apart."""
     heads: dict[tuple[str, str], list[tuple[int, IntegerVector, float, int]]] = {}
     guessed: set[int] = set()
     count = 0
@@ -341,7 +349,9 @@ def _families(
         found.append([])
         for link, way, turn in zip((circuit.i, circuit.j), ways[at], turns[at], strict=True):
             known = heads.setdefault((link, circuit.carrier), [])
-            for number, head, zero, other in known[-_COMPARED:]:  # a hub of thousands of mates stays linear
+            for number, head, zero, other in known[
+                -_COMPARED:
+            ]:  # keeps the cost linear for a hub with thousands of mates
                 part = rational_angle(head, way, (turn - zero) % 1)
                 if part is None and rounded[at] + rounded[other]:
                     slack = rounded[at] + rounded[other] + blurred[at] + blurred[other]

@@ -1,7 +1,7 @@
-"""Whether the meshes of closed loops can engage: the verdict, the loops, wheel angles for assembly, errors spread.
+"""Phase closure of the loops of a train: verdict, loops, wheel angles for assembly, and distributed errors.
 
-A loop lists its gears in order, the divisibility rule of its tooth counts (which counts, or sums of them, must be
-multiples of what), and the fraction of a pitch by which it misses.
+A loop has its gears in order, the divisibility rule of its tooth counts (a modulus that divides a count or a weighted
+sum of counts), and the fraction of a pitch by which its last mesh misses.
 """
 
 from __future__ import annotations
@@ -46,63 +46,66 @@ Row = dict[str, int]
 
 
 class DivisibilityCondition(NamedTuple):
-    """`modulus` divides the sum of tooth numbers, each times its factor."""
+    """Condition that `modulus` divides a weighted sum of tooth counts."""
 
     modulus: int
-    """Divides the weighted sum of the tooth counts."""
+    """Divisor of the weighted sum of the tooth counts."""
     factors: Mapping[str, int]
     """Weight of each tooth count, by wheel."""
 
 
 @dataclass(frozen=True)
 class DivisibilityRule(Result):
-    """Conditions on the tooth numbers of a set: in each a modulus divides a sum of multiples of tooth numbers.
+    """Divisibility conditions on the tooth counts of a set of gears.
 
     See Also
     --------
-    find_divisibility_rule : Gives it.
-    spherical_divisibility_rule : Gives it for gears with axes through one point.
+    find_divisibility_rule : Returns it.
+    spherical_divisibility_rule : Returns it for gears with axes through one point.
     """
 
     KEYS = ("text", "conditions")
 
     conditions: tuple[DivisibilityCondition, ...]
-    """Modulus, and the factor of each kind's tooth number in the sum that it divides."""
+    """Modulus, and the weight of each kind's tooth count in the sum that it divides."""
 
     @property
     def text(self) -> str:
-        """In words: `3 divides za and 5 divides zb`."""
+        """Rule in words, such as `3 divides za and 5 divides zb`."""
         kinds = [kind for _, terms in self.conditions for kind in terms]
-        short = all(kind[:1].isdigit() or len(kind) <= 2 for kind in kinds)  # z5, z4a and ze, else z[sun]
+        short = all(
+            kind[:1].isdigit() or len(kind) <= 2 for kind in kinds
+        )  # short names are written like z5, z4a and ze, others like z[sun]
         sums = (f"{modulus} divides {_sum(terms, short)}" for modulus, terms in self.conditions)
         return " and ".join(sums) or "always"
 
     def holds(self, teeth: Mapping[str, int]) -> bool:
-        """True if the set closes with these tooth numbers.
+        """Return True if the loops close with these tooth counts.
 
         Parameters
         ----------
         teeth : mapping of str to int
-            Tooth number of each kind.
+            Tooth count of each kind.
         """
         return not any(sum(f * teeth[kind] for kind, f in terms.items()) % m for m, terms in self.conditions)
 
 
 def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> DivisibilityRule:
-    """The rule that all forms take whole values: sum of form[kind] z[kind] is an integer for each.
+    """Find the rule under which all forms are integers: sum of form[kind] z[kind] is an integer for each form.
 
-    Forms matter modulo 1, and generate a finite group; it is the sum of its parts for each prime p, and in every part
-    rows modulo a power of p are brought to a triangle. Conditions on one kind only are joined again.
+    Forms matter modulo 1, and generate a finite abelian group, which is the direct sum of its p-parts. In every part
+    the rows modulo a power of p are brought to triangular (Howell) form. Conditions on one kind only are combined
+    again.
 
     Parameters
     ----------
     forms : iterable of mapping of str to Fraction
-        Factor of each kind's tooth number.
+        Factor of each kind's tooth count.
 
     Returns
     -------
     DivisibilityRule
-        No condition follows from the others.
+        Independent conditions.
 
     Examples
     --------
@@ -117,9 +120,9 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
     alone: dict[str, int] = {}
     mixed: list[tuple[int, Row]] = []
     for power in _prime_powers(scale):
-        # the part for p of a form: a multiple that is 1 modulo the power of p and 0 modulo the rest
+        # p-part of a form: the multiple that is 1 modulo the power of p and 0 modulo the cofactor (Chinese remainders)
         lifted = [[value * pow(scale // power, -1, power) % power for value in row] for row in whole]
-        for modulus, row in (_plain(row, power) for row in _needed(lifted, power)):
+        for modulus, row in (_simplest_form(row, power) for row in _independent_generators(lifted, power)):
             terms = {kind: value for kind, value in zip(kinds, row, strict=True) if value}
             if len(terms) == 1:
                 alone[next(iter(terms))] = alone.get(next(iter(terms)), 1) * modulus
@@ -130,7 +133,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a condition; to one of another prime where the same sum says both."""
+    """Add a condition, merged with one of another prime if the same sum expresses both."""
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -143,7 +146,7 @@ def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
 def _prime_powers(number: int) -> Iterable[int]:
     prime = 2
     while number > 1:
-        # trial division: what has no divisor up to its root is prime
+        # trial division up to the square root; the remaining cofactor is prime
         if prime * prime > number:
             prime = number
         power = 1
@@ -155,24 +158,24 @@ def _prime_powers(number: int) -> Iterable[int]:
         prime += 1
 
 
-def _needed(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Generators of the same group without those that the others make too."""
-    found = _triangle(rows, power)
+def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
+    """Return generators of the same group without redundant ones."""
+    found = _howell_form(rows, power)
     for row in found[::-1]:
         fewer = [other for other in found if other is not row]
-        if _order(fewer, power) == _order(found, power):
+        if _group_order(fewer, power) == _group_order(found, power):
             found = fewer
     return found
 
 
-def _order(rows: Sequence[Sequence[int]], power: int) -> int:
-    """The number of elements of the group."""
-    firsts = (next(value for value in row if value) for row in _triangle(rows, power))
+def _group_order(rows: Sequence[Sequence[int]], power: int) -> int:
+    """Return the number of elements of the group."""
+    firsts = (next(value for value in row if value) for row in _howell_form(rows, power))
     return math.prod(power // math.gcd(first, power) for first in firsts)
 
 
-def _triangle(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Rows that generate the same group modulo a prime power, in triangular (Howell) form."""
+def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
+    """Return rows that generate the same group modulo a prime power, in triangular (Howell) form."""
     found = []
     active = [list(row) for row in rows]
     width = len(active[0]) if active else 0
@@ -188,21 +191,21 @@ def _triangle(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
         for row in active:
             times = row[column] // common
             rest.append([(a - times * b) % power for a, b in zip(row, pivot, strict=True)])
-        # a multiple that clears the column may say something about the others
+        # a multiple that is 0 in this column may still constrain the other columns
         rest.append([value * (power // common) % power for value in pivot])
         active = [row for row in rest if any(row)]
         found.append(pivot)
     return found
 
 
-def _plain(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """The same condition in the smallest numbers."""
+def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
+    """Return the equivalent condition with the smallest numbers."""
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
-    # only how the condition reads depends on the unit: past 1000 of them none is looked at
+    # the unit affects only the notation, so at most 1000 are tried
     units = [unit for unit in range(1, min(modulus, 1000) + 1) if math.gcd(unit, modulus) == 1]
-    return modulus, min((_centred(row, unit, modulus) for unit in units), key=_size)
+    return modulus, min((_centred(row, unit, modulus) for unit in units), key=_simplicity)
 
 
 def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
@@ -210,8 +213,8 @@ def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
     return [value - modulus if 2 * value > modulus else value for value in found]
 
 
-def _size(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
-    """Small factors first, then few minus signs, then a plus in front."""
+def _simplicity(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
+    """Return the sort key of a row: small factors first, then few minus signs, then a positive first factor."""
     first = next((value for value in row if value), 0)
     return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
 
@@ -230,7 +233,7 @@ def _sum(terms: Mapping[str, int], short: bool) -> str:
 
 @dataclass(frozen=True)
 class LoopPhase(Result):
-    """What one loop of meshes asks of its teeth, and what it gets: equations (2) and (3) of docs/closure.md.
+    """Phase condition of one loop of meshes and its residue: equations (2) and (3) of docs/closure.md.
 
     See Also
     --------
@@ -240,58 +243,57 @@ class LoopPhase(Result):
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 
     gears: tuple[str, ...]
-    """Wheels in order; two wheels of one link between which the loop goes over are joined by `+`."""
+    """Wheels in order; two wheels of one link are joined by `+` if the loop passes from one to the other."""
     meshes: tuple[str, ...]
-    """Pairs in order, the last one closes the loop. Where `together`, pairs of several loops in no order."""
+    """Pairs in order, the last one closes the loop. If `together` is True, pairs of several loops in no order."""
     weights: tuple[int, ...]
-    """Whole numbers with which the equations of the pairs add up; 1 and -1 but for compound wheels."""
+    """Integer weights of the pairs in the sum of their equations; 1 and -1 except for compound wheels."""
     residue: Fraction | float
-    """What the sum is off a whole number [pitch], from -1/2 to 1/2; a Fraction where it is exact."""
+    """Deviation of the sum from the nearest integer [pitch], -1/2 to 1/2; a Fraction if it is exact."""
     slack: float
-    """How far off the residue may be [pitch]; 0 where it is exact."""
+    """Maximum error of the residue [pitch]; 0 if it is exact."""
     how: ResidueKnowledge
-    """Recognised: exact, with angles taken for fractions that rounded positions allow."""
+    """Basis of the residue: exact, recognised (exact, with fractions inferred from rounded positions), or numeric."""
     inside: Mapping[str, Fraction | float] | None
-    """For each gear the part of a turn, with its sign, by which its tooth number enters the sum; None where wheels
-    are compound."""
+    """Signed fraction of a turn with which each gear's tooth count enters the sum; None for compound wheels."""
     retime: Mapping[str, float]
-    """By how much to turn a wheel on its arbor, counterclockwise [pitch], to close the loop: any one of them."""
+    """Rotation of each wheel on its arbor, counterclockwise [pitch], that closes the loop; one of them is enough."""
     together: bool = False
-    """True for what several loops must fulfil only together."""
+    """True for a condition that applies only to several loops together."""
 
     @property
     def kind(self) -> PhaseKind:
-        """closes, misses, or unclear where positions are too rough to tell."""
+        """Verdict: closes, misses, or unclear if positions are too inaccurate."""
         return judge_residue(self.residue, self.slack)
 
     @property
     def miss(self) -> Fraction | float:
-        """What is left at the last pair when all others fit (pitches), with the best choice of teeth to engage."""
+        """Error of the last pair if all others mesh exactly (pitches), with the best choice of teeth to engage."""
         return self.residue / self.weights[-1]
 
     @property
     def text(self) -> str:
-        """One line."""
+        """Description of the loop on one line."""
         name = " - ".join((*self.gears, *self.gears[:1])) if self.gears else f"{', '.join(self.meshes)} together"
         if self.kind == "closes":
-            return f"{name} closes{self._doubt}"
+            return f"{name} closes{self._accuracy_remark}"
         if self.kind == "unclear":
-            return f"{name} cannot be told: positions are known to {self.slack:.2g} pitch only"
-        words = f"{name} misses by {_shown(self.miss)} pitch at {self.meshes[-1]}{self._doubt}"
+            return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
+        words = f"{name} misses by {_magnitude_text(self.miss)} pitch at {self.meshes[-1]}{self._accuracy_remark}"
         if self.retime:
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
             words += f"; {wheel} turned on its arbor by {turned:.6g} pitch would close it"
         return words
 
     @property
-    def _doubt(self) -> str:
+    def _accuracy_remark(self) -> str:
         if self.how == "exact":
             return ""
         return " (angles recognised)" if self.how == "recognised" else f" (to {self.slack:.1g})"
 
 
 def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
-    """A condition with the names of gears and pairs."""
+    """Return a condition with the names of gears and pairs."""
     gears: list[str] = []
     over: dict[str, int] = {}
     cycle = condition.cycle
@@ -302,7 +304,7 @@ def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
             came, goes = (_wheel(problem, one, node) for one in (before, mesh))
             gears.append(came if came == goes else f"{came}+{goes}")
             if came != goes:
-                over |= {came: _pull(problem, before, node, row), goes: _pull(problem, mesh, node, row)}
+                over |= {came: _sum_change(problem, before, node, row), goes: _sum_change(problem, mesh, node, row)}
             before = mesh
     meshes = cycle.meshes if cycle else tuple(row)
     return LoopPhase(
@@ -312,7 +314,7 @@ def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
         condition.residue,
         condition.slack,
         condition.how,
-        None if over or cycle is None else _inside(problem, condition),
+        None if over or cycle is None else _inside_angles(problem, condition),
         {wheel: float(condition.residue) / pull for wheel, pull in over.items() if condition.kind == "misses"},
         cycle is None,
     )
@@ -322,14 +324,16 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
     return problem.circuits[mesh].wheels[problem.ends[mesh][1] == node]
 
 
-def _pull(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """What a pitch by which one wheel is turned on its arbor adds to the sum of a loop."""
+def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
+    """Return the change of a loop's sum when one wheel is rotated on its arbor by one pitch."""
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 
 
-def _inside(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Weights and signs times the azimuths of both contacts of each gear: the teeth that it has inside the loop."""
+def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
+    """Return the signed and weighted azimuths of both contacts of each gear, summed: the angle inside the loop
+    (turns).
+    """
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -340,32 +344,32 @@ def _inside(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fracti
         for one in (before, mesh):
             side = problem.ends[one][1] == node
             angle = contacts.part[one][side] if exact else float(contacts.azimuth[one, int(side)])
-            part += _pull(problem, one, node, condition.row) * angle
+            part += _sum_change(problem, one, node, condition.row) * angle
         gear = _wheel(problem, mesh, node)
         found[gear] = found.get(gear, Fraction(0)) + part
         before = mesh
     return found
 
 
-def _shown(value: Fraction | float) -> str:
+def _magnitude_text(value: Fraction | float) -> str:
     return fraction_text(abs(value)) if isinstance(value, Fraction) else f"{abs(value):.6g}"
 
 
 # --------------------------------------------------------------------------------------------------------- mesh phasing
 
 
-_SHOWN = 10  # loops named in a text
+_SHOWN = 10  # maximum number of loops listed in a text
 
 
 @dataclass(frozen=True)
 class MeshPhasing(Result):
-    """The assembly condition: whether the teeth of every loop meet, and the angles at which the wheels are put in.
+    """Assembly condition: whether the teeth of every loop meet, and the angles at which the wheels are assembled.
 
-    Equations (1) to (4) of docs/closure.md. True unless some loop misses or cannot be told.
+    Equations (1) to (4) of docs/closure.md. True unless a loop misses or is unclear.
 
     Examples
     --------
-    Two planets of 18 teeth opposite each other between 24 and 60: 2 divides 24 + 60, and they go in (docs/closure.md).
+    Two planets of 18 teeth opposite each other between 24 and 60; 2 divides 24 + 60, so they can be assembled.
 
     >>> import geartrain
     >>> found = geartrain.load("planets-in-place").closure
@@ -397,13 +401,13 @@ class MeshPhasing(Result):
     PAGE = "report.train_report:phasing_document"
 
     problem: PhaseSystem = field(repr=False)
-    """The phases of all meshes."""
+    """Phase equations of all meshes."""
     backlashes: Mapping[str, float] = field(default_factory=dict)
-    """Play of pairs whose teeth know it [pitch]."""
+    """Backlash of pairs whose tooth form determines it [pitch]."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
-    """Gives wheel -> name under which its tooth number stands in `rule`."""
+    """Function that returns for each wheel the name of its tooth count in `rule`."""
     unjudged: int = 0
-    """Loops of the train that go through a pair or pin without a known place."""
+    """Number of loops through a pair or pin with unknown position."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):
@@ -413,18 +417,18 @@ class MeshPhasing(Result):
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
-        """A basis of all loops, as short as they are found; then what loops must only fulfil together."""
+        """A cycle basis of short loops, followed by conditions that apply to several loops together."""
         return _Loops(self.problem)
 
     @cached_property
     def missing(self) -> tuple[int, ...]:
-        """Which loops do not close: the worst first."""
+        """Indices of the loops that do not close, the worst first."""
         found = [(-abs(float(one.miss)), at) for at, one in enumerate(self.problem.conditions) if one.kind == "misses"]
         return tuple(at for _, at in sorted(found))
 
     @cached_property
     def kind(self) -> PhaseKind:
-        """closes, misses, unclear (some loop cannot be told), or open: no loop is judged."""
+        """Verdict: closes, misses, unclear (a loop cannot be decided), or open (no loop can be checked)."""
         if self.missing:
             return "misses"
         if not self.problem.conditions:
@@ -432,39 +436,39 @@ class MeshPhasing(Result):
         return "unclear" if any(one.kind == "unclear" for one in self.problem.conditions) else "closes"
 
     def __bool__(self) -> bool:
-        """True unless some loop misses or cannot be told."""
+        """Return True unless a loop misses or is unclear."""
         return self.kind in ("closes", "open")
 
     @property
     def how(self) -> ResidueKnowledge:
-        """How the loops are known, by the weakest of them."""
+        """Basis of the residues, the weakest of all loops: exact, recognised or numeric."""
         ways = {one.how for one in self.problem.conditions}
         return "numeric" if "numeric" in ways else "recognised" if "recognised" in ways else "exact"
 
     @property
     def rigid(self) -> int:
-        """Loops whose ratios do not multiply to 1; they cannot turn, and are not asked for phases."""
+        """Number of loops with a ratio product other than 1; they cannot turn, and have no phase condition."""
         return len(self.problem.parts.breaking)
 
     @property
     def left_out(self) -> tuple[UnplacedPair, ...]:
-        """Pairs and couplings without a known place."""
+        """Pairs and couplings with unknown position."""
         return self.problem.contacts.left_out
 
     @cached_property
     def worst(self) -> Fraction | float:
-        """The largest miss of a loop (pitches)."""
+        """Largest magnitude of the miss of a loop (pitches)."""
         misses = [one.miss for one in self.problem.conditions]
         worst = max(misses, key=lambda miss: abs(float(miss)), default=Fraction(0))
         return -worst if worst < 0 else worst
 
     @cached_property
     def angles(self) -> Mapping[str, float]:
-        """Angle of every link (rad, from 0 to a turn) at which its zero mark stands for all teeth to mesh.
+        """Angle of the zero mark of every link (rad, 0 to 2 pi) at which all teeth mesh.
 
-        Counterclockwise about its positive sense from x, as seen along its axis (from y where the axis is nearly x),
-        with carriers in the pose in which they are declared where they can stand in it. The teeth of all wheels of a
-        link have a tooth at its mark. Where loops miss, errors are spread. A wheel on the frame is named as a link.
+        Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is
+        nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at its mark. If
+        loops miss, errors are distributed. A wheel on the frame is listed like a link, by its own name.
         """
         turns = self.problem.spread_angles if self.missing else self.problem.tree_angles
         parts = self.problem.parts
@@ -486,44 +490,44 @@ class MeshPhasing(Result):
 
     @cached_property
     def errors(self) -> Mapping[str, float]:
-        """What every pair is off where the loops miss, spread by least squares (pitches)."""
+        """Error of every pair if the misses are distributed by least squares (pitches)."""
         return self._errors(self.problem.spread_angles)
 
     @property
     def spread_errors(self) -> Mapping[str, float]:
-        """The same; nothing where all loops close."""
+        """Error of every pair by least squares (pitches); empty if all loops close."""
         return self.errors if self.missing else {}
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """What pairs are off if all the error is left to the pairs put in last (pitches)."""
+        """Error of every pair if the pairs assembled last take all misses (pitches)."""
         return self._errors(self.problem.tree_angles)
 
     @cached_property
     def last(self) -> float:
-        """The largest of `last_errors` (pitches): residues of loops add up from one to the next."""
+        """Largest magnitude of `last_errors` (pitches); residues of loops accumulate."""
         return max(map(abs, self.last_errors.values()), default=0.0) if self.missing else 0.0
 
     @cached_property
     def spread(self) -> float:
-        """The largest error when it is spread over all meshes (pitches); 0 where all loops close."""
+        """Largest magnitude of the distributed errors (pitches); 0 if all loops close."""
         return max(map(abs, self.errors.values()), default=0.0) if self.missing else 0.0
 
     @cached_property
     def fits(self) -> bool | None:
-        """True if the play of the teeth takes up the errors as spread; None where loops miss and a play is unknown."""
+        """True if the backlash can absorb the distributed errors; None if it is unknown for a pair with an error."""
         if not self.missing:
             return None if self.kind == "unclear" else True
         errors = self.errors
         if any(abs(error) > self.backlashes[name] / 2 for name, error in errors.items() if name in self.backlashes):
             return False
-        # less than 1e-9 pitch is rounding, and needs no play
+        # errors below 1e-9 pitch are rounding errors, and need no backlash
         off = [name for name, error in errors.items() if abs(error) > 1e-9]
         return True if all(name in self.backlashes for name in off) else None
 
     @cached_property
     def rule(self) -> DivisibilityRule | None:
-        """What the tooth numbers must be multiples of; None where loops are not exact, or wheels are compound."""
+        """Divisibility rule of the tooth counts; None if loops are not exact, or wheels are compound."""
         forms, kinds = [], self.alike()
         for loop in self.loops:
             form = _by_kind(loop.inside, kinds)
@@ -534,46 +538,46 @@ class MeshPhasing(Result):
 
     @property
     def text(self) -> str:
-        """The verdict and what follows from it, in lines."""
+        """Verdict and its consequences as lines of text."""
         return "\n".join(self._lines())
 
     def _lines(self) -> Iterator[str]:
         count = len(self.problem.conditions)
         loops = f"{count} loop{'s' if count != 1 else ''}"
         if self.kind == "open":
-            yield "phase closure: no loop whose teeth would have to meet" + (" is judged" if self.unjudged else "")
+            yield "phase closure: no loop " + ("can be checked" if self.unjudged else "with a phase condition")
         elif self.kind == "misses":
             yield f"phase closure: {len(self.missing)} of {loops} miss{'es' if len(self.missing) == 1 else ''}"
         elif self.kind == "closes":
             near = f"to {max(one.slack for one in self.problem.conditions):.1g} pitch"
-            ways = {"exact": "exactly", "recognised": "exactly, with the angles that rounded positions mean"}
+            ways = {"exact": "exactly", "recognised": "exactly, with angles inferred from rounded positions"}
             yield f"phase closure: {loops} close{'s' if count == 1 else ''}, {ways.get(self.how, near)}"
         else:
-            yield f"phase closure: not all of {loops} can be told, for positions are too rough"
+            yield f"phase closure: not all of {loops} can be decided, because positions are too inaccurate"
         shown = self.missing or [at for at, one in enumerate(self.problem.conditions) if one.kind == "unclear"]
         yield from (f"  {self.loops[at].text}" for at in shown[:_SHOWN])
         if len(shown) > _SHOWN:
             yield f"  and {len(shown) - _SHOWN} more"
         if self.missing:
-            yield f"  put in one after the other, the last meshes are off by up to {self.last:.6g} pitch"
-            yield f"  spread over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash}"
+            yield f"  assembled one after the other, the last meshes are off by up to {self.last:.6g} pitch"
+            yield f"  distributed over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash_remark}"
         if self.unjudged:
-            goes = "loop goes" if self.unjudged == 1 else "loops go"
-            yield f"  {self.unjudged} {goes} through pairs without a known place, not judged:"
+            passes = "loop passes" if self.unjudged == 1 else "loops pass"
+            yield f"  {self.unjudged} {passes} through pairs with unknown position, not checked:"
             yield from (f"    {one.name}: {one.why}" for one in self.left_out[:_SHOWN])
         if self.rigid:
-            yield f"  {self.rigid} loop{'s' if self.rigid > 1 else ''} cannot turn, not asked for phases"
+            yield f"  {self.rigid} loop{'s' if self.rigid > 1 else ''} cannot turn, without phase condition"
         if not self.problem.complete:
-            yield "  loops were judged one by one: what they must only fulfil together was not looked for"
+            yield "  loops were checked one by one, without conditions on several loops together"
 
     @property
-    def _backlash(self) -> str:
+    def _backlash_remark(self) -> str:
         if not self.backlashes:
             return ""
         words = {
-            True: "which the play takes up",
-            False: "which the play does not take up",
-            None: "and not all play is known",
+            True: "which the backlash absorbs",
+            False: "which the backlash does not absorb",
+            None: "and not all backlash is known",
         }
         return f", {words[self.fits]}"
 
@@ -583,7 +587,7 @@ class MeshPhasing(Result):
 
 
 class _Loops(Sequence[LoopPhase]):
-    """Conditions made readable one at a time, when they are looked at."""
+    """Sequence of conditions that are described on access."""
 
     def __init__(self, problem: PhaseSystem) -> None:
         self.problem = problem
@@ -610,12 +614,12 @@ def _by_kind(inside: Mapping[str, Fraction | float] | None, kinds: Mapping[str, 
 
 
 def _name(link: str) -> str:
-    """A link; a wheel on the frame by the wheel's name."""
+    """Return the name of a link; for a wheel mounted on the frame, the name of the wheel."""
     return link.rpartition(MOUNT)[2]
 
 
-_FRAME = MOUNT  # no gear on a sphere has this name
-_OFF = 1e-6  # turns: contacts declared regular stand nearer than this to where they should
+_FRAME = MOUNT  # cannot be the name of a gear
+_OFF = 1e-6  # tolerance (turns) of the positions of contacts declared as regular
 
 
 class SphericalGears(Protocol):
@@ -644,19 +648,19 @@ class SphericalGears(Protocol):
 
     @property
     def regular(self) -> tuple[int, ...]:
-        """p where the contacts of a gear stand at multiples of a p-th of a turn; 0 where angles are floats."""
+        """Integer p for each gear if its contacts are at multiples of 1/p turn; 0 if angles are floats."""
 
     @property
     def teeth(self) -> Mapping[str, int]:
-        """Tooth number of each kind."""
+        """Tooth count of each kind."""
 
 
 def find_phasing(
     train: Train, tree: Tree, circuits: Sequence[Circuit], backlashes: Mapping[str, float] | None = None
 ) -> MeshPhasing:
-    """Closure of a declared train, in the pose in which its moving axes are declared.
+    """Check the phase closure of a declared train, in the pose in which its moving axes are declared.
 
-    plays   pair -> play of its teeth (pitches), as far as it is known
+    backlashes   backlash of the teeth by pair (pitches), as far as it is known
     """
     contacts = place_pitch_points(train, tree, circuits)
     parts = find_components(_links(train, contacts.circuits), train.frame, contacts.circuits)
@@ -665,17 +669,17 @@ def find_phasing(
         every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
         whole = find_components(_links(train, every), train.frame, every)
         unjudged = max(len(whole.closing) - len(parts.closing), 0)
-    return MeshPhasing(PhaseSystem(parts, contacts), dict(backlashes or {}), lambda: _alike(train), unjudged)
+    return MeshPhasing(PhaseSystem(parts, contacts), dict(backlashes or {}), lambda: _equal_wheels(train), unjudged)
 
 
 def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
-    """All links, and the frame's wheels as links of their own."""
+    """Return all links, and the frame's wheels as separate links."""
     mounts = (link for circuit in circuits for link in (circuit.i, circuit.j) if MOUNT in link)
     return tuple(dict.fromkeys([*train.links, *mounts]))
 
 
-def _alike(train: Train) -> dict[str, str]:
-    """Wheels of one tooth count, alike and among mates that are alike, under the name of the first."""
+def _equal_wheels(train: Train) -> dict[str, str]:
+    """Map wheels that are equal and have equal mates to the name of the first of them."""
     marks = {name: (wheel.count, wheel.internal) for name, (_, wheel) in train.wheels.items()}
     mates: dict[str, list[object]] = {name: [] for name in marks}
     for gear in train.gears:
@@ -687,24 +691,24 @@ def _alike(train: Train) -> dict[str, str]:
 
 
 def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | None = None) -> MeshPhasing:
-    """Closure of gears with axes through one point.
+    """Check the phase closure of gears with axes through one point.
 
     Parameters
     ----------
     configuration : SphericalGears
-        Such as a `geartrain.spherical.Configuration`.
+        Configuration of gears, such as a `geartrain.spherical.Configuration`.
     teeth : mapping of str to int, optional
-        Tooth number of each kind, instead of those of the configuration.
+        Tooth count of each kind, instead of those of the configuration.
 
     Returns
     -------
     MeshPhasing
-        Angles of links count from the direction that `configuration.frame` gives first.
+        Angles of links are measured from the first direction of `configuration.frame`.
 
     Raises
     ------
     QuestionError
-        If a kind has no tooth number.
+        If a kind has no tooth count.
 
     Examples
     --------
@@ -718,23 +722,29 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
     counts = {**configuration.teeth, **(teeth or {})}
     missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in counts]
     if missing:
-        what = f"no tooth number for {', '.join(missing)}"
-        raise QuestionError(Trouble(what, "phases count teeth", "give `teeth` for every kind, or ask for the rule"))
+        what = f"no tooth count for {', '.join(missing)}"
+        raise QuestionError(
+            Trouble(
+                what,
+                "phases depend on tooth counts",
+                "give `teeth` for every kind, or use `spherical_divisibility_rule`",
+            )
+        )
     return _closure(configuration, [counts[kind] for kind in configuration.kinds])
 
 
 def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRule | None:
-    """The condition on tooth numbers under which gears with axes through one point can be put together.
+    """Return the rule for tooth counts with which gears with axes through one point can be assembled.
 
     Parameters
     ----------
     configuration : SphericalGears
-        Such as a `geartrain.spherical.Configuration`; its tooth numbers do not matter.
+        Configuration of gears, such as a `geartrain.spherical.Configuration`; its tooth counts do not matter.
 
     Returns
     -------
     DivisibilityRule or None
-        None if contacts are not at known rational parts of a turn.
+        None if contacts are not at known rational fractions of a turn.
 
     Examples
     --------
@@ -771,24 +781,25 @@ def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> P
             parts = configuration.regular[gear]
             step = (turn - first.setdefault(gear, turn)) * parts
             if abs(step - round(step)) > _OFF * parts:
-                what = f"'{configuration.names[gear]}' has contacts that are no multiples of 1/{parts} turn apart"
+                what = f"'{configuration.names[gear]}' has contacts that are not multiples of 1/{parts} turn apart"
                 raise QuestionError(Trouble(what, "it is declared regular", "declare it with `regular` 0"))
             found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
             key.append(gear if parts else (len(keys), gear))
         part.append((found[0], found[1]))
         keys.append((key[0], key[1]))
     family, _ = contact_families(keys)
-    # the smaller the angle between the axes, the more of a direction across one is rounding
+    # the rounding error of a direction normal to an axis grows as the angle between the axes decreases
     slack = 16 * EPS / sine[:, None] * np.ones(2)
     return PitchPoints(circuits, azimuth, slack, family, part)
 
 
 def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats]:
-    """Azimuths (turns) of both contacts of every mesh about outward axes, and the sine of the angle between the axes.
+    """Return azimuths (turns) of both contacts of every mesh about outward axes, and the sine of the angle between the
+    axes.
 
-    They count from the first of two directions: the axis across the coordinate axis that is farthest from it.
+    The azimuth is measured from the direction normal to the axis and to the coordinate axis farthest from it.
     """
-    # farthest from the axis, so that the vector product is never near 0
+    # coordinate axis farthest from the axis, so that the cross product is never near 0
     minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
     first = np.cross(axes, minimum)
     first /= np.linalg.norm(first, axis=1)[:, None]

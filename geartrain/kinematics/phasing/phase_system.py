@@ -1,4 +1,4 @@
-"""The phases of all meshes as one system modulo a pitch: residues of a cycle basis, link angles, errors spread."""
+"""Phases of all meshes as one system modulo a pitch: residues of a cycle basis, link angles, distributed errors."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Row = Mapping[int, int]
-"""Whole weights of meshes."""
+"""Integer weights of meshes."""
 
 
 class PhaseCycle(NamedTuple):
-    """A loop. nodes[k] lies between meshes[k - 1] and meshes[k], nodes[0] after the last mesh."""
+    """A loop. nodes[k] lies between meshes[k - 1] and meshes[k], and nodes[0] follows the last mesh."""
 
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
-    """Whole numbers without a common divisor, with which the equations of the meshes add up to 0 on the left."""
+    """Coprime integers with which the left sides of the equations of the meshes add up to 0."""
 
     @property
     def row(self) -> dict[int, int]:
-        """The weight of each mesh."""
+        """Weight of each mesh."""
         return dict(zip(self.meshes, self.weights, strict=True))
 
 
-_LENGTHS = (4, 6, 8, 12, math.inf)  # meshes of a loop: short ones are looked for first
-_PASSES = 8  # over those that wait: a loop taken makes others shorter
+_LENGTHS = (4, 6, 8, 12, math.inf)  # maximum number of meshes of a loop; short loops are searched first
+_PASSES = 8  # passes over the remaining chords: a chord that is taken shortens other loops
 
 _Edges = dict[int, list[tuple[int, int]]]
 
@@ -52,9 +52,10 @@ _Edges = dict[int, list[tuple[int, int]]]
 def find_cycle_basis(
     parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
 ) -> list[PhaseCycle]:
-    """One loop for each mesh that closes one: the shortest through it and meshes taken before, which ends with it.
+    """Return a cycle basis: for each chord the shortest loop through it and the tree or chords taken before.
 
-    A loop holds its own mesh and none that is taken later, so no loop follows from the others, and they make all.
+    Each loop contains its own chord and no chord that is taken later, so the loops are independent and generate all
+    loops.
     """
     groups = {parts.node_group[ends[chord][0]] for chord in parts.closing}
     edges: _Edges = {}
@@ -62,7 +63,7 @@ def find_cycle_basis(
         if mesh >= 0 and parts.node_group[node] in groups:
             _join(edges, mesh, node, parts.node_parent[node])
     depth = node_depths(parts)
-    # those near the root first: their loops are short, and shorten those of others
+    # chords near the root first: their loops are short, and shorten others
     waiting = sorted(parts.closing, key=lambda at: depth[ends[at][0]] + depth[ends[at][1]])
     found: list[PhaseCycle] = []
     for most in _LENGTHS:
@@ -78,14 +79,14 @@ def find_cycle_basis(
                 found.append(PhaseCycle(tuple(nodes), tuple(meshes), cycle_weights(circuits, ends, nodes, meshes)))
                 _join(edges, chord, i, j)
             progress = len(later) < len(waiting)
-            waiting = later[::-1]  # what one pass could not reach may follow from the other end
+            waiting = later[::-1]  # reversed, because chords left over by one pass may be reachable from the other end
             if not progress or not waiting:
                 break
     return found
 
 
 def node_depths(parts: Components) -> list[int]:
-    """Meshes between every node and the root of its component."""
+    """Return the number of meshes between every node and the root of its component."""
     depth = [-1] * len(parts.node_parent)
     for node in range(len(depth)):
         way = []
@@ -104,18 +105,20 @@ def _join(edges: _Edges, mesh: int, i: int, j: int) -> None:
 
 
 def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[int], list[int]] | None:
-    """Nodes and meshes of the shortest way, looked for from both ends; None where it has more than `most` meshes."""
+    """Return nodes and meshes of a shortest path by bidirectional search; None if it has more than `most` meshes."""
     came: tuple[dict[int, tuple[int, int]], ...] = ({start: (-1, -1)}, {goal: (-1, -1)})
     fronts = [[start], [goal]]
     length = 0
     while (length := length + 1) <= most:
-        side = 0 if len(fronts[0]) <= len(fronts[1]) else 1  # the smaller front grows: far fewer nodes are looked at
+        side = (
+            0 if len(fronts[0]) <= len(fronts[1]) else 1
+        )  # the smaller front is expanded, which visits far fewer nodes
         fresh = []
         own, other = came[side], came[1 - side]
         for node in fronts[side]:
             for mesh, there in edges[node]:
                 if there in other:
-                    return _way(came, (node, there) if side == 0 else (there, node), mesh)
+                    return _joined_path(came, (node, there) if side == 0 else (there, node), mesh)
                 if there not in own:
                     own[there] = (mesh, node)
                     fresh.append(there)
@@ -123,7 +126,9 @@ def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[i
     return None
 
 
-def _way(came: tuple[dict[int, tuple[int, int]], ...], meet: tuple[int, int], mesh: int) -> tuple[list[int], list[int]]:
+def _joined_path(
+    came: tuple[dict[int, tuple[int, int]], ...], meet: tuple[int, int], mesh: int
+) -> tuple[list[int], list[int]]:
     halves: list[tuple[list[int], list[int]]] = []
     for at, reached in zip(meet, came, strict=True):
         nodes, meshes = [at], []
@@ -139,11 +144,11 @@ def _way(came: tuple[dict[int, tuple[int, int]], ...], meet: tuple[int, int], me
 def cycle_weights(
     circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], nodes: Sequence[int], meshes: Sequence[int]
 ) -> tuple[int, ...]:
-    """Weights that cancel at every node; that of the last mesh is positive."""
+    """Return weights that cancel at every node, with a positive weight of the last mesh."""
     weights: list[Fraction | int] = [1]
     for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
         came, goes = mesh_coefficient(circuits, ends, before, node), mesh_coefficient(circuits, ends, mesh, node)
-        # one wheel in both meshes, by far the most: no Fraction is made
+        # one wheel in both meshes, the usual case: no Fraction is needed
         if abs(came) == abs(goes):
             weights.append(-weights[-1] if came == goes else weights[-1])
         else:
@@ -153,27 +158,27 @@ def cycle_weights(
 
 
 def mesh_coefficient(circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], mesh: int, node: int) -> int:
-    """The coefficient of a node's angle in the equation of a mesh."""
+    """Return the coefficient of a node's angle in the equation of a mesh."""
     return circuits[mesh].a if ends[mesh][0] == node else circuits[mesh].b
 
 
 # ----------------------------------------------------------------------------------------------------- carrier coupling
 
 
-_BUDGET = 10**7  # operations; past it, trains of coupled planetaries are judged loop by loop
+_BUDGET = 10**7  # operations of elimination; beyond, trains of coupled planetaries are checked loop by loop
 
 Number = Fraction | float
 Left = Callable[[int, Sequence[Number]], Number]
-"""What is left of the constant of a mesh at given angles of the nodes."""
+"""Function that returns the remaining constant of a mesh at given angles of the nodes."""
 
 
 @dataclass(frozen=True)
 class CarrierCoupling:
-    """How components are connected.
+    """Coupling of components through shared links and carriers.
 
-    rows       weights of meshes of several carriers whose equations add up to 0 on the left
-    complete   False where finding them was given up
-    forms      unknowns of the components by the angles at which they come together (symbol -1 - equation)
+    rows       weights of meshes of several carriers with which the left sides of their equations add up to 0
+    complete   False if the search for them was given up
+    forms      unknowns of the components as forms of the angles at which they meet (symbol -1 - equation)
     """
 
     reduced: ReducedSystem
@@ -184,16 +189,16 @@ class CarrierCoupling:
 
     @property
     def complete(self) -> bool:
-        """False where it was too dense to be solved: only loops in one carrier's frame are known."""
+        """False if the system was too dense to be solved, so that only loops of one carrier are known."""
         return self.forms is not None
 
     def angles(self, nodes: Sequence[Number], left: Left) -> list[Number]:
-        """Angles of links from those of nodes, as their components alone give them (turns).
+        """Convert angles of nodes, relative to their carriers, to angles of links (turns).
 
-        What stays free is 0: carriers stand in the pose in which they are declared.
+        Free unknowns are 0, so carriers are in their declared pose.
         """
         parts, own = self.reduced.components, self.reduced.own
-        together = [self._apart(at, nodes, left) for at in range(len(self.reduced.origin))]
+        together = [self._angle_difference(at, nodes, left) for at in range(len(self.reduced.origin))]
         values: dict[int, Number] = {}
         for unknown, form in (self.forms or {}).items():
             values[unknown] = sum(factor * together[-column - 1] for column, factor in form.items() if column < 0)
@@ -207,8 +212,8 @@ class CarrierCoupling:
                 found[link] += parts.relative(node) * turned if turned else 0
         return found
 
-    def _apart(self, at: int, nodes: Sequence[Number], left: Left) -> Number:
-        """By how much a link differs as two carriers see it; or where a loop that cannot turn must stand."""
+    def _angle_difference(self, at: int, nodes: Sequence[Number], left: Left) -> Number:
+        """Return the difference of a link's angles relative to two carriers, or the required angle of a rigid loop."""
         parts = self.reduced.components
         kind, first, node = self.reduced.origin[at]
         if kind == "share":
@@ -222,7 +227,7 @@ class CarrierCoupling:
 def find_carrier_coupling(
     parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
 ) -> CarrierCoupling:
-    """Solve what couples the components, with the angles at which they come together as symbols."""
+    """Solve the equations that couple the components, with the angles at which they meet as symbols."""
     reduced = reduce_components(parts)
     try:
         equations = ({**row, -at - 1: Fraction(-1)} for at, row in enumerate(reduced.equations))
@@ -233,19 +238,19 @@ def find_carrier_coupling(
     rows = []
     for condition in echelon.conditions:
         origins = {-column - 1: reduced.origin[-column - 1] for column in condition}
-        if all(kind == "share" for kind, _, _ in origins.values()):  # a train that cannot turn is asked for no more
+        if all(kind == "share" for kind, _, _ in origins.values()):  # rigid loops have no phase condition
             total: dict[int, Fraction] = {}
             for at, (_, link, node) in origins.items():
                 factor = condition[-at - 1]
-                _follow(parts, circuits, ends, node, factor, total)
+                _add_contributions(parts, circuits, ends, node, factor, total)
                 if link not in reduced.own:
-                    _follow(parts, circuits, ends, parts.nodes_of[link][0], -factor, total)
+                    _add_contributions(parts, circuits, ends, parts.nodes_of[link][0], -factor, total)
             weights = whole_multiple(total.values())
             rows.append({mesh: weight for mesh, weight in zip(total, weights, strict=True) if weight})
     return CarrierCoupling(reduced, circuits, ends, tuple(rows), forms)
 
 
-def _follow(
+def _add_contributions(
     parts: Components,
     circuits: Sequence[Circuit],
     ends: Sequence[tuple[int, int]],
@@ -253,7 +258,7 @@ def _follow(
     factor: Fraction,
     total: dict[int, Fraction],
 ) -> None:
-    """Add what the constants of the meshes on the way from the root contribute to a node's angle."""
+    """Add the contribution of each mesh constant on the path from the root to a node's angle."""
     speed = parts.relative(node) * factor
     while parts.node_parent[node] >= 0:
         mesh = parts.node_circuit[node]
@@ -268,48 +273,48 @@ def _follow(
 PhaseKind = Literal["closes", "misses", "unclear", "open"]
 ResidueKnowledge = Literal["exact", "recognised", "numeric"]
 
-_UNCLEAR = 0.05  # pitch: a residue known no better than this, and within it, tells nothing
-_MOST = 20_000  # entries of loops with unequal weights that are still looked at together
-_ROUNDS = 20  # of choosing teeth anew, where a round is cheap
-_FEW = 3  # where it is not
-_SAME = 1e-6  # pitch: errors that are alike, so that every tooth stays in its gap
+_UNCLEAR = 0.05  # pitch: a residue within a larger error than this is undecided
+_MOST = 20_000  # maximum number of matrix entries for which loops with unequal weights are combined
+_ROUNDS = 20  # rounds of reassigning teeth, if a round is fast
+_FEW = 3  # rounds if it is slow
+_SAME = 1e-6  # pitch: tolerance at which no tooth changes its gap
 
 
 @dataclass(frozen=True)
 class PhaseCondition:
-    """Meshes whose equations add up to 0 on the left: their constants must add up to a whole number of pitches."""
+    """Meshes whose left sides add up to 0, so that their constants must add up to an integer number of pitches."""
 
     cycle: PhaseCycle | None
-    """The loop; None where loops only together fulfil it."""
+    """Loop of the condition; None if it applies to several loops together."""
     row: Mapping[int, int]
-    """The weight of each mesh."""
+    """Weight of each mesh."""
     residue: Fraction | float
-    """The sum less the nearest whole number (pitches): a Fraction where it is exact."""
+    """Sum minus the nearest integer (pitches); a Fraction if it is exact."""
     slack: float
-    """How far off it may be (pitches)."""
+    """Maximum error of the residue (pitches)."""
     guessed: bool
-    """True if an exact residue rests on angles that were recognised in rounded positions."""
+    """True if an exact residue depends on angles recognised from rounded positions."""
 
     @property
     def kind(self) -> PhaseKind:
-        """closes, misses, or unclear where positions are too rough to tell."""
+        """Verdict: closes, misses, or unclear if positions are too inaccurate."""
         return judge_residue(self.residue, self.slack)
 
     @property
     def how(self) -> ResidueKnowledge:
-        """How the residue is known."""
+        """Basis of the residue: exact, recognised or numeric."""
         if not isinstance(self.residue, Fraction):
             return "numeric"
         return "recognised" if self.guessed else "exact"
 
     @property
     def miss(self) -> Fraction | float:
-        """What is left at the last mesh when all others fit (pitches)."""
+        """Error of the last mesh if all others mesh exactly (pitches)."""
         return self.residue / (self.cycle.weights[-1] if self.cycle else list(self.row.values())[-1])
 
 
 def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
-    """closes, misses, or unclear where positions are too rough to tell."""
+    """Return closes, misses, or unclear if positions are too inaccurate."""
     if abs(float(residue)) > slack:
         return "misses"
     return "unclear" if slack > _UNCLEAR else "closes"
@@ -317,45 +322,47 @@ def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
 
 @dataclass(frozen=True)
 class PhaseSystem:
-    """a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md; angles in turns, c in pitches."""
+    """System a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md; angles in turns, c in
+    pitches.
+    """
 
     parts: Components
     contacts: PitchPoints
 
     @property
     def circuits(self) -> Sequence[Circuit]:
-        """The meshes."""
+        """Circuits of the meshes."""
         return self.contacts.circuits
 
     @cached_property
     def ends(self) -> list[tuple[int, int]]:
-        """The two nodes of every mesh."""
+        """Two nodes of every mesh."""
         return mesh_nodes(self.parts, self.circuits)
 
     @cached_property
     def cycles(self) -> list[PhaseCycle]:
-        """Short loops that make all loops."""
+        """Cycle basis of short loops."""
         return find_cycle_basis(self.parts, self.circuits, self.ends)
 
     @cached_property
     def coupling(self) -> CarrierCoupling:
-        """What links seen from several carriers add."""
+        """Coupling of components by links that occur relative to several carriers."""
         return find_carrier_coupling(self.parts, self.circuits, self.ends)
 
     @cached_property
     def carriers(self) -> frozenset[int]:
-        """Links that carry meshes, but for the frame."""
+        """Carriers of meshes, except the frame."""
         return frozenset(self.parts.group_carrier) - {self.parts.frame}
 
     # ------------------------------------------------------------------------------------------------------ conditions
 
     @cached_property
     def conditions(self) -> list[PhaseCondition]:
-        """One for every loop, then those that loops only fulfil together."""
+        """Conditions of all loops, followed by those that apply to several loops together."""
         cycles = self.cycles
         with collector_paused():
             found = [self._condition(cycle, cycle.row) for cycle in cycles]
-        basis, _, index = self._together
+        basis, _, index = self._saturated
         if index != 1 or self.coupling.rows:
             alone = {tuple(sorted(cycle.row.items())) for cycle in self.cycles}
             found += [self._condition(None, row) for row in basis if tuple(sorted(row.items())) not in alone]
@@ -363,12 +370,12 @@ class PhaseSystem:
 
     @cached_property
     def complete(self) -> bool:
-        """False where loops were judged one by one, and what they must fulfil together was not looked for."""
-        return self.coupling.complete and (self._uneven_size <= _MOST)
+        """False if loops were checked only one by one, without conditions on several loops together."""
+        return self.coupling.complete and (self._unequal_size <= _MOST)
 
     @cached_property
-    def _uneven(self) -> list[dict[int, int]]:
-        """Rows that may have multiples in common: all of components in which some loop has unequal weights."""
+    def _unequal_rows(self) -> list[dict[int, int]]:
+        """Rows whose integer combinations may have common factors: all rows of components with unequal weights."""
         if not self.cycles:
             return list(self.coupling.rows)
         group = self.parts.node_group
@@ -377,12 +384,12 @@ class PhaseSystem:
         return [cycle.row for cycle in self.cycles if group[cycle.nodes[0]] in uneven] + list(self.coupling.rows)
 
     @cached_property
-    def _uneven_size(self) -> int:
-        return len(self._uneven) * len({mesh for row in self._uneven for mesh in row})
+    def _unequal_size(self) -> int:
+        return len(self._unequal_rows) * len({mesh for row in self._unequal_rows for mesh in row})
 
     @cached_property
-    def _together(self) -> tuple[list[dict[int, int]], list[dict[int, int]], int]:
-        return saturated_lattice(self._uneven) if self._uneven_size <= _MOST else ([], [], 1)
+    def _saturated(self) -> tuple[list[dict[int, int]], list[dict[int, int]], int]:
+        return saturated_lattice(self._unequal_rows) if self._unequal_size <= _MOST else ([], [], 1)
 
     def _condition(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> PhaseCondition:
         contacts = self.contacts
@@ -391,9 +398,9 @@ class PhaseSystem:
         for mesh, weight in row.items():
             slack += abs(weight) * self._doubt[mesh]
         if families is None:
-            # fsum rounds once: the order of the meshes changes no digit
-            total = math.fsum(self._times(weight, self._constant[mesh]) for mesh, weight in row.items())
-            # above -1/2, up to 1/2, as `centred_residue` has it: `round` would take halves to even numbers
+            # fsum rounds once, so the result does not depend on the order of the meshes
+            total = math.fsum(self._weighted(weight, self._constant[mesh]) for mesh, weight in row.items())
+            # in (-1/2, 1/2] like `centred_residue`; `round` would round halves to even integers
             return PhaseCondition(cycle, row, total - math.ceil(total - 0.5), slack, False)
         scale, exact = contacts.scale, contacts.exact_constant
         parts = sum(weight * exact[mesh] for mesh, weight in row.items()) % scale
@@ -411,13 +418,17 @@ class PhaseSystem:
         return values
 
     @staticmethod
-    def _times(weight: int, constant: float) -> float:
+    def _weighted(weight: int, constant: float) -> float:
         if abs(weight) == 1:
             return weight * constant
-        return float(Fraction(weight) * Fraction(constant) % 1)  # a long weight would eat the digits of the fraction
+        return float(
+            Fraction(weight) * Fraction(constant) % 1
+        )  # exact, because a large weight would cancel the digits of the fraction
 
     def _families(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> list[int] | None:
-        """The families of all contacts, if at every node they cancel; None where a residue is known in floats only."""
+        """Return the families of all contacts if they cancel at every node; None if the residue is known in floats
+        only.
+        """
         family = self.contacts.family
         if cycle is not None:
             found = []
@@ -439,14 +450,14 @@ class PhaseSystem:
     # ---------------------------------------------------------------------------------------------------------- angles
 
     @cached_property
-    def _engaged(self) -> dict[int, int]:
-        """Whole pitches to add to constants, so that loops with unequal weights close as nearly as they can."""
-        basis, dual, _ = self._together
+    def _whole_pitches(self) -> dict[int, int]:
+        """Integer pitches to add to constants, so that loops with unequal weights close as nearly as possible."""
+        basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
             total = sum((weight * Fraction(self._constant[mesh]) for mesh, weight in row.items()), Fraction(0))
             residue = self._condition(None, row).residue
-            # whole but for the rounding of the constants
+            # an integer except for the rounding of the constants
             whole = round(total - Fraction(residue))
             for mesh, factor in column.items():
                 found[mesh] = found.get(mesh, 0) - whole * factor
@@ -454,9 +465,10 @@ class PhaseSystem:
 
     @cached_property
     def _tree_nodes(self) -> list[Number]:
-        """Angles of links as seen from their carriers, with every mesh fulfilled but those that close loops.
+        """Angles of nodes relative to their carriers that satisfy every mesh of the search tree.
 
-        Where wheels are compound, a whole turn of a link is another engagement elsewhere: angles are kept whole, exact.
+        With compound wheels, a full turn of one link changes the engagement of others; these angles are exact
+        fractions.
         """
         parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
         found: list[Number] = list(nodes)
@@ -469,7 +481,7 @@ class PhaseSystem:
             circuit, first = self.circuits[mesh], self.ends[mesh][0] == node
             own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
             if parts.node_group[node] in self._exact_groups:
-                right = Fraction(self._constant[mesh]) + self._engaged.get(mesh, 0)
+                right = Fraction(self._constant[mesh]) + self._whole_pitches.get(mesh, 0)
                 found[node] = (right - other * Fraction(found[up])) / own
             else:
                 found[node] = ((self._constant[mesh] - other * found[up]) / own) % 1.0
@@ -477,46 +489,48 @@ class PhaseSystem:
 
     @cached_property
     def _exact_groups(self) -> frozenset[int]:
-        return frozenset(self.parts.node_group[self.ends[mesh][0]] for row in self._together[0] for mesh in row)
+        return frozenset(self.parts.node_group[self.ends[mesh][0]] for row in self._saturated[0] for mesh in row)
 
     @cached_property
     def tree_angles(self) -> list[float]:
-        """Angles of links (turns) with every mesh fulfilled but those that close loops."""
-        return self._of_links(self._tree_nodes)
+        """Angles of links (turns) that satisfy every mesh except those that close loops."""
+        return self._link_angles(self._tree_nodes)
 
-    def _of_links(self, nodes: Sequence[Number]) -> list[float]:
-        return [float(angle % 1) for angle in self.coupling.angles(nodes, self._left)]
+    def _link_angles(self, nodes: Sequence[Number]) -> list[float]:
+        return [float(angle % 1) for angle in self.coupling.angles(nodes, self._remaining_constant)]
 
-    def _left(self, mesh: int, nodes: Sequence[Number]) -> Number:
+    def _remaining_constant(self, mesh: int, nodes: Sequence[Number]) -> Number:
         (i, j), circuit = self.ends[mesh], self.circuits[mesh]
         return self._constant[mesh] - circuit.a * nodes[i] - circuit.b * nodes[j]
 
     @cached_property
-    def _by_links(self) -> SparseRows:
+    def _link_rows(self) -> SparseRows:
         """Links and coefficients of every mesh: its two links and its carrier."""
         index = self.parts.index
         links = np.array([(index[c.i], index[c.j], index[c.carrier]) for c in self.circuits]).reshape(-1, 3)
         teeth = self.contacts.teeth
         factors = np.column_stack([teeth, np.where(links[:, 2] == self.parts.frame, 0.0, -teeth.sum(axis=1))])
-        return SparseRows(links, self._requested(factors), len(self.parts.links))
+        return SparseRows(links, self._without_rigid_loops(factors), len(self.parts.links))
 
     @cached_property
-    def _by_nodes(self) -> SparseRows:
+    def _node_rows(self) -> SparseRows:
         nodes = np.array(self.ends).reshape(-1, 2)
-        return SparseRows(nodes, self._requested(self.contacts.teeth), len(self.parts.node_parent))
+        return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
-    def _requested(self, factors: Floats) -> Floats:
-        """Rows of meshes that let loops stand only somewhere are not asked for anything."""
+    def _without_rigid_loops(self, factors: Floats) -> Floats:
+        """Return the factors with rows of 0 for meshes that close rigid loops, which have no phase condition."""
         found = factors.copy()
-        found[list(self.parts.breaking)] = 0.0  # their loops are asked for no phase
+        found[list(self.parts.breaking)] = 0.0  # rigid loops have no phase condition
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """By how much of a pitch every mesh is off at given angles of links (turns); 0 where it closes a rigid loop."""
-        return self._errors(self._by_links, np.asarray(angles))
+        """Return the error of every mesh (pitches) at given angles of links (turns); 0 for meshes that close a rigid
+        loop.
+        """
+        return self._errors(self._link_rows, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
-        # whole pitches go before the sum, where they would eat the digits of the fraction
+        # integer pitches are removed before the sum, to keep the digits of the fraction
         off: Floats = self.contacts.constant - np.mod(rows.factors * angles[rows.columns], 1.0).sum(axis=1)
         off -= np.ceil(off - 0.5)
         off[list(self.parts.breaking)] = 0.0
@@ -524,19 +538,22 @@ class PhaseSystem:
 
     @cached_property
     def spread_angles(self) -> list[float]:
-        """Angles of links for the least sum of squares of errors that is found.
+        """Angles of links with the smallest sum of squared errors that was found.
 
-        Which tooth meets which gap is chosen in two ways to begin with: errors at the pairs that close loops below half
-        a pitch, and residues of short loops below half a pitch. Then errors are spread and teeth chosen anew until
-        nothing changes; each step lessens the sum. No proof that no other choice would be better.
+        The assignment of teeth to gaps starts from two choices: errors of the pairs that close loops below half a
+        pitch, and residues of short loops below half a pitch. Then errors are distributed by least squares and teeth
+        are reassigned until nothing changes. Each step reduces the sum. It is not proved that no other assignment is
+        better.
         """
         start = self.errors(self.tree_angles)
-        starts = [self._by_loops(start), start][: 2 if self._by_nodes.small(len(start)) else 1]
-        found = [self._spread(start) for start in starts]
+        starts = [self._loop_errors(start), start][: 2 if self._node_rows.small(len(start)) else 1]
+        found = [self._distribute(start) for start in starts]
         return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
 
-    def _by_loops(self, errors: Floats) -> Floats:
-        """Errors of the meshes that close loops, whole pitches added so that residues of short loops stay small."""
+    def _loop_errors(self, errors: Floats) -> Floats:
+        """Return errors of the meshes that close loops, with integer pitches added so that residues of short loops are
+        small.
+        """
         found = errors.tolist()
         for condition in self.conditions:
             if condition.cycle is not None:
@@ -545,17 +562,17 @@ class PhaseSystem:
                 found[last] += round(left / weight - found[last])
         return np.array(found)
 
-    def _spread(self, errors: Floats) -> list[float]:
-        """Unless carriers are geared to each other, links seen from their carriers move and carriers stay."""
+    def _distribute(self, errors: Floats) -> list[float]:
+        """Distribute the errors; carriers are kept in place unless they are geared to each other."""
         if self.coupling.rows:
-            together = np.mod(self._settle(self._by_links, np.array(self.tree_angles), errors), 1.0)
+            together = np.mod(self._iterate(self._link_rows, np.array(self.tree_angles), errors), 1.0)
             return [float(angle) for angle in together]
         start = self._tree_nodes
-        moved = self._settle(self._by_nodes, np.zeros(len(start)), errors, [float(angle % 1) for angle in start])
-        return self._of_links([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
+        moved = self._iterate(self._node_rows, np.zeros(len(start)), errors, [float(angle % 1) for angle in start])
+        return self._link_angles([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
 
-    def _settle(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
-        """Spread errors and choose teeth anew, in turn."""
+    def _iterate(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
+        """Distribute errors by least squares and reassign teeth to gaps, alternately until nothing changes."""
         for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
             step = rows.least_squares(errors)
             angles = angles + step

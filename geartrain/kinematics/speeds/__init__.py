@@ -1,4 +1,4 @@
-"""From circuits to speeds, exact or in floats with their error; mobility and verdict never by a tolerance."""
+"""Speeds from circuits, exact or in floats with error estimates; mobility and verdict without any tolerance."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ __all__ = [
     "solve_floats",
 ]
 
-# the float path brings numpy and scipy
+# imported on first use: floats need numpy and scipy
 __getattr__ = lazy_names(
     __name__,
     {

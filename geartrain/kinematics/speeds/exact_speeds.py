@@ -1,9 +1,9 @@
-"""Exact speeds: eliminate what couples the components, then read every link off its component; and the verdict.
+"""Exact speeds by propagation or elimination, and the verdict.
 
-Propagation comes first: where two of a circuit's three links are known, the third follows. It settles ordinary trains,
-and every train whose links are driven one after another, in plain integers and in a time proportional to the circuits.
-Where it stops (a planetary set with its ring held needs two circuits at once) the coupled system is reduced and
-eliminated. The diagnosis names the loops and prescriptions of systems without a unique solution.
+Propagation is tried first: if two of a circuit's three links are known, the third follows. It solves ordinary trains,
+and every train whose links are driven one after another, in integers and in linear time. If it stops (a planetary set
+with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved by Gaussian
+elimination. The diagnosis names the loops and prescriptions of systems without a unique solution.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _ZERO = Fraction(0)
 
 
 class PrescriptionStatement(NamedTuple):
-    """What one prescription says: its kind (input, fixed, lock), in words, as declared, and its value."""
+    """One prescription: its kind (input, fixed, lock), its text, the text of its declaration, and its speed."""
 
     kind: str
     text: str
@@ -47,11 +47,11 @@ class PrescriptionStatement(NamedTuple):
 
 
 def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], budget: int | None = None) -> Verdict:
-    """The verdict on a case that does not hold together, locked or contradictory, with its witnesses.
+    """Return the verdict on an inconsistent case, locked or contradictory, with its certificate.
 
-    An input is locked if its link stands still whatever the other inputs do; inputs that could move alone but not
-    together are contradictory. Witnesses cost memory in a long coupled train: past `budget` operations the verdict
-    comes without them.
+    An input is locked if its link cannot move whatever the other inputs are. Inputs that can move separately but not
+    together are contradictory. The certificate needs much memory for a long coupled train; beyond `budget` operations
+    the verdict is returned without it.
     """
     rows, statements = _tagged(reduced, case, signs)
     structural, held = len(reduced.equations), len(rows) - len(case.inputs)
@@ -59,29 +59,29 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
         forms = eliminate(rows[:held], budget).forms(budget)
         for row, stated in zip(rows[held:], statements[held - structural :], strict=True):
             resolved = resolve_form(row, forms)
-            # no unknown is left: the circuits and brakes alone say that this speed is 0
+            # no unknown is left: circuits and brakes imply that this speed is 0
             if stated.speed and not any(column >= 0 for column in resolved):
-                return _name(reduced, case, _uses(resolved), statements)
+                return _describe_contradiction(reduced, case, _tag_factors(resolved), statements)
         echelon = eliminate(rows, budget)
     except TooDenseError:
         return unwitnessed_verdict(reduced, case)
     for condition in echelon.conditions:
-        given = _uses(condition)
+        given = _tag_factors(condition)
         total = sum(
             (value * statements[tag - structural].speed for tag, value in given.items() if tag >= structural), _ZERO
         )
         if total:
-            return _name(reduced, case, given, statements)
+            return _describe_contradiction(reduced, case, given, statements)
     return unwitnessed_verdict(reduced, case)
 
 
-def _uses(row: LinearForm) -> dict[int, Fraction]:
-    """How much of each tagged equation goes into a row of symbols."""
+def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
+    """Return the factor of each tagged equation in a row of symbols."""
     return {-1 - column: value for column, value in row.items()}
 
 
 def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm:
-    """A row with its solved unknowns put in."""
+    """Return a row with its solved unknowns substituted."""
     resolved: LinearForm = {}
     for column, coefficient in row.items():
         add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
@@ -89,7 +89,7 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
 
 
 def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
-    """One row for each link held to the frame and each pair locked together."""
+    """Yield one row for each link fixed to the frame and for each pair of locked links."""
     index = reduced.components.index
     for link in case.fixed:
         yield dict(reduced.form(index[link]))
@@ -100,18 +100,18 @@ def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
 
 
 def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """What is certain without a certificate: an input that cannot move is locked, else several contradict."""
+    """Return the verdict without a certificate: locked if an input cannot move, else contradictory."""
     given = tuple(map(case.given, case.inputs))
-    stuck = _stuck(reduced, case)
+    stuck = _locked_inputs(reduced, case)
     if stuck:
         return Verdict("locked", f"input '{stuck[0]}' is locked to the frame by the circuits", prescriptions=given)
-    return Verdict("contradictory", f"{', '.join(given)} cannot hold with the circuits", prescriptions=given)
+    return Verdict("contradictory", f"{', '.join(given)} contradict the circuits", prescriptions=given)
 
 
-def _stuck(reduced: ReducedSystem, case: StateCase) -> list[str]:
-    """The inputs that are to move and stand still whatever the others do, modulo a prime.
+def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
+    """Return the non-zero inputs that cannot move whatever the other inputs are, by elimination modulo a prime.
 
-    With a symbol for each input, elimination leaves what the circuits say of the inputs alone.
+    With a symbol for each input, elimination leaves the relations between the inputs that the circuits imply.
     """
     rows = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
     rows += [
@@ -130,7 +130,7 @@ def _stuck(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """All equations, each with a symbol -1-t of its own, t counting structure first, then prescriptions."""
+    """Return all equations, each with its own symbol -1-t, where t counts structural rows first, then prescriptions."""
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
     statements: list[PrescriptionStatement] = [
@@ -147,10 +147,10 @@ def _tagged(
     return rows, statements
 
 
-def _name(
+def _describe_contradiction(
     reduced: ReducedSystem, case: StateCase, given: Mapping[int, Fraction], statements: Sequence[PrescriptionStatement]
 ) -> Verdict:
-    """One contradiction in words. `given` says how much of each equation goes into it."""
+    """Describe one contradiction. `given` has the factor of each equation in it."""
     parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
     inputs = [(stated.text, value, stated.speed) for stated, value in used if stated.kind == "input"]
@@ -180,12 +180,12 @@ def _name(
     said = ", ".join(dict.fromkeys(stated.text for stated, _ in used))
     text = f"{said} contradict each other: {terms}"
     if loops:
-        text += f", for {shut}"
+        text += f", because {shut}"
     return Verdict("contradictory", text, prescriptions=prescriptions, loops=loops)
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """The gear pairs that take part in a contradiction: the paths between the links its equations share."""
+    """Return the gear pairs that take part in a contradiction: the paths between the shared links of its equations."""
     parts = reduced.components
     touched: dict[int, set[int]] = {}
     for tag in given:
@@ -198,7 +198,7 @@ def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: in
 
 
 def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Nothing is driven and nothing could be: the train itself, or its brakes, hold every link."""
+    """Return the verdict on a case in which no input is driven and every link is locked, by loops or brakes."""
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
     holding = [case.declares(link) for link in case.fixed] + [case.declares(a, b) for a, b in case.locks]
@@ -206,7 +206,7 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
     if loops:
         text = f"mobility 0: {loops[0]} does not close; every link is locked"
     elif held:
-        text = f"mobility 0: {', '.join(held)}; every link stands still"
+        text = f"mobility 0: {', '.join(held)}; no link can move"
     else:
         text = "mobility 0: every link is locked"
     links = tuple(link for link in parts.links if parts.index[link] != parts.frame)
@@ -216,11 +216,13 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """What is undetermined, and a least set of links whose speeds would settle it."""
+    """Return the verdict with all undetermined links, and a smallest set of links whose speeds would determine them."""
     index = reduced.components.index
     rows: list[LinearForm] = []
     fixes: list[str] = []
-    for link in sorted(undetermined, key=lambda name: index[name] not in reduced.own):  # carriers make good inputs
+    for link in sorted(
+        undetermined, key=lambda name: index[name] not in reduced.own
+    ):  # carriers first, as suitable inputs
         row = resolve_form(reduced.form(index[link]), forms)
         loose = {column: value for column, value in row.items() if column >= 0}
         if eliminate([*rows, loose]).rank > len(rows):
@@ -242,11 +244,11 @@ def free_verdict(
 
 
 Terms = tuple[tuple[int, int], ...]
-"""A row: pairs of link index and integer coefficient whose sum of products with the speeds vanishes."""
+"""A row: pairs of link index and integer coefficient; the sum of coefficient times speed is 0."""
 
 
 class PropagatedSpeeds(Mapping[str, Fraction]):
-    """Exact speeds by link, each multiplied out when it is read."""
+    """Exact speeds by link; each product of ratios is multiplied out on access."""
 
     def __init__(self, index: Mapping[str, int], products: FactoredRatios, signs: Mapping[str, int]) -> None:
         self._index, self._products, self._signs = index, products, signs
@@ -269,9 +271,9 @@ class PropagatedSpeeds(Mapping[str, Fraction]):
 def propagate(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: StateCase, signs: Mapping[str, int]
 ) -> PropagatedSpeeds | None:
-    """Every link's exact speed, or None where walking does not reach all, or meets a contradiction.
+    """Return every link's exact speed, or None if propagation does not reach all links or finds a contradiction.
 
-    signs   -1 for links whose axis points against the reference direction of its parallels
+    signs   -1 for links whose axis points against the reference direction of its parallel axes
     """
     index = {link: at for at, link in enumerate(links)}
     rows = _rows(index, frame, circuits, case)
@@ -281,18 +283,18 @@ def propagate(
             users[link].append(at)
     waiting = [len(row) for row in rows]
     speeds = FactoredRatios(len(links))
-    bottom = speeds.bottom  # 0: not known yet
+    bottom = speeds.bottom  # denominators; 0 means unknown
     speeds.set_root(index[frame], 0)
     known = []
     for name, speed in _prescribed(case, signs):
         at = index[name]
         if bottom[at]:
-            return None  # prescribed twice, or the frame: whether that agrees is for the diagnosis
+            return None  # prescribed twice, or the frame; the diagnosis decides whether that is consistent
         speeds.set_root(at, speed.numerator, speed.denominator)
         known.append(at)
     for row in rows:
         if len(row) == 1 and not bottom[row[0][0]]:
-            speeds.set_root(row[0][0], 0)  # alone in its row: it stands still
+            speeds.set_root(row[0][0], 0)  # a row with one link: its speed is 0
             known.append(row[0][0])
     used = bytearray(len(rows))
     for here in known:
@@ -311,7 +313,7 @@ def propagate(
 
 
 def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
-    """All circuits and locks as rows over the moving links."""
+    """Return all circuits and locks as rows over the moving links."""
     rows: list[Terms] = []
     for circuit in circuits:
         rows.append(tuple([(index[link], factor) for link, factor in circuit.terms if link != frame]))
@@ -327,7 +329,7 @@ def _prescribed(case: StateCase, signs: Mapping[str, int]) -> list[tuple[str, Fr
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:
-    """Give the one unknown link of a row its speed, and say which it was; -1 if it got one in the meantime."""
+    """Solve a row for its one unknown link and return that link; -1 if it was solved in the meantime."""
     target, lead = -1, 0
     moving = []
     for link, coefficient in row:
@@ -349,30 +351,30 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 # --------------------------------------------------------------------------------------------------------- exact speeds
 
 
-_GIVEN = -1  # the column in which prescribed numbers stand
+_GIVEN = -1  # column of prescribed speeds
 
 EXACT_BUDGET = 400_000
-"""Coefficient operations after which exact elimination gives way to floats; about a second."""
+"""Coefficient operations after which exact elimination is replaced by floats; about one second."""
 
 _PREDICTED = 40_000
 """Operations modulo a prime beyond which exact elimination is not tried.
 
-Fill makes numbers long: in grids and random networks of differentials, this many operations with short numbers are some
-400,000 of `EXACT_BUDGET`.
+Fill-in makes numbers long: in grids and random networks of differentials, this number of operations with short numbers
+corresponds to about 400,000 of `EXACT_BUDGET`.
 """
 
-_FEW = 100  # equations up to which the prediction would cost as much as it saves
+_FEW = 100  # for fewer equations the prediction costs as much as it saves
 
 
 @dataclass(frozen=True, slots=True)
 class FreeForms:
-    """What is left of a train that is free: forms of its unknowns in those that stayed free."""
+    """Unknowns of a free train as linear forms of those that remain free."""
 
     reduced: ReducedSystem
     forms: Mapping[int, LinearForm]
 
     def difference(self, of: str, base: str) -> Fraction | None:
-        """The difference of two links' speeds, unsigned; None where free unknowns remain in it."""
+        """Return the difference of two links' speeds, without axis signs; None if it depends on free unknowns."""
         index = self.reduced.components.index
         row = dict(self.reduced.form(index[of]))
         add_into(row, self.reduced.form(index[base]), -1)
@@ -385,18 +387,18 @@ class Solution:
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
-    """Link -> speed, in the order declared; only links that are determined."""
+    """Speed by link, in the order of the declaration; only determined links."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Link -> input -> speed over that input, the others at rest."""
+    """Ratio of speeds by link and input, with the other inputs at rest."""
     signs: Mapping[str, int]
-    """-1 for links whose axis points against its parallels."""
+    """-1 for links whose axis points against its parallel axes."""
     loose: FreeForms | None = None
-    """Every link as a form of what stayed free; None where all is determined, or nothing is."""
+    """Every link as a form of the free unknowns; None if all links are determined, or none."""
 
     def relative(self, of: str, base: str) -> Fraction | None:
-        """Speed of a link seen from another, about the first one's axis; None where it is not determined.
+        """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
 
-        It may be determined though both links are free: it is wherever the difference lies in the space of the rows.
+        It may be determined although both links are free, namely if the difference is in the row space.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.loose is None:
@@ -412,14 +414,14 @@ class Solution:
 
 
 class _Ratios(Mapping[str, Mapping[str, Fraction]]):
-    """The exact link x input table. It is solved for when first read: a case with one answer does not need it."""
+    """Exact table of ratios, link by input; solved on first access."""
 
     def __init__(self, part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> None:
         self._part, self._case, self._signs = part, case, signs
 
     @cached_property
     def _forms(self) -> dict[int, LinearForm]:
-        """Every unknown in terms of the inputs, one symbol each."""
+        """Every unknown as a linear form of the inputs, with one symbol for each input."""
         reduced = self._part.reduced
         index = reduced.components.index
         rows = [*reduced.equations, *held_rows(reduced, self._case)]
@@ -444,10 +446,10 @@ class _Ratios(Mapping[str, Mapping[str, Fraction]]):
 
 @collector_paused()
 def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
-    """Solve one case exactly: link by link where that reaches every link, else reduced and eliminated.
+    """Solve one case exactly, by propagation if it reaches every link, else by reduction and elimination.
 
-    signs    -1 for links whose axis points against its parallels: their speeds change sign at this door
-    budget   operations allowed beyond linear work; `TooDenseError` past it, None for no bound
+    signs    -1 for links whose axis points against its parallel axes; results are converted to declared directions
+    budget   operations allowed beyond linear work; `TooDenseError` if exceeded, None for no limit
     """
     ratios = _Ratios(part, case, signs)
     walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
@@ -455,14 +457,14 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
         return Solution(determined_verdict(case), walked, ratios, signs)
     reduced = part.reduced
     budget = elimination_budget(reduced, budget)
-    rows = [*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)]
+    rows = [*reduced.equations, *held_rows(reduced, case), *_input_rows(reduced, case, signs)]
     echelon = eliminate_within(rows, budget)
     if echelon.conditions:
         return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
-    if not any(case.inputs.values()) and _all_still(reduced, case, budget):
+    if not any(case.inputs.values()) and _is_immobile(reduced, case, budget):
         return Solution(stationary_verdict(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
     forms = echelon.forms(budget)
-    speeds, undetermined = _read_off(reduced, forms, signs)
+    speeds, undetermined = _determined_speeds(reduced, forms, signs)
     if undetermined:
         freedom = reduced.unknowns - echelon.rank
         verdict = free_verdict(reduced, case, forms, undetermined, freedom)
@@ -471,14 +473,14 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """The budget for one system: uncoupled equations cost a few operations each, and are always allowed."""
+    """Return the budget for one system, increased for uncoupled equations, which need only a few operations each."""
     return None if budget is None else budget + 30 * len(reduced.equations)
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Exact elimination within a budget; `TooDenseError` at once where its fill is predicted to exceed it.
+    """Eliminate exactly within a budget. Raises `TooDenseError` at once if the predicted fill-in exceeds it.
 
-    The prediction is the same elimination modulo a prime, whose numbers are short, and it stops at its own limit.
+    The prediction is the same elimination modulo a prime, with short numbers and its own limit.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)
@@ -486,11 +488,11 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """The verdict alone, modulo a prime: for coupled systems too dense for rational elimination."""
+    """Return only the verdict, by elimination modulo a prime, for systems too dense for rational elimination."""
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
-    echelon = eliminate(map(residues, [*held, *_driven(reduced, case, signs)]), modulus=PRIME)
+    echelon = eliminate(map(residues, [*held, *_input_rows(reduced, case, signs)]), modulus=PRIME)
     if echelon.conditions:
         return unwitnessed_verdict(reduced, case)
     freedom = reduced.unknowns - echelon.rank
@@ -501,17 +503,17 @@ def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, i
 
 
 def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) -> Verdict:
-    """The good verdict, with a word on a loop that holds part of the train, if there is one."""
+    """Return the verdict that all speeds are determined, with a remark on a loop that locks a part of the train."""
     parts = reduced.components if reduced else None
     loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
     text = f"every speed follows from {', '.join(case.inputs)}"
     if loops:
-        text += f"; {loops[0]} does not close and holds its links on '{loops[0].carrier}'"
+        text += f"; {loops[0]} does not close and locks its links to '{loops[0].carrier}'"
     return Verdict("determined", text, loops=loops)
 
 
-def _driven(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Iterator[LinearForm]:
-    """One row for each input; what is prescribed stands in the one column -1."""
+def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Iterator[LinearForm]:
+    """Yield one row for each input, with the prescribed speed in column -1."""
     for link, speed in case.inputs.items():
         row = dict(reduced.form(reduced.components.index[link]))
         if speed:
@@ -519,13 +521,13 @@ def _driven(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -
         yield row
 
 
-def _all_still(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
-    """True if nothing can move at all: an input of 0, or none, then hides a locked train."""
+def _is_immobile(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
+    """Return True if no link can move, which inputs that are all 0 would conceal."""
     return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 
-class _ReadOff(Mapping[str, Fraction]):
-    """Speeds by link, put together when read: the carrier's plus the ratio times the component's unknown."""
+class _LazySpeeds(Mapping[str, Fraction]):
+    """Speeds by link, computed on access: speed of the carrier plus ratio times the component's unknown."""
 
     def __init__(self, reduced: ReducedSystem, known: Sequence[Fraction | None], signs: Mapping[str, int]) -> None:
         self._reduced, self._known, self._signs = reduced, known, signs
@@ -533,7 +535,7 @@ class _ReadOff(Mapping[str, Fraction]):
         self._links: dict[str, None] = {}
 
     def take(self, link: str, speed: Fraction | None = None) -> None:
-        """Count a link among those that are determined; `speed` where its parts are not, but their sum is."""
+        """Add a determined link; `speed` is given if free unknowns cancel in its form."""
         self._links[link] = None
         if speed is not None:
             self._cancelled[link] = speed
@@ -555,7 +557,7 @@ class _ReadOff(Mapping[str, Fraction]):
         node = parts.nodes_of[link][0]
         carrier = parts.node_carrier[node]
         unknown = self._known[parts.node_group[node]] or zero
-        # mostly 1 or 0, and fractions may be long: no product is made that changes nothing
+        # usually 1 or 0: trivial products are avoided, because fractions may be long
         speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown if unknown else zero
         carried = zero if carrier == parts.frame else self._known[self._reduced.own[carrier]]
         return speed + carried if carried else speed
@@ -570,19 +572,19 @@ class _ReadOff(Mapping[str, Fraction]):
         return link in self._links
 
 
-def _read_off(
+def _determined_speeds(
     reduced: ReducedSystem, forms: Mapping[int, LinearForm], signs: Mapping[str, int]
 ) -> tuple[Mapping[str, Fraction], list[str]]:
-    """The speed of every link that has one, and the links that have none."""
+    """Return the speeds of all determined links, and the names of undetermined links."""
     parts = reduced.components
     known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
-    speeds = _ReadOff(reduced, known, signs)
+    speeds = _LazySpeeds(reduced, known, signs)
     undetermined: list[str] = []
     for at, name in enumerate(parts.links):
         if at == parts.frame or all(known[unknown] is not None for unknown in reduced.unknowns_of(at)):
             speeds.take(name)
             continue
-        speed = _value(resolve_form(reduced.form(at), forms))  # free parts may still cancel
+        speed = _value(resolve_form(reduced.form(at), forms))  # free unknowns may cancel
         if speed is None:
             undetermined.append(name)
         else:
@@ -591,7 +593,7 @@ def _read_off(
 
 
 def _value(form: LinearForm | None) -> Fraction | None:
-    """The value of a form, or None where it holds a free unknown."""
+    """Return the value of a form, or None if it contains a free unknown."""
     if form is None or any(column >= 0 for column in form):
         return None
     return form.get(_GIVEN, Fraction(0))

@@ -1,4 +1,4 @@
-"""Degrees of freedom of a train, by count and by exact rank, and the loops that make them differ."""
+"""Mobility of a train, by count and by exact rank, and the loops that make them differ."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from geartrain.numerics.results import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Mobility(Result):
-    """Degrees of freedom by count and by exact rank, and what makes them differ; docs/theory.md, (16), (17), (20).
+    """Mobility of a train by count and by exact rank, with the reasons for the difference; docs/theory.md, (16), (17),
+    (20).
 
     Examples
     --------
@@ -42,29 +43,29 @@ class Mobility(Result):
     )
 
     links: int
-    """Links, the frame among them."""
+    """Number of links, including the frame."""
     turning_pairs: int
-    """Turning pairs j_R."""
+    """Number of turning pairs j_R."""
     gear_pairs: int
-    """Gear pairs."""
+    """Number of gear pairs."""
     couplings: int
-    """Pins in slots; with the gear pairs they are j_G."""
+    """Number of couplings, such as pins in slots; together with the gear pairs they are j_G."""
     by_rank: int
-    """Links less one less the rank of all circuits: always right."""
+    """Mobility by rank, links - 1 - rank of all circuits; always correct."""
     redundant: int
-    """How many circuits add nothing."""
+    """Number of redundant circuits."""
     loops: tuple[Loop, ...]
-    """Loops of product 1 that circuits close which add nothing; the first 1000."""
+    """Loops of ratio product 1, which redundant circuits close; the first 1000."""
     shared: tuple[str, ...]
-    """Links at which components meet in equations that add nothing."""
+    """Links at which components meet in redundant equations."""
     locked: tuple[Loop, ...]
-    """Loops that do not close, and hold their component on its carrier; the first 1000."""
+    """Loops with a ratio product other than 1, which lock their component to its carrier; the first 1000."""
     still: tuple[str, ...]
-    """Links that stand still whatever drives the train."""
+    """Links that cannot move, whatever drives the train."""
     idle: tuple[str, ...]
     """Ids of circuits whose wheels never roll on each other."""
     certain: bool = True
-    """False where the rank was taken modulo two primes (exact but for accidents of 1e-36)."""
+    """False if the rank was computed modulo two primes (wrong with a probability of 1e-36)."""
 
     def _summary(self) -> str:
         locked = f", {len(self.locked)} loops that do not close" if self.locked else ""
@@ -73,17 +74,17 @@ class Mobility(Result):
 
     @property
     def by_count(self) -> int:
-        """j_R - j_G, couplings counted with the gear pairs; right only without redundancy."""
+        """Mobility by count, j_R - j_G, couplings included in j_G; correct only without redundancy."""
         return self.turning_pairs - self.gear_pairs - self.couplings
 
     @property
     def rank(self) -> int:
-        """Rank of the circuits' rows."""
+        """Rank of the rows of all circuits."""
         return self.links - 1 - self.by_rank
 
 
-def _idle(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Circuits of components whose unknown is always 0."""
+def _idle_circuits(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
+    """Return the circuits of components whose unknown is always 0."""
     parts = reduced.components
     null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
     if not null:
@@ -91,8 +92,8 @@ def _idle(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
     return [c.id for c in parts.circuits if c.b and parts.group_of(c) in null]
 
 
-def _still(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Links that stand still in every motion: their form vanishes."""
+def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
+    """Return the links that are at rest in every motion, because their form vanishes."""
     parts = reduced.components
     if not forms:
         return []
@@ -107,7 +108,7 @@ def _still(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]
 
 @collector_paused()
 def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET) -> Mobility:
-    """Mobility of the train itself by exact rank, nothing prescribed: (16), (17) of docs/theory.md."""
+    """Compute the mobility of the train without prescriptions by exact rank: (16), (17) of docs/theory.md."""
     parts = reduced.components
     gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
     shared: list[str] = []
@@ -119,13 +120,13 @@ def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None
         echelon = eliminate_within(reduced.equations, budget)
     except TooDenseError:
         certain = False
-        # a prime can only lower a rank; that two do so at once is an accident of 1e-36
+        # reduction modulo a prime can only lower a rank; for both primes the probability is about 1e-36
         rank = max(rank_modulo(reduced.equations, PRIME), rank_modulo(reduced.equations, (1 << 61) - 31))
     else:
         rank = echelon.rank
         with suppress(TooDenseError):
             forms = echelon.forms(budget)
-            still, idle = _still(reduced, forms), _idle(reduced, forms)
+            still, idle = _stationary_links(reduced, forms), _idle_circuits(reduced, forms)
         repeated = (reduced.origin[row] for row in echelon.redundant)
         shared = [parts.links[link] for kind, link, _ in repeated if kind == "share"]
     freedom = reduced.unknowns - rank

@@ -1,4 +1,4 @@
-"""The integer rows of a Willis system as arrays: the sparse matrix, and residuals to twice the working precision."""
+"""Integer rows of a Willis system as arrays: sparse matrix, and residuals in twice the working precision."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from geartrain.numerics.rounding_bounds import two_product, two_sum
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-_ABREAST = 64  # right-hand sides that are solved at a time
-_LOW = 1e-200  # entries of a scaled row below this are dropped
+_ABREAST = 64  # right-hand sides solved together, which bounds memory
+_LOW = 1e-200  # smaller entries of a scaled row are dropped: their products would underflow
 
 
 class PaddedRows:
-    """The integer rows as arrays, padded to a common number of terms."""
+    """Integer rows as arrays, padded to a common number of terms."""
 
     def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
         self.at = {link: column for column, link in enumerate(links)}
@@ -34,14 +34,15 @@ class PaddedRows:
         self.low = np.zeros_like(self.coefficients, dtype=bool)
 
     def scaled(self, exponents: NDArray[np.int64]) -> tuple[PaddedRows, NDArray[np.int64]]:
-        """The rows in speeds over powers of two, and the power by which each was divided: entries of 1 to 2 lead.
+        """Return the rows for scaled speeds, and the power of two by which each row was divided.
 
-        All these scalings are exact. Entries that sink below 1e-200 of their row are dropped: no rounding is moved by
-        them, and their products would lose the bits that residuals are made of. What they may do is in `sunk`.
+        The largest entry of each row is then between 1 and 2. All scalings are exact. Entries below 1e-200 of their row
+        are dropped: they change no rounding, and their products would lose the bits of which residuals consist. Their
+        maximum effect is given by `sunk`.
         """
         sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
         shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
-        # 2**-2000 is 0 in float64 whatever it multiplies; clipped so that it fits a C int
+        # clipped to fit a C int; times 2**-2000 every float64 underflows to 0
         moved = np.clip(exponents[self.columns] - shifts[:, None], -2000, 2000).astype(np.intc)
         near = copy(self)
         near.coefficients = np.ldexp(self.coefficients, moved)
@@ -50,7 +51,7 @@ class PaddedRows:
         return near, shifts
 
     def matrix(self) -> Any:
-        """The rows as a sparse matrix, column compressed: what is factorised, and what a user is given."""
+        """Return the rows as a sparse matrix in compressed column format."""
         from scipy.sparse import csc_array
 
         size, width = self.columns.shape
@@ -60,14 +61,16 @@ class PaddedRows:
         return csc_array(entries, shape=(size, len(self.at)))
 
     def factorise(self, ordering: str) -> Any:
-        """The sparse LU factors."""
+        """Return the sparse LU factors."""
         from scipy.sparse import linalg
 
         solver: Any = linalg
         return solver.splu(self.matrix(), permc_spec=ordering)
 
     def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
-        """right - A x by compensated dot products (Ogita, Rump and Oishi 2005, Dot2): twice the working precision."""
+        """Return right - A x in twice the working precision, by compensated dot products (Dot2; Ogita, Rump and Oishi
+        2005).
+        """
         total, low = right.copy(), remainder.copy()
         for position in range(self.columns.shape[1]):
             product, error = two_product(-self.coefficients[:, position, None], x[self.columns[:, position]])
@@ -76,26 +79,27 @@ class PaddedRows:
         return total + low
 
     def prescribe(self, x: Floats, right: Floats) -> None:
-        """Links whose row is their own speed get it to the last bit."""
+        """Set prescribed speeds, which are rows with a single coefficient 1, to their exact right-hand side."""
         single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
         own = self.coefficients[single, 0] == 1
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """|A| |x|, row by row."""
+        """Return |A| |x|, row by row."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 
     def sunk(self, x: Floats) -> Floats:
-        """The most that dropped entries come to, row by row."""
+        """Return the maximum contribution of dropped entries, row by row."""
         total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
         return total
 
-    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition past float64 is infinite
+    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition number beyond float64 is infinite
     def condition(self, lu: Any, links: Sequence[str], x: Floats) -> dict[str, float]:
-        """cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, one transposed solve a link.
+        """Return cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, by one transposed solve
+        each.
 
-        Infinite of a link at rest: what is 0 has no relative error.
+        Infinite for a link at rest, whose relative error is not defined.
         """
         size = self.size(x[:, None])[:, 0]
         found = dict.fromkeys(links, float("inf"))

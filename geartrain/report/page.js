@@ -102,4 +102,10 @@
   for (const cell of document.querySelectorAll("[data-exact]")) {
     button(cell, "Copy the exact value", () => copy(cell.dataset.exact));
   }
+
+  // a link of the contents opens the section it leads to
+  addEventListener("hashchange", () => {
+    const folded = document.getElementById(location.hash.slice(1))?.querySelector("details");
+    if (folded) folded.open = true;
+  });
 })();

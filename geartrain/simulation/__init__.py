@@ -1,10 +1,10 @@
-"""Motion in time, strength and wear, co-simulation units.
+"""Motion in time, strength and wear, and co-simulation units of gear trains.
 
-In: a train with inertia, loads, a rate and materials. Out: the rate at which teeth first part, motion in time with
-impacts and energy, vibration modes, contact pressure, root stress and wear, a co-simulation unit.
+Inputs are a train with inertia, loads, a rate and materials. Results are the rate at which teeth first separate, motion
+in time with impacts and energy, vibration modes, contact pressure, root stress and wear, and a co-simulation unit.
 
-contacts   moments of inertia, separation rates, the model that is stepped: coordinates and contacts
-steps      the equations of one step, the search for contacts, the energy account
+contacts   moments of inertia, separation rates, and the contact model that is stepped
+steps      the equations of one step, the search for contacts, the energy balance
 time       runs and their figures, spectra, modes, step-by-step simulation
 strength   pressures, stresses and wear of a loaded train: ISO 6336, Hertz, Lewis and Archard
 fmu        co-simulation units (FMI)

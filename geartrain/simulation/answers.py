@@ -1,4 +1,4 @@
-"""The results of simulations that commands print as JSON."""
+"""Types of the simulation results that commands print as JSON."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Question (a command, or a use of one) -> type of its result."""
+    """Return the type of the result of each command of this package that prints JSON."""
     from geartrain.simulation.strength.strength_report import StrengthReport
     from geartrain.simulation.time.time_report import TimeReport
 

@@ -1,20 +1,20 @@
 """Gears on a sphere: axes through one point, on the faces, vertices and edges of polyhedra or on planar graphs.
 
-In: a solid by name or by its vertices, or a graph of who meshes with whom; tooth numbers of the kinds of gear. Out: a
-`Configuration` of axes, meshes and kinds, and of it whether it turns, whether its teeth meet round every loop, its
-sizes, tooth numbers that nearly share one pitch, and the train that it is.
+Inputs are a solid, by name or by its vertices, or a graph of meshing gears, and the tooth number of each kind of gear.
+The result is a `Configuration` of axes, meshes and kinds. Functions check whether it turns and whether its teeth meet
+round every loop, compute its sizes, search tooth numbers that nearly share one pitch, and convert it to a gear train.
 
 Pitch cones obey rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i (docs/sphere.md, equation
 1), and speeds about outward axes z_i w_i = -z_j w_j. Teeth meet where the phases of every loop close (docs/closure.md).
 
 polyhedra                                    solids from vertices and by name, with their symmetries
-polyhedron_gears                             sets of gears on a solid: places, kinds, names; a survey of solids
+polyhedron_gears                             sets of gears on a solid (axes, kinds, names); a survey of solids
 circle_packing, graph_set                    sets of gears from any planar graph
-configuration                                a set: axes, meshes, kinds of gear, loops that its teeth must close
-gear_sphere, gear_sizes                      whether a set turns and can be assembled; sizes of its gears
-pitch_cones                                  cones of one pair
+configuration                                axes, meshes and kinds of gear of a set; its assembly conditions
+gear_sphere, gear_sizes                      mobility and assembly of a set; sizes of its gears
+pitch_cones                                  pitch and base cones of a pair
 tooth_count_search                           tooth numbers that nearly share one pitch (exhaustive search)
-axis_adjustment, symmetric_displacement      axes moved until all meshes have one pitch, or loops close (Newton)
+axis_adjustment, symmetric_displacement      axes adjusted until all meshes have one pitch, or loops close (Newton)
 """
 
 from __future__ import annotations

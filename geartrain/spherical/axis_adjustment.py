@@ -1,4 +1,6 @@
-"""Axes moved a little until all meshes have one pitch (Levenberg's method), or all loops close (Newton's)."""
+"""Adjustment of gear axes until all meshes have one pitch (Levenberg's method), or all loops close (Newton's
+method).
+"""
 
 from __future__ import annotations
 
@@ -17,29 +19,29 @@ if TYPE_CHECKING:
 
 
 Meshes = Sequence[tuple[int, int]]
-_MOST_STEPS = 80  # of either method
+_MOST_STEPS = 80  # maximum number of steps of either method
 _EXACT = 1e-11
 """Residual (rad, or pitches) under which a fit counts as exact: rounding leaves about 1e-15."""
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)
-"""Random moves (rad) that break a symmetry at which the tangencies are not independent."""
-_MOST_DENSE = 600  # meshes: a dense singular value decomposition grows with the cube of their number
-_PHASE_DAMPING = 1e-4  # keeps axes where neither loops nor pitches ask for a move
+"""Standard deviations [rad] of random moves that break a symmetry at which the tangencies are not independent."""
+_MOST_DENSE = 600  # meshes; the time of a dense singular value decomposition grows with the cube of their number
+_PHASE_DAMPING = 1e-4  # keeps axes that neither loops nor pitches determine
 _LONGEST = 0.1
 """Largest move of an axis in one step (rad)."""
 
 
 def tangency(axes: Floats, meshes: Meshes, teeth: Floats, pitch: float) -> tuple[Floats, csr_array]:
-    """S_ij - asin(l z_i) - asin(l z_j) of every mesh (rad), and its derivative by axes and pitch l.
+    """Compute the tangency residual S_ij - asin(l z_i) - asin(l z_j) of every mesh [rad] and its Jacobian.
 
-    Columns: two steps of each axis along its `frames`, then the pitch (radii of the sphere). Teeth may be any
-    positive numbers: with teeth = sin rho and pitch 1 this is the tangency of pitch cones.
+    The columns of the Jacobian are two steps of each axis along its `frames`, then the pitch l [radii of the sphere].
+    Teeth may be any positive numbers: with teeth = sin rho and pitch 1 this is the tangency of pitch cones.
     """
     from scipy.sparse import csr_array as sparse
     from scipy.sparse import hstack
 
     S, slopes = angle_rows(axes, meshes)
     i, j = np.array(meshes).T
-    # short of a crown gear, where the slope of the arc sine is infinite
+    # kept below a crown gear, where the slope of the arc sine is infinite
     sine = np.minimum(pitch * teeth, 1 - 1e-9)
     widen = -teeth / np.sqrt(1 - sine**2)
     cones = np.arcsin(sine)
@@ -48,7 +50,7 @@ def tangency(axes: Floats, meshes: Meshes, teeth: Floats, pitch: float) -> tuple
 
 
 def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats, csr_array]:
-    """sum (-1)^k z_k alpha_k / 2 pi of every loop (pitches), and its derivative by the steps of the axes.
+    """Compute sum (-1)^k z_k alpha_k / 2 pi of every loop [pitches] and its derivative by the steps of the axes.
 
     alpha_k in (0, 2 pi) is the angle at gear k from its next to its previous contact, counterclockwise.
     """
@@ -64,7 +66,7 @@ def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats
 
 
 def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr_array]:
-    """ln of the operating pitch of every mesh, and its derivative by the steps of the axes.
+    """Compute the logarithm of the operating pitch of every mesh and its derivative by the steps of the axes.
 
     d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 + z_j^2 + 2 z_i z_j cos S).
     """
@@ -78,21 +80,24 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
 
 
 def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
-    """The step x of least |x|^2 + |error + J x|^2 / damping: least norm among all solutions as damping goes to 0."""
+    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping.
+
+    As the damping goes to 0 it becomes the minimum-norm solution of J x = -error.
+    """
     from scipy.sparse import block_array, eye_array
     from scipy.sparse.linalg import splu
 
     m, n = J.shape
-    # bordered, not J J^T + damping: that would be squared in condition, and full
+    # bordered system instead of J J^T + damping, which would be dense and have the square of the condition number
     system = block_array([[eye_array(n), J.T], [J, -damping * eye_array(m)]], format="csc")
-    # the column of the pitch is full: an ordering for symmetric matrices puts it last
+    # the column of the pitch is full; an ordering for symmetric matrices eliminates it last
     factor = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
     return np.asarray(factor.solve(np.concatenate([np.zeros(n), -error]))[:n])
 
 
 @dataclass(frozen=True)
 class LoopCorners:
-    """The corners of loops, as arrays: the gear, its next and previous contact, its sign, and the loop it is in."""
+    """Corners of loops as parallel arrays: gear, next and previous contact, sign, and index of the loop."""
 
     gear: Ints
     following: Ints
@@ -103,7 +108,7 @@ class LoopCorners:
 
 
 def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
-    """The corners of loops of gears; `side` is +1 or -1 for each gear, meshing gears having opposite signs."""
+    """Return the corners of loops of gears; `side` is +1 or -1 for each gear, and meshing gears have opposite signs."""
     rows = [
         (gear, loop[(k + 1) % len(loop)], loop[k - 1], side[gear], at)
         for at, loop in enumerate(loops)
@@ -115,7 +120,7 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
 
 @dataclass(frozen=True)
 class AxisAdjustment:
-    """Axes after a fit, the pitch (radii of the sphere), what is left of the conditions, now and after each step."""
+    """Axes after a fit, the pitch [radii of the sphere], and the residuals: final, and after each step."""
 
     axes: Floats
     pitch: float
@@ -124,15 +129,16 @@ class AxisAdjustment:
 
     @property
     def exact(self) -> bool:
-        """True if the conditions hold to rounding."""
+        """True if the conditions are satisfied to rounding."""
         return self.residual < _EXACT
 
 
 def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int = 0) -> AxisAdjustment:
-    """Levenberg's method with steps of least norm: axes near the given ones at which all meshes have one pitch.
+    """Fit axes near the given ones so that all meshes have one pitch, by Levenberg's method with minimum-norm steps.
 
-    Solutions are not unique: these are near ones. Where the tangencies depend on each other (symmetric solids) and
-    that finds none, the axes are first moved at random, by a few degrees; a fit that is not `exact` found none near.
+    Solutions are not unique; the fit returns a nearby one. If the tangencies depend on each other (symmetric solids)
+    and the fit fails, the axes are first moved at random by a few degrees. A result that is not `exact` means that no
+    solution was found nearby.
     """
     z = np.asarray(teeth, dtype=float)
     random = np.random.default_rng(seed)
@@ -143,6 +149,7 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
         fit = _levenberg(start, meshes, z, pitch, residuals)
         if best is None or fit.residual < best.residual:
             best = fit
+        # only a symmetric configuration benefits from a random move
         if best.exact or not tangencies_dependent(axes, meshes):
             break
     assert best is not None
@@ -150,13 +157,16 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
 
 
 def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
-    """Whether the tangencies of cones about these axes depend on each other; False, not asked, above 600 meshes.
+    """Return whether the tangencies of cones about these axes are linearly dependent; False, unchecked, above 600
+    meshes.
 
-    The rows of the angles' derivative by axes and by one more unknown, the pitch, which widens all cones.
+    The rank is that of the derivative of the angles by the axes and by one more unknown, the pitch, which widens all
+    cones.
     """
     if len(meshes) > _MOST_DENSE:
         return False
     _, slopes = angle_rows(axes, meshes)
+    # numerical rank; one dimension is provided by the pitch
     values = np.linalg.svd(slopes.toarray(), compute_uv=False)
     return bool((values > 1e-9 * values[0]).sum() < len(meshes) - 1)
 
@@ -169,7 +179,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
         step = minimum_step(J, error, damping)
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max()), 1e-300))
         tried = moved(axes, step[:-1].reshape(-1, 2))
-        # a step may halve the pitch at most, and make no gear larger than a crown gear
+        # a step may at most halve the pitch, and no gear may exceed a crown gear
         width = min(max(pitch + float(step[-1]), pitch / 2), (1 - 1e-9) / float(z.max()))
         there, slopes = tangency(tried, meshes, z, width)
         new = float(np.abs(there).max())
@@ -177,6 +187,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
         stalled = stalled + 1 if new > 0.9 * size else 0
         if better:
             axes, pitch, error, J, size = tried, width, there, slopes, min(new, size)
+        # Levenberg: less damping after a success, more after a failure
         damping = max(damping / 10, 1e-12) if better else damping * 100
         residuals.append(float(np.abs(error).max()))
         if size < 1e-15 or stalled > 12 or (stalled and size < 1e-13) or damping > 1e6:
@@ -185,7 +196,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
 
 
 def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> float:
-    """Standard deviation of ln lambda that the first step of `fit_phases` promises."""
+    """Predict the standard deviation of ln lambda after the first step of `fit_phases`."""
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
     logs, A = pitch_rows(axes, meshes, z)
@@ -193,13 +204,14 @@ def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorn
 
 
 def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> AxisAdjustment:
-    """Axes near the given ones at which all loops close, with the least variance of the logarithm of the pitch.
+    """Fit axes near the given ones at which all loops close, minimising the variance of the logarithm of the pitch.
 
-    Newton on the loops, Gauss and Newton on the pitches, in one sparse system; the integers of the loops are those
-    next to the axes given.
+    Newton's method for the loops and the Gauss-Newton method for the pitches share one sparse system. The integers of
+    the loops are those nearest to their sums at the given axes.
     """
     z = np.asarray(teeth, dtype=float)
     sums, _ = loop_sums(axes, corners, z)
+    # closing integers nearest to the given axes
     target = np.round(sums)
     residuals: list[float] = []
     best = (np.inf, axes)
@@ -229,15 +241,16 @@ def _phase_steps(
         residual = float(np.abs(sums - target).max(initial=0.0))
         residuals.append(residual)
         yield residual, axes
+        # converged, or limited by rounding
         if longest < 1e-12 or (longest < 1e-7 and longest > previous / 2 and residual < 1e-12):
             return
         previous = longest
 
 
 def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping: float) -> Floats:
-    """Least squares under equality constraints, their multipliers in one sparse system (Karush, Kuhn and Tucker).
+    """Solve least squares under equality constraints by one sparse Karush-Kuhn-Tucker system.
 
-    The step x with J x = -error and the least |logs + A x - s|^2 + damping |x|^2, over all x and s.
+    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s.
     """
     from scipy.sparse import block_array, csc_array, eye_array
     from scipy.sparse.linalg import splu
@@ -248,7 +261,11 @@ def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping:
         [
             [A.T @ A + damping * eye_array(n), -A.T @ ones, J.T],
             [-ones.T @ A, ones.T @ ones, None],
-            [J, None, -1e-14 * eye_array(loops)],  # loops may depend on each other: not quite 0 keeps it regular
+            [
+                J,
+                None,
+                -1e-14 * eye_array(loops),
+            ],  # loops may depend on each other: a small entry keeps the matrix regular
         ]
     ).tocsc()
     right = np.concatenate([-(A.T @ logs), [float(logs.sum())], -error])

@@ -1,8 +1,8 @@
 """Circle packing on the sphere: a circle for each gear and each region of a planar map, tangent or orthogonal.
 
-Every 3-connected planar graph has such a packing, unique up to Moebius maps (Koebe, Andreev, Thurston). Radii in the
-plane by Newton's method on a convex function (A. Bobenko and B. Springborn, Trans. AMS 356 (2004) 659), then places;
-on the sphere the centre by B. Springborn, Math. Z. 249 (2005) 513.
+Every 3-connected planar graph has such a packing, unique up to Moebius maps (Koebe, Andreev, Thurston). The radii in
+the plane follow by Newton's method on a convex function (A. Bobenko and B. Springborn, Trans. AMS 356 (2004) 659), the
+centres by a breadth-first layout. On the sphere the packing is centred by B. Springborn, Math. Z. 249 (2005) 513.
 """
 
 from __future__ import annotations
@@ -26,31 +26,31 @@ if TYPE_CHECKING:
 
 
 def angle_excess(u: Floats, i: Ints, j: Ints, target: Floats) -> Floats:
-    """Sum over neighbours of 2 atan(r_j/r_i), less what it must be, at every node (rad); u = log r.
+    """Return the angle sum 2 atan(r_j/r_i) over the neighbours minus its target, at every node [rad]; u = log r.
 
-    i, j are the ends of every orthogonal pair, in both orders; target is 2 pi less pi for each neighbour of
-    infinite radius. The gradient of a convex function of u (Bobenko and Springborn, Euclidean radii).
+    i, j are the ends of every orthogonal pair, in both orders; target is 2 pi less pi for each neighbour of infinite
+    radius. The result is the gradient of a convex function of u (Bobenko and Springborn, Euclidean radii).
     """
     return np.asarray(np.bincount(i, 2 * np.arctan(np.exp(u[j] - u[i])), len(u)) - target, dtype=float)
 
 
 def stiffness(u: Floats, i: Ints, j: Ints) -> Floats:
-    """Derivative of 2 atan(r_j/r_i) by u_j, of each pair: 1 / cosh(u_j - u_i)."""
+    """Return the derivative of 2 atan(r_j/r_i) by u_j for each pair: 1 / cosh(u_j - u_i)."""
     return np.asarray(1 / np.cosh(u[j] - u[i]), dtype=float)
 
 
 def circle_vector(centre: complex, radius: float) -> Floats:
-    """A circle of the plane as (n, cos rho) / sin rho on the sphere, through the pole of stereographic projection.
+    """Map a circle of the plane to (n, cos rho) / sin rho on the sphere by stereographic projection.
 
-    Vectors of Minkowski space: <w, w> = 1, <w_i, w_j> = -1 for tangent circles, 0 for orthogonal ones. With
-    k = |c|^2 - r^2 it is (c, (k - 1)/2, (k + 1)/2) / r.
+    The result is a vector of Minkowski space: <w, w> = 1, <w_i, w_j> = -1 for tangent circles, 0 for orthogonal ones.
+    With k = |c|^2 - r^2 it is (c, (k - 1)/2, (k + 1)/2) / r.
     """
     k = abs(centre) ** 2 - radius**2
     return np.array([centre.real, centre.imag, (k - 1) / 2, (k + 1) / 2]) / radius
 
 
 def line_vector(normal: complex, offset: float) -> Floats:
-    """The half-plane normal.x >= offset as a vector like that of a circle: (m, d, d)."""
+    """Map the half-plane normal.x >= offset to a vector like that of a circle: (m, d, d)."""
     return np.array([normal.real, normal.imag, offset, offset])
 
 
@@ -61,15 +61,15 @@ def _stalls(residuals: Sequence[float]) -> bool:
 def _no_packing(residual: float) -> RangeError:
     return RangeError(
         Problem(
-            f"no circle packing found: angles still miss by {residual:.2g} rad",
-            "the radii differ by more than floats resolve, or the graph is not 3-connected",
+            f"no circle packing was found: the residual of the angles is {residual:.2g} rad",
+            "the radii differ by more than double precision resolves, or the graph is not 3-connected",
             "split the graph into smaller sets",
         )
     )
 
 
 class PlanarPacking:
-    """The packing in the plane, with the pitch point of one mesh at infinity."""
+    """Circle packing in the plane, with the pitch point of one mesh at infinity."""
 
     def __init__(self, gears: int, regions: Sequence[Sequence[int]]) -> None:
         self.gears, self.regions = gears, [tuple(region) for region in regions]
@@ -83,7 +83,7 @@ class PlanarPacking:
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Regions round each gear and gears round each region, counterclockwise, as numbers of nodes."""
+        """Return the regions round each gear and the gears round each region, counterclockwise, as node numbers."""
         before = {}
         for walk in self.regions:
             for at, gear in enumerate(walk):
@@ -98,7 +98,7 @@ class PlanarPacking:
         return around + [list(walk) for walk in self.regions]
 
     def _far_mesh(self) -> tuple[int, int]:
-        """The mesh with the most neighbours: what lies at infinity should have much on its rim."""
+        """Return the mesh with the most neighbours, so that many circles touch the lines to infinity."""
         size = [len(beside) for beside in self.around]
         return max(
             self.meshes,
@@ -106,14 +106,16 @@ class PlanarPacking:
         )
 
     def radii(self, on_step: Callable[[], None] = lambda: None) -> tuple[Floats, tuple[float, ...]]:
-        """Log radii of all nodes, inf for the four at infinity: sparse Newton on a convex function.
+        """Compute the log radii of all nodes, inf for the four at infinity, by sparse Newton steps on a convex
+        function.
 
-        on_step   called after each step, of which the largest residual (rad) is returned too
+        on_step   called after each step; the largest residual [rad] of each step is returned too
         """
         from scipy.sparse import coo_array
         from scipy.sparse.linalg import splu
 
         near = np.ones(self.count, dtype=bool)
+        # the four circles through infinity are straight lines
         near[list(self.far)] = False
         place = np.cumsum(near) - 1
         pairs = [(i, j) for i in range(self.count) if near[i] for j in self.around[i]]
@@ -136,7 +138,7 @@ class PlanarPacking:
             excess = angle_excess(u, i, j, target)
             residuals.append(float(np.abs(excess).max()))
             on_step()
-            # or where the residual, the rounding of many angles, no longer falls
+            # stop also when the residual no longer falls: what is left is the rounding of many angles
             if np.abs(step).max() < 1e-13 or (residuals[-1] < 1e-11 and _stalls(residuals)):
                 break
         else:
@@ -146,8 +148,9 @@ class PlanarPacking:
         return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
-        """All circles on the sphere, from radii in the plane, walking from circle to circle."""
+        """Place all circles on the sphere from radii in the plane, by breadth-first search from circle to circle."""
         r = np.exp(u)
+        # the layout starts at the largest finite circle
         start = int(np.argmax(np.where(np.isinf(u), -inf, u)))
         centre: dict[int, complex] = {start: 0j}
         lines: dict[int, tuple[complex, complex]] = {}
@@ -164,18 +167,20 @@ class PlanarPacking:
         return self._on_sphere(r, centre, lines)
 
     def _directions(self, r: Floats, node: int, first: int, towards: complex) -> list[tuple[int, complex]]:
-        """Unit directions from a node to its neighbours, counterclockwise from the first."""
+        """Return unit directions from a node to its neighbours, counterclockwise from the first."""
         beside = self.around[node]
         at = beside.index(first)
         beside = beside[at:] + beside[:at]
+        # half the angle that an orthogonal neighbour subtends
         half = np.arctan(r[beside] / r[node])
         turns = np.concatenate([[0.0], np.cumsum(half[1:] + half[:-1])])
         return [(other, towards * complex(np.exp(1j * turn))) for other, turn in zip(beside, turns, strict=True)]
 
     def _on_sphere(self, r: Floats, centre: dict[int, complex], lines: dict[int, tuple[complex, complex]]) -> Floats:
-        """Vectors of all circles; the rectangle between the four lines is brought about the origin first."""
+        """Return vectors of all circles, after centring the rectangle between the four lines on the origin."""
         offsets = {node: (m, (m.conjugate() * p).real) for node, (m, p) in lines.items()}
         middle, scale = 0j, 0.0
+        # opposite sides of the rectangle of lines
         for one, other in (self.far[:2], self.far[2:]):
             (m, d), (_, e) = offsets[one], offsets[other]
             middle += m * (d - e) / 2
@@ -185,7 +190,7 @@ class PlanarPacking:
             vectors[node] = circle_vector((place - middle) / scale, r[node] / scale)
         for node, (m, offset) in offsets.items():
             vectors[node] = line_vector(m, (offset - (m.conjugate() * middle).real) / scale)
-        # the plane's counterclockwise is clockwise on the sphere, seen from outside
+        # counterclockwise in the plane is clockwise on the sphere seen from outside
         vectors[:, 2] *= -1
         return vectors
 
@@ -193,14 +198,16 @@ class PlanarPacking:
 # ------------------------------------------------------------------------------------------------------- circle packing
 
 
-_MOST_STEPS = 100  # four or five on usual graphs
-_MOST_POLISH = 12  # two or three on usual graphs: the layout is nearly right
+_MOST_STEPS = 100  # Newton steps; four or five suffice on usual graphs
+_MOST_POLISH = 12  # Newton steps; two or three suffice because the layout is nearly right
 _LONGEST = 2.0
-"""Largest rapidity of one boost."""
+"""Largest rapidity of one boost, and largest change of a log radius in one Newton step."""
 
 
 def boost(v: Floats) -> Floats:
-    """The Lorentz boost of rapidity |v| along v, acting on (x, t), that moves points of the sphere away from v."""
+    """Return the Lorentz boost of rapidity |v| along v, acting on (x, t), that moves points of the sphere
+    away from v.
+    """
     rapidity = float(np.linalg.norm(v))
     if rapidity == 0:
         return np.eye(4)
@@ -213,13 +220,13 @@ def boost(v: Floats) -> Floats:
 
 
 def centring_step(points: Floats) -> Floats:
-    """Newton's rapidity towards the frame where the points sum to 0: H v = sum p, H = sum (I - p p^T)."""
+    """Compute Newton's rapidity towards the frame where the points sum to 0: H v = sum p, H = sum (I - p p^T)."""
     H = len(points) * np.eye(3) - points.T @ points
     return np.asarray(np.linalg.solve(H, points.sum(axis=0)), dtype=float)
 
 
 def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
-    """The centred circle packing of a 3-connected planar map.
+    """Compute the centred circle packing of a 3-connected planar map.
 
     regions   the gears round each region, all in the same sense; every mesh lies between two of them
     """
@@ -228,7 +235,7 @@ def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
     vectors = plane.layout(u)
     vectors = _centred(vectors, plane.meshes)
     packing = _polished(vectors, gears, plane, residuals)
-    # rounding of the polish shifts the centre by as much: once more, from there
+    # rounding in the refinement shifts the centre by as much, so centring and refinement are repeated once
     both = np.concatenate([packing.axes, packing.region_axes]), np.concatenate([packing.cones, packing.region_cones])
     return _polished(_upright(_centred(_vectors(*both), plane.meshes), plane.meshes[0]), gears, plane, residuals)
 
@@ -238,14 +245,14 @@ def _vectors(axes: Floats, cones: Floats) -> Floats:
 
 
 def _circles(vectors: Floats) -> tuple[Floats, Floats]:
-    """Axes and half-angles of circles given as vectors."""
+    """Return the axes and half-angles [rad] of circles given as vectors."""
     length = np.linalg.norm(vectors[:, :3], axis=1)
-    # the last entry is the cotangent: right for small and for large circles alike
+    # the last entry is the cotangent, accurate for small and for large circles
     return vectors[:, :3] / length[:, None], np.arctan2(1.0, vectors[:, 3])
 
 
 def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
-    """Damped Newton's method: the same packing in the frame where the pitch points sum to 0."""
+    """Transform the packing by damped Newton steps to the frame where the pitch points sum to 0."""
     i, j = np.array(meshes).T
     for _ in range(_MOST_STEPS):
         touch = vectors[i] + vectors[j]
@@ -254,7 +261,8 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
         length = float(np.linalg.norm(v))
         if length < 1e-15:
             break
-        v *= min(1.0, _LONGEST / length, _shorter(points, v))
+        # a long boost would lose digits
+        v *= min(1.0, _LONGEST / length, _descent_fraction(points, v))
         vectors = vectors @ boost(v)
         if length < 1e-14:
             break
@@ -262,7 +270,7 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
 
 
 def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
-    """The same packing turned so that the first gear of a mesh is at the top and the second beside it along x."""
+    """Rotate the packing so that the first gear of a mesh is at the top and the second is next to it along x."""
     axes, _ = _circles(vectors)
     top, side = axes[mesh[0]], axes[mesh[1]]
     x = side - top * (top @ side)
@@ -271,9 +279,13 @@ def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
     return np.concatenate([vectors[:, :3] @ turn.T, vectors[:, 3:]], axis=1)
 
 
-def _shorter(points: Floats, v: Floats) -> float:
-    """A share of the step v that lowers the convex function sum log(-<x, (p, 1)>) whose minimum is the centre."""
+def _descent_fraction(points: Floats, v: Floats) -> float:
+    """Return a fraction of the step v that lowers the convex function sum log(-<x, (p, 1)>), by halving.
+
+    The minimum of this function is the centred frame.
+    """
     share = 1.0
+    # backtracking: the function is convex, so a short step always descends
     while share > 1e-6:
         made = boost(share * v)
         if np.log(points @ made[:3, 3] + made[3, 3]).sum() <= 1e-13 * len(points):
@@ -283,13 +295,14 @@ def _shorter(points: Floats, v: Floats) -> float:
 
 
 def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tuple[float, ...]) -> SpherePacking:
-    """Newton's method on all tangencies and right angles at once, until rounding is all that is left."""
+    """Refine all tangencies and right angles at once by Newton's method, down to rounding errors."""
     axes, cones = _circles(vectors)
     tangent = [*plane.meshes, *((gears + plane.left[m], gears + plane.left[m[::-1]]) for m in plane.meshes)]
     square = [(gear, region) for gear in range(gears) for region in plane.around[gear]]
     best = (inf, axes, cones)
     for _ in range(_MOST_POLISH):
         size, moves = _newton(axes, cones, tangent + square, len(tangent))
+        # quadratic convergence ends where the residual no longer falls by a factor of 4
         better, enough = size < best[0], size < 1e-13 and size > best[0] / 4
         if better:
             best = (size, axes, cones)
@@ -303,7 +316,8 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
 
 
 def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tangent: int) -> tuple[float, Floats]:
-    """Largest error of the angles between circles (rad), and the least change of axes and half-angles against it.
+    """Compute the largest error of the angles between circles [rad] and the minimum-norm correction of axes and half-
+    angles.
 
     The first `tangent` pairs touch: S = rho_i + rho_j; the others cross at right angles: cos S = cos rho_i cos rho_j.
     """
@@ -318,23 +332,23 @@ def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tange
     widen = [np.where(touching, 1.0, np.sin(cones[p]) * np.cos(cones[q]) / np.sin(want)) for p, q in ((i, j), (j, i))]
     at = np.tile(np.arange(len(pairs)), 2), np.concatenate([i, j])
     J: Any = hstack([slopes, coo_array((-np.concatenate(widen), at), shape=(len(pairs), len(axes)))], format="csc")
-    # Moebius maps leave all angles alone: a little damping takes the least step
+    # Moebius maps change no angle, so J is rank deficient: a little damping selects the minimum-norm step
     damped = (J.T @ J + 1e-10 * eye_array(J.shape[1])).tocsc()
     return float(np.abs(error).max()), np.asarray(splu(damped).solve(-(J.T @ error)))
 
 
 @dataclass(frozen=True)
 class SpherePacking:
-    """Circles on the sphere, centred: the pitch points of all meshes sum to 0."""
+    """Centred circle packing on the sphere: the pitch points of all meshes sum to 0."""
 
     axes: Floats
-    """Of the gears: unit vectors and half-angles (rad)."""
+    """Unit vectors of the gears. Shape (gears, 3)."""
     cones: Floats
-    """Of the gears: unit vectors and half-angles (rad)."""
+    """Half-angles of the gears [rad]. Shape (gears,)."""
     region_axes: Floats
-    """Of the regions: circles through the pitch points round each region."""
+    """Unit vectors of the circles through the pitch points round each region. Shape (regions, 3)."""
     region_cones: Floats
-    """Of the regions: circles through the pitch points round each region."""
+    """Half-angles of the circles through the pitch points round each region [rad]. Shape (regions,)."""
     meshes: tuple[tuple[int, int], ...]
     """Pairs of gears."""
     regions: tuple[tuple[int, ...], ...]
@@ -342,11 +356,11 @@ class SpherePacking:
     residual: float
     """Largest error of a tangency or right angle (rad)."""
     residuals: tuple[float, ...]
-    """Largest residual (rad) of the radii after each Newton step."""
+    """Largest residual [rad] of the angle sums in the plane after each Newton step."""
 
     @property
     def pitch_points(self) -> Floats:
-        """The points where the gears touch, (meshes, 3)."""
+        """Points where the gears touch, unit vectors. Shape (meshes, 3)."""
         i, j = np.array(self.meshes).T
         towards = self.axes[i] * np.sin(self.cones[j])[:, None] + self.axes[j] * np.sin(self.cones[i])[:, None]
         return np.asarray(towards / np.linalg.norm(towards, axis=1)[:, None])

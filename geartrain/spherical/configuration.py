@@ -1,9 +1,9 @@
-"""A set of gears on a sphere: its axes, meshes and kinds of gear; as a train; and the loops that its teeth must close.
+"""Set of gears on a sphere: axes, meshes and kinds of gear, its declaration as a train, and its assembly conditions.
 
 A train is declared with a link, a bevel wheel and an axis for each gear.
 
-For the set to be assembled each loop of a basis must hold a whole number of teeth, equation (3) of docs/closure.md. The
-basis is the regions between the meshes, by Euler's formula, or the fundamental loops where arcs cross.
+For the set to be assembled each loop of a basis must contain a whole number of teeth, equation (3) of docs/closure.md.
+The basis consists of the regions between the meshes, by Euler's formula, or of the fundamental loops if arcs cross.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 _NOTE = (
     "All axes go through the centre of the sphere and point outwards; a speed is positive counterclockwise, "
-    "seen from outside. Two wheels in mesh turn against each other."
+    "seen from outside. Two wheels in mesh turn in opposite senses."
 )
-_SHORT = 1 << 20  # denominators of coordinates such as 3/4, which floats hold as they are meant
+_SHORT = 1 << 20  # largest denominator of coordinates such as 3/4 that floats represent exactly
 
 
 @dataclass(frozen=True)
 class Configuration(Shown):
-    """Gears with axes through one point: where they point, who meshes with whom, and of which kinds they are.
+    """Gears with axes through one point: unit axes, meshing pairs, and the kind of each gear.
 
     Axes point outwards; angles about them are counterclockwise seen from outside.
 
@@ -54,20 +54,23 @@ class Configuration(Shown):
     """
 
     names: tuple[str, ...]
-    """Of the gears."""
+    """Names of the gears."""
     axes: Floats
-    """Unit vectors. Shape (gears, 3)."""
+    """Unit vectors of the axes. Shape (gears, 3)."""
     meshes: tuple[tuple[int, int], ...]
     """Pairs of gears by index."""
     kinds: tuple[str, ...]
-    """Of each gear: gears of one kind are alike under the symmetries of the set, and have one tooth number."""
+    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set and share one
+    tooth number.
+    """
     regular: tuple[int, ...]
-    """Of each gear: p where its contacts stand at multiples of a p-th of a turn from each other, exactly; 0 where
-    their angles are only known in floats."""
+    """Number p for each gear if its contacts are exactly multiples of 1/p of a revolution apart; 0 if their angles are
+    known only in floats.
+    """
     teeth: Mapping[str, int] = field(default_factory=dict)
     """Tooth number of each kind, as far as they are chosen."""
     title: str = ""
-    """For a reader."""
+    """Title for display."""
 
     def _summary(self) -> str:
         teeth = ", ".join(f"{kind} {count}" for kind, count in islice(self.teeth.items(), 4))
@@ -75,7 +78,7 @@ class Configuration(Shown):
         return title + (f", teeth {teeth}" if teeth else "")
 
     def angle(self, i: int, j: int) -> float:
-        """Angle between two axes [rad], 0 to pi.
+        """Return the angle between two axes [rad], 0 to pi.
 
         Parameters
         ----------
@@ -85,18 +88,18 @@ class Configuration(Shown):
         return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
-        """Direction from one gear to another about the axis of the first [rad].
+        """Return the direction from one gear to another about the axis of the first [rad].
 
         Parameters
         ----------
         i, j : int
-            The gears; directions about i are counted from the first of `frame(i)`, counterclockwise from outside.
+            The gears; directions about i are measured from the first of `frame(i)`, counterclockwise from outside.
         """
         first, second = self.frame(i)
         return float(np.arctan2(self.axes[j] @ second, self.axes[j] @ first))
 
     def frame(self, i: int) -> tuple[Floats, Floats]:
-        """Two directions across an axis that make a right-handed frame with it, pointing outwards.
+        """Return two directions across an axis that make a right-handed frame with it, pointing outwards.
 
         Parameters
         ----------
@@ -108,18 +111,18 @@ class Configuration(Shown):
 
 
 def kinds_in_order(configuration: Configuration) -> tuple[str, ...]:
-    """The kinds of gear, each once, in the order of their first gears."""
+    """Return the kinds of gear, each once, in the order of their first gears."""
     return tuple(dict.fromkeys(configuration.kinds))
 
 
 def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
-    """Kinds of mesh, in the order of their gears' kinds; meshes are alike to 1e-9 rad."""
+    """Return the kinds of mesh in the order of their gears' kinds; angles within 1e-9 rad count as equal."""
     order = {kind: at for at, kind in enumerate(kinds_in_order(configuration))}
     groups: dict[tuple[int, int, int], list[int]] = {}
     angles = mesh_angles(configuration.axes, configuration.meshes)
     for at, (i, j) in enumerate(configuration.meshes):
         a, b = sorted((order[configuration.kinds[i]], order[configuration.kinds[j]]))
-        # the nearest slot or its neighbour: angles on a slot's edge must not be parted by rounding
+        # the nearest slot or a neighbour: rounding must not separate equal angles at the edge of a slot
         slot = round(float(angles[at]) * 1e9)
         key = next((found for near in (slot, slot - 1, slot + 1) if (found := (a, b, near)) in groups), (a, b, slot))
         groups.setdefault(key, []).append(at)
@@ -131,7 +134,7 @@ def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
 
 
 def nearest_unmeshed(configuration: Configuration) -> dict[tuple[str, str], float]:
-    """Least angle (rad) between gears that do not mesh, for each pair of kinds, in both orders."""
+    """Return the minimum angle [rad] between gears that do not mesh, for each pair of kinds in both orders."""
     apart = unmeshed_angles(configuration)
     kinds = np.array(configuration.kinds)
     found: dict[tuple[str, str], float] = {}
@@ -145,7 +148,7 @@ def nearest_unmeshed(configuration: Configuration) -> dict[tuple[str, str], floa
 
 
 def unmeshed_angles(configuration: Configuration) -> Floats:
-    """Angles between all axes, inf for a gear and itself and for gears that mesh."""
+    """Return the angles between all axes [rad], inf for a gear and itself and for gears that mesh."""
     apart = separations(configuration.axes)
     np.fill_diagonal(apart, inf)
     if configuration.meshes:
@@ -156,7 +159,7 @@ def unmeshed_angles(configuration: Configuration) -> Floats:
 
 @dataclass(frozen=True)
 class MeshKind:
-    """Meshes that are alike: the kinds of their two gears, the angle between the axes (rad), and which they are."""
+    """Class of equivalent meshes: the kinds of their two gears, the angle between the axes, and their indices."""
 
     a: str
     """Kind of the first gear."""
@@ -169,7 +172,7 @@ class MeshKind:
 
     @property
     def kinds(self) -> tuple[str, str]:
-        """The kinds of its gears."""
+        """Kinds of its two gears."""
         return self.a, self.b
 
     def __str__(self) -> str:
@@ -177,18 +180,18 @@ class MeshKind:
 
 
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
-    """The configuration as plain data with the keys of a declaration, for `GearTrain.declare`.
+    """Return the configuration as plain data with the keys of a declaration, for `GearTrain.declare`.
 
-    Links, wheels and axes have the names of the gears. With axes outwards every mesh reverses, z_i w_i + z_j w_j = 0
-    (docs/sphere.md, section 1): the wheels stand on the positive sides of their axes (`facing` 1, the default). The
-    first gear is the input, at speed 1. Directions are floats at full length.
+    Links, wheels and axes have the names of the gears. With outward axes every mesh reverses the sense of rotation, z_i
+    w_i + z_j w_j = 0 (docs/sphere.md, section 1): the wheels are on the positive sides of their axes (`facing` 1, the
+    default). The first gear is the input, at speed 1. Directions are floats at full length.
 
     Parameters
     ----------
     configuration : Configuration
-        With a tooth number for every kind.
+        Set with a tooth number for every kind.
     name : str
-        Of the train; default `spherical`.
+        Name of the train; default `spherical`.
 
     Returns
     -------
@@ -198,7 +201,7 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     Raises
     ------
     QuestionError
-        If a tooth number is missing, or there are no gears.
+        If a tooth number is missing, or the set has no gears.
 
     Examples
     --------
@@ -212,9 +215,9 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     if missing or not configuration.names:
         raise QuestionError(
             Problem(
-                f"no tooth number for {', '.join(missing)}" if missing else "a set without gears is no train",
-                "a declaration has one for every wheel",
-                "choose `teeth` for every kind" if missing else "drop fewer gears",
+                f"no tooth number for {', '.join(missing)}" if missing else "a set without gears is not a train",
+                "a declaration needs at least one gear, and the teeth of every wheel",
+                f"give teeth={{{missing[0]!r}: 20, ...}}" if missing else "drop fewer gears",
             )
         )
     gears = list(zip(configuration.names, configuration.kinds, configuration.axes.tolist(), strict=True))
@@ -234,7 +237,7 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
 
 
 def _direction(axis: list[float]) -> list[str]:
-    """Floats at full length, short ones as fractions: a decimal counts as known to its last digit only."""
+    """Return floats at full length, and short ones as fractions: a decimal counts as known to its last digit only."""
     exact = [Fraction(part) for part in axis]
     return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]
 
@@ -247,16 +250,18 @@ def _link(gear: str, teeth: int) -> dict[str, Any]:
 
 
 def wrapped(turns: Floats) -> Floats:
-    """`turns` less the nearest integer: in [-1/2, 1/2]."""
+    """Return `turns` minus the nearest integer, in [-1/2, 1/2]."""
     return np.asarray(turns - np.round(turns), dtype=float)
 
 
 def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float], tolerance: float) -> Mask:
-    """Whether sum z_k a_k is an integer, docs/closure.md (3): exactly where all a_k are Fractions, else to `tolerance`.
+    """Return whether sum z_k a_k is an integer, docs/closure.md (3).
 
-    z_k a_k is the signed number of teeth that gears of kind k have inside one loop of meshes; `tolerance` in pitches.
+    The test is exact if all a_k are Fractions, otherwise to `tolerance` [pitches]. z_k a_k is the signed number of
+    teeth that gears of kind k have inside one loop of meshes.
     """
     if all(isinstance(share, Fraction) for share in rule):
+        # integer arithmetic over the common denominator
         whole = lcm(*(Fraction(share).denominator for share in rule))
         total = sum(z * int(Fraction(share) * whole) for z, share in zip(teeth, rule, strict=True))
         return np.asarray(total % whole == 0)
@@ -264,12 +269,12 @@ def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float],
 
 
 def residue(teeth: Sequence[Any], rule: Sequence[Fraction | float]) -> Floats:
-    """How far a loop is from closing, in pitches: sum z_k a_k less the nearest integer."""
+    """Return the closing error of a loop [pitches]: sum z_k a_k minus the nearest integer."""
     return wrapped(np.asarray(sum(z * float(share) for z, share in zip(teeth, rule, strict=True)), dtype=float))
 
 
 def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[int]:
-    """A number that divides the teeth of each kind wherever all exact rules hold.
+    """Return a number for each kind that divides its teeth wherever all exact rules are satisfied.
 
     If sum z_k a_k is an integer, so is m a_i z_i with m the common denominator of the others.
     """
@@ -284,10 +289,11 @@ def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[in
 
 
 def loops(configuration: Configuration) -> list[list[int]]:
-    """Loops of gears that span all loops: the regions between the meshes, or fundamental loops where arcs cross."""
+    """Return a basis of all loops of gears: the regions between the meshes, or fundamental loops if arcs cross."""
     found = regions(configuration)
     gears, meshes = len(configuration.axes), configuration.meshes
     fundamental = list(fundamental_loops(gears, meshes))
+    # connected components by the cycle rank
     parts = gears - len(meshes) + len(fundamental)
     meshing = len({gear for mesh in meshes for gear in mesh})
     # Euler on the sphere; gears without a mesh bound no region
@@ -295,16 +301,17 @@ def loops(configuration: Configuration) -> list[list[int]]:
 
 
 def regions(configuration: Configuration) -> list[list[int]]:
-    """Face tracing: the walks round the regions into which the arcs of the meshes cut the sphere, counterclockwise."""
+    """Return the counterclockwise boundary walks of the regions between the arcs of the meshes, by face tracing."""
     beside: dict[int, list[int]] = {}
     for i, j in configuration.meshes:
+        # adjacency of the meshes
         beside.setdefault(i, []).append(j)
         beside.setdefault(j, []).append(i)
     onward: dict[tuple[int, int], tuple[int, int]] = {}
     for gear, others in beside.items():
         bearing = {other: configuration.azimuth(gear, other) for other in others}
         around = sorted(others, key=bearing.__getitem__)
-        # arriving from one contact, leave by the one before it, counterclockwise
+        # a walk that arrives from one contact leaves by the one before it, counterclockwise
         onward.update({(other, gear): (gear, around[at - 1]) for at, other in enumerate(around)})
     found = []
     while onward:
@@ -318,7 +325,7 @@ def regions(configuration: Configuration) -> list[list[int]]:
 
 
 def fundamental_loops(gears: int, meshes: Sequence[tuple[int, int]]) -> Iterator[list[int]]:
-    """A loop of gears for every mesh outside a breadth-first forest: together a basis of all loops."""
+    """Yield one loop of gears for every mesh outside a breadth-first spanning forest: a basis of all loops."""
     beside: list[list[int]] = [[] for _ in range(gears)]
     for i, j in meshes:
         beside[i].append(j)
@@ -339,11 +346,11 @@ def fundamental_loops(gears: int, meshes: Sequence[tuple[int, int]]) -> Iterator
 
 
 def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ...], ...]:
-    """What must be an integer for the set to be assembled, as shares of the kinds' teeth; alike rules once.
+    """Return the assembly conditions as shares of the kinds' teeth; each distinct condition once.
 
     Round every loop of a basis, sum (-1)^k z_k alpha_k / 2 pi must be an integer, alpha_k being the angle at gear k
-    from its previous to its next contact, counterclockwise. Shares are Fractions where the contacts of every gear
-    of the loop are equally spaced. `QuestionError` names an odd loop: such a set cannot turn.
+    from its previous to its next contact, counterclockwise. Shares are Fractions if the contacts of every gear of the
+    loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
     """
     kinds = kinds_in_order(configuration)
     found: dict[tuple[Fraction | float, ...], None] = {}
@@ -351,7 +358,11 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
         if len(loop) % 2:
             names = " - ".join(configuration.names[gear] for gear in loop)
             raise QuestionError(
-                Problem(f"loop {names} is odd", "gears of an odd loop hold each other fast", "leave one mesh out")
+                Problem(
+                    f"loop {names} is odd",
+                    "meshing gears turn in opposite senses, so an odd loop locks",
+                    "drop one mesh",
+                )
             )
         shares = _shares(configuration, loop, kinds)
         if any(shares):
@@ -360,7 +371,8 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
 
 
 def _shares(configuration: Configuration, loop: Sequence[int], kinds: Sequence[str]) -> tuple[Fraction | float, ...]:
-    """One loop's rule, modulo integers and up to sign."""
+    """Return the condition of one loop, modulo integers and up to sign."""
+    # one irregular gear makes the whole condition inexact
     exact = all(configuration.regular[gear] for gear in loop)
     total: dict[str, Fraction | float] = dict.fromkeys(kinds, Fraction(0) if exact else 0.0)
     for at, gear in enumerate(loop):
@@ -371,7 +383,8 @@ def _shares(configuration: Configuration, loop: Sequence[int], kinds: Sequence[s
         total[configuration.kinds[gear]] += -share if at % 2 else share
     if exact:
         shares = [Fraction(share) % 1 for share in total.values()]
+        # a loop traversed backwards gives the same condition
         return min(tuple(shares), tuple(-share % 1 for share in shares))
-    # kinds of no part in a float loop stay 0; rounding to 1e-13 makes alike loops one rule
+    # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule
     around = [round(float(wrapped(np.asarray(share))), 13) for share in total.values()]
     return max(tuple(around), tuple(-share if share else 0.0 for share in around))

@@ -1,7 +1,7 @@
-"""Sizes of the gears of a set on a sphere: cones, pitches, pressure angles, tips that collide.
+"""Sizes of the gears of a set on a sphere: cones, pitches, pressure angles, colliding tips.
 
-All angles in radians, all lengths in radii of the sphere on which the teeth are measured, axes outwards. For some sets
-on fixed axes it is proved that no tooth numbers give one pitch (docs/sphere.md, section 4).
+All angles are in radians, all lengths in radii of the sphere on which the teeth are measured, and axes point outwards.
+For some sets on fixed axes it is proved that no tooth numbers give one pitch (docs/sphere.md, section 4).
 """
 
 from __future__ import annotations
@@ -40,41 +40,41 @@ if TYPE_CHECKING:
 
 _THEOREMS = {
     "rhombicosidodecahedron": (
-        "equal pitch asks 2 (z5/z4) sin 72 - (z3/z4) sqrt3 phi = 1. A rational z5/z4 other than 0 would put "
+        "equal pitch requires 2 (z5/z4) sin 72 - (z3/z4) sqrt3 phi = 1. A rational z5/z4 other than 0 would put "
         "2 sin 72, which generates a cyclic quartic field, into the biquadratic field Q(sqrt3, sqrt5); "
         "z5 = 0 makes z3 negative. No tooth numbers satisfy it"
     ),
     "rhombicuboctahedron": (
-        "equal pitch asks sqrt2 (z4a/z4b - 1) + 1 = sqrt3 z3/z4b. Squaring leaves a rational multiple of sqrt2, so "
+        "equal pitch requires sqrt2 (z4a/z4b - 1) + 1 = sqrt3 z3/z4b. Squaring leaves a rational multiple of sqrt2, so "
         "z4a = z4b and 3 (z3/z4b)^2 = 1. No tooth numbers satisfy it"
     ),
     "pseudo-rhombicuboctahedron": (
-        "the ring of eight equal squares has pitch cones of 22.5 deg, which asks sqrt3 z3/z4 = 1 of each triangle "
-        "beside it. No tooth numbers satisfy it"
+        "the ring of eight equal squares has pitch cones of 22.5 deg, which requires sqrt3 z3/z4 = 1 for each triangle "
+        "next to it. No tooth numbers satisfy it"
     ),
 }
 TIP_ROOM = 2.0
-"""Modules between the pitch circles of gears that do not mesh: an addendum of one module each."""
+"""Required distance [modules] between the pitch circles of gears that do not mesh: an addendum of one module each."""
 _SAME = 1e-11
-"""Pitches closer than this, relatively, are one pitch: it is the rounding of axes in floats."""
+"""Relative difference below which pitches count as equal: the rounding of axes in floats."""
 
 
 def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
-    """Teeth of every gear. `QuestionError` names the kinds whose teeth are not chosen."""
+    """Return the teeth of every gear; raise `QuestionError` with the kinds whose teeth are not chosen."""
     missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
     if missing:
         raise QuestionError(
             Problem(
                 f"no tooth number for {', '.join(missing)}",
-                "sizes follow from the teeth of every kind of gear",
-                f"give teeth={{{missing[0]!r}: 20, ...}}, or ask suggest_tooth_counts() for good ones",
+                "sizes depend on the teeth of every kind of gear",
+                f"give teeth={{{missing[0]!r}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
             )
         )
     return np.array([configuration.teeth[kind] for kind in configuration.kinds], dtype=np.int64)
 
 
 def one_pitch(configuration: Configuration) -> float:
-    """The pitch that all meshes share, equation (1) of docs/sphere.md, for the teeth chosen.
+    """Return the pitch that all meshes share for the chosen teeth, equation (1) of docs/sphere.md.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def one_pitch(configuration: Configuration) -> float:
     Raises
     ------
     RangeError
-        If the meshes ask for different pitches; with the theorem where no teeth can help (section 4 there).
+        If the meshes require different pitches. The message cites the theorem if no teeth can help (section 4 there).
     QuestionError
         If teeth are not chosen, or no gears mesh.
 
@@ -105,18 +105,18 @@ def one_pitch(configuration: Configuration) -> float:
     minimum, most = int(np.argmin(sizing.pitches)), int(np.argmax(sizing.pitches))
     raise RangeError(
         Problem(
-            f"no single pitch: {sizing.label(most)} asks for {sizing.pitches[most]:.12g} and {sizing.label(minimum)} "
-            f"for {sizing.pitches[minimum]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
-            impossibility_theorem(configuration) or "each kind of mesh fixes the pitch by its own axes and teeth",
+            f"no single pitch: {sizing.label(most)} requires {sizing.pitches[most]:.12g} and {sizing.label(minimum)} "
+            f"requires {sizing.pitches[minimum]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
+            impossibility_theorem(configuration) or "each kind of mesh determines its pitch by its own axes and teeth",
             "size_gears() gives operating cones and pressure angles of involutes on one base pitch; "
-            "suggest_tooth_counts() seeks better teeth; from_graph() or idlers on the edges give an exact pitch with "
+            "suggest_tooth_counts() finds better teeth; from_graph() or idlers on the edges give an exact pitch with "
             "other axes",
         )
     )
 
 
 def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:
-    """Operating cones, pitches and pressure angles of every mesh: equation (1) of docs/sphere.md.
+    """Compute operating cones, pitches and pressure angles of every mesh by equation (1) of docs/sphere.md.
 
     All gears share one base pitch, so that spherical involutes keep the ratio at any pitch (section 4 there).
 
@@ -125,7 +125,7 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     configuration : Configuration
         With teeth.
     mean_pressure : float
-        Pressure angle about which those of the meshes lie [rad]; default 20 deg.
+        Mean pressure angle of the meshes [rad]; default 20 deg.
 
     Returns
     -------
@@ -147,13 +147,14 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     """
     z = teeth_of(configuration)
     if not configuration.meshes:
-        raise QuestionError(Problem("no gears mesh", "sizes follow from meshes", "declare at least one mesh"))
+        raise QuestionError(Problem("no gears mesh", "sizes depend on the meshes", "declare at least one mesh"))
     i, j = np.array(configuration.meshes).T
     S = mesh_angles(configuration.axes, configuration.meshes)
     pitches = operating_pitch(S, z[i], z[j])
     if len(mesh_kinds(configuration)) == 1:
-        # meshes of one kind have one pitch, whatever the rounding of their axes says
+        # meshes of one kind have one pitch by symmetry; this removes the rounding of their axes
         pitches[:] = pitches[0]
+    # each mesh has its own operating cones on a common base pitch
     cones = np.stack([pitch_cone(S, z[i], z[j]), pitch_cone(S, z[j], z[i])], axis=1)
     c = base_pitch(pitches, mean_pressure)
     return SphereSizing(configuration, z, cones, pitches, c, pressure_angle(c, pitches))
@@ -161,42 +162,39 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
 
 @dataclass(frozen=True)
 class TipCollision:
-    """Two gears that do not mesh and come too close: `room` between their pitch circles and how much it is `short`.
-
-    Both in modules; below 0 the pitch circles themselves overlap.
-    """
+    """Two gears that do not mesh and come too close to each other."""
 
     gears: tuple[str, str]
     """Names of the two gears."""
     room: float
-    """Distance between their pitch circles [modules]; below 0 they overlap."""
+    """Distance between their pitch circles [modules]; the pitch circles overlap below 0."""
     short: float
-    """By how much the distance is too small [modules]."""
+    """Shortfall of the distance below the required two modules [modules]."""
 
     def __str__(self) -> str:
-        return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} too few"
+        return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} modules too close"
 
 
 class MeshSize(NamedTuple):
-    """Sizes of one mesh: its gears, their operating cones (deg), pitch, and pressure angle (deg) if there is one."""
+    """Sizes of one mesh: its gears, their operating cones, its pitch and its pressure angle."""
 
     gears: tuple[str, str]
     """Names of the two gears."""
     cones: tuple[float, float]
     """Operating pitch cones of the two gears [deg]."""
     pitch: float
-    """Pitch of the teeth."""
+    """Operating pitch lambda [radii of the sphere]."""
     pressure_angle: float | None
-    """Pressure angle [deg]; None where there is none."""
+    """Operating pressure angle [deg]; None if involutes on the common base pitch cannot mesh."""
 
 
 @dataclass(frozen=True)
 class SphereSizing(Result):
-    """Sizes of a set with teeth. Rows run over the meshes.
+    """Sizes of a set with teeth. Rows are meshes.
 
     See Also
     --------
-    size_gears : what gives these.
+    size_gears : Returns such an object.
     """
 
     KEYS = (
@@ -212,16 +210,15 @@ class SphereSizing(Result):
     configuration: Configuration
     """The set."""
     teeth: NDArray[np.int64]
-    """Of each gear. Shape (gears,)."""
+    """Tooth number of each gear. Shape (gears,)."""
     cones: Floats
     """Operating pitch cones of the first and second gear of each mesh [rad]. Shape (meshes, 2)."""
     pitches: Floats
     """Operating pitch lambda of each mesh [radii of the sphere]. Shape (meshes,)."""
     base: float
-    """Base pitch c that all gears share [radii of the sphere]: base cones are sin g = c z."""
+    """Base pitch c that all gears share [radii of the sphere]; base cones are sin g = c z."""
     pressure: Floats
-    """Operating pressure angle of each mesh [rad]; nan where involutes on one base pitch cannot mesh. Shape
-    (meshes,)."""
+    """Operating pressure angle of each mesh [rad]; nan if involutes on one base pitch cannot mesh. Shape (meshes,)."""
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}"
@@ -233,22 +230,25 @@ class SphereSizing(Result):
 
     @cached_property
     def mismatch(self) -> float:
-        """ln(greatest pitch / least pitch)."""
+        """Logarithm of the maximum pitch over the minimum pitch."""
         return log(float(self.pitches.max()) / float(self.pitches.min()))
 
     @cached_property
     def pitch(self) -> float:
-        """Geometric mean of the operating pitches, in radii of the sphere."""
+        """Geometric mean of the operating pitches [radii of the sphere]."""
         return float(np.exp(np.log(self.pitches).mean())) if self.mismatch else float(self.pitches[0])
 
     @property
     def module(self) -> float:
-        """Module in radii of the sphere: 2 lambda."""
+        """Module, 2 lambda [radii of the sphere]."""
         return 2 * self.pitch
 
     @cached_property
     def outer(self) -> Floats:
-        """The largest operating cone of each gear (rad): what its neighbours must stay clear of."""
+        """Largest operating cone of each gear [rad], which gears that do not mesh with it must clear. Shape
+        (gears,).
+        """
+        # a gear without a mesh has the cone of the mean pitch
         alone = np.arcsin(np.minimum(self.teeth * self.pitch, 1))
         largest = np.zeros(len(self.teeth))
         for side in (0, 1):
@@ -272,8 +272,9 @@ class SphereSizing(Result):
 
     @cached_property
     def collisions(self) -> tuple[TipCollision, ...]:
-        """Gears that do not mesh and have less than two modules between their pitch circles, worst first."""
+        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, worst first."""
         room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
+        # each pair once; the tolerance keeps gears that just clear
         rows, columns = np.nonzero(np.triu(room < TIP_ROOM - 1e-9, 1))
         names = self.configuration.names
         found = [
@@ -284,23 +285,23 @@ class SphereSizing(Result):
 
     @property
     def virtual(self) -> Floats:
-        """Virtual teeth of each gear."""
+        """Virtual teeth of each gear. Shape (gears,)."""
         return virtual_teeth(self.teeth, self.outer)
 
     @property
     def undercut(self) -> dict[str, float]:
-        """Kinds whose virtual teeth are fewer than a rack of the mean pressure angle can cut whole, and how many."""
+        """Virtual teeth of the kinds that a rack of the mean pressure angle undercuts."""
         limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
         pairs = zip(self.configuration.kinds, self.virtual, strict=True)
         return {kind: float(count) for kind, count in pairs if count < limit}
 
     def label(self, mesh: int) -> str:
-        """A mesh by the names of its gears.
+        """Return the names of a mesh's gears, joined by a hyphen.
 
         Parameters
         ----------
         mesh : int
-            Its row.
+            Index of the mesh.
         """
         i, j = self.configuration.meshes[mesh]
         return f"{self.configuration.names[i]}-{self.configuration.names[j]}"
@@ -325,15 +326,16 @@ class SphereSizing(Result):
 
 
 def impossibility_theorem(configuration: Configuration) -> str:
-    """Why no tooth numbers at all give one pitch on these fixed axes; "" where no such proof is known."""
-    name = _proven(configuration)
+    """Return the proof that no tooth numbers give one pitch on these fixed axes; "" if no such proof is known."""
+    name = _solid_with_proof(configuration)
     return f"{name}: {_THEOREMS[name]}" if name else ""
 
 
-def _proven(configuration: Configuration) -> str:
-    """The solid whose faces the gears stand on, among those with a proof: by its counts and mesh angles."""
+def _solid_with_proof(configuration: Configuration) -> str:
+    """Return the solid on whose faces the gears are placed, among those with a proof, by its counts and mesh angles."""
     counts = len(configuration.axes), len(configuration.meshes)
     phi = (1 + sqrt(5)) / 2
+    # counts of gears and meshes, and the two angles between adjacent faces
     angles = {(62, 120): (atan(1 / phi), atan(phi**-2)), (26, 48): (pi / 4, atan(sqrt(0.5)))}.get(counts, ())
     if not angles:
         return ""
@@ -343,6 +345,7 @@ def _proven(configuration: Configuration) -> str:
         return ""
     if counts == (62, 120):
         return "rhombicosidodecahedron"
-    # the twisted cap leaves one ring of squares of the three
+    # the twisted cap keeps only one of the three rings of squares, so not every face has an opposite face
+    # faces opposite each other
     across = np.abs(separations(configuration.axes) - pi) < 1e-9
     return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"

@@ -1,4 +1,4 @@
-"""A set of gears on a sphere: whether it turns, whether its teeth meet, and its sizes."""
+"""Analysis of a set of gears on a sphere: mobility, assembly of the teeth, and sizes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SPREAD = Key("pitch_spread", "spread")
 
 @dataclass(frozen=True)
 class GearSphere(Result):
-    """A set of gears on a sphere, and what is asked of it; each part is made when it is first needed.
+    """Set of gears on a sphere with its analyses; each one is computed when it is first used.
 
     Examples
     --------
@@ -62,9 +62,9 @@ class GearSphere(Result):
     configuration: Configuration
     """The set."""
     radius: float = 1.0
-    """Radius of the sphere, in the unit of the reader; wheels are sized by it."""
+    """Radius of the sphere in any unit of length; wheels are sized by it."""
     graph: GraphSet | None = None
-    """How the set was fitted to a graph, where it was."""
+    """Fit of the set to a graph, if it was made from one."""
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}, radius {self.radius:g}"
@@ -76,7 +76,9 @@ class GearSphere(Result):
 
     @cached_property
     def train(self) -> GearTrain:
-        """The set as a train; where teeth are not chosen, with ten on every gear: signs do not depend on them."""
+        """Gear train of the set; with ten teeth on every gear whose teeth are not chosen, because signs do not depend
+        on them.
+        """
         whole = {kind: self.configuration.teeth.get(kind, 10) for kind in self.configuration.kinds}
         return GearTrain.declare(to_train(replace(self.configuration, teeth=whole)))
 
@@ -92,24 +94,29 @@ class GearSphere(Result):
 
     @cached_property
     def closure(self) -> MeshPhasing | None:
-        """Whether the teeth of every loop meet; None while teeth are not chosen, and for a set that cannot turn."""
+        """Phasing of the meshes round every loop; None while teeth are not chosen, and for a set that cannot turn."""
         from geartrain.kinematics.phasing import spherical_phasing
 
         return spherical_phasing(self.configuration) if self.chosen and self.moves else None
 
     def pose(self) -> tuple[Configuration, Floats, list[float]]:
-        """What a picture needs: the set, its pitch cones (rad), and how far its teeth are turned (pitches)."""
+        """Return the data of a drawing: the set, its pitch cones [rad], and the phase angles of its teeth [pitches]."""
         sizing = self.sizing
         if sizing is None:
-            raise QuestionError(Problem("the sphere cannot be drawn", "its gears have no teeth", "give --teeth"))
+            raise QuestionError(
+                Problem("the sphere cannot be drawn", "its gears have no tooth numbers", "give --teeth")
+            )
         angles = {} if self.closure is None else self.closure.angles
+        # phases are fractions of a pitch, which need the tooth numbers
         counts = zip(self.configuration.names, sizing.teeth.tolist(), strict=True)
         phases = [angles.get(name, 0.0) * z / (2 * pi) for name, z in counts]
         return self.configuration, sizing.outer, phases
 
     @cached_property
     def rule(self) -> str | None:
-        """The condition on tooth numbers, where contacts stand at known parts of a turn."""
+        """Divisibility condition on the tooth numbers; None if the contacts are not at known fractions of a
+        revolution.
+        """
         from geartrain.kinematics.phasing import spherical_divisibility_rule
 
         rule = spherical_divisibility_rule(self.configuration) if self.moves else None
@@ -132,39 +139,40 @@ class GearSphere(Result):
 
     @property
     def gridlock(self) -> Gridlock | None:
-        """What holds the set; None where it turns."""
+        """Diagnosis of the gridlock; None if the set turns."""
         return None if self.moves else self.train.kinematics.gridlock
 
     @property
     def closes(self) -> bool | None:
-        """True if all teeth meet; None where that is not asked."""
+        """True if all teeth meet; None if that cannot be checked."""
         return None if self.closure is None else bool(self.closure)
 
     @property
     def residue(self) -> float | None:
-        """How far the last meshes are off when gears are put in one after the other (pitches)."""
+        """Residue of the last meshes when gears are assembled one after the other [pitches]."""
         return None if self.closure is None else self.closure.last
 
     @property
     def loop_residue(self) -> float | None:
-        """The residue of the worst loop (pitches)."""
+        """Residue of the worst loop [pitches]."""
         return None if self.closure is None else float(self.closure.worst)
 
     @cached_property
     def cones(self) -> Mapping[str, float | None]:
-        """Pitch cone of each kind (rad), the largest in operation; None while teeth are not chosen."""
+        """Pitch cone of each kind [rad], the largest in operation; None while teeth are not chosen."""
         kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
             return dict.fromkeys(kinds)
+        # gears of one kind have equal cones
         cones = dict(zip(self.configuration.kinds, self.sizing.outer.tolist(), strict=True))
         return {kind: cones[kind] for kind in kinds}
 
     @property
     def radii(self) -> Mapping[str, float | None]:
-        """Radius of the pitch circles of each kind, in the unit of the sphere's."""
+        """Pitch radius of each kind, in the unit of the sphere's radius; None while teeth are not chosen."""
         return {kind: None if cone is None else wheel_radius(self.radius, cone) for kind, cone in self.cones.items()}
 
     @property
     def angles(self) -> Mapping[str, float]:
-        """Angle (rad) between the axes of each kind of mesh."""
+        """Angle between the axes of each kind of mesh [rad]."""
         return {f"{each.a}-{each.b}": each.angle for each in mesh_kinds(self.configuration)}

@@ -1,6 +1,7 @@
-"""Gears on a sphere from any planar graph of who meshes with whom: circles, whole teeth, then pitch or phases.
+"""Gears on a sphere from a planar graph of meshing gears: circle packing, integer teeth, then one pitch or closed
+loops.
 
-The graph is first drawn as a planar map, or the reason is reported why gears on a sphere cannot follow it.
+The graph is first embedded as a planar map. A graph that gears on a sphere cannot realise is rejected with the reason.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ Edges = Iterable[tuple[Hashable, Hashable]]
 
 
 def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
-    """Two gears whose removal parts a 2-connected planar map, or None: it is then 3-connected.
+    """Return two gears whose removal disconnects a 2-connected planar map, or None if it is 3-connected.
 
     Two regions of a 3-connected map share nothing, one gear, or the two gears of one mesh between them.
     """
@@ -64,30 +65,36 @@ def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
 
 
 def checked_graph(graph: nx.Graph[Any] | Edges) -> nx.Graph[Any]:
-    """The graph, if it is simple, bipartite and 2-connected. Raises `QuestionError` with the reason where it is not."""
+    """Return the graph if it is simple, bipartite and 2-connected; raise `QuestionError` with the reason otherwise."""
     import networkx as nx
 
     given = graph if isinstance(graph, nx.Graph) else None
     pairs = list(graph if given is None else given.edges())
-    _simple(pairs, both_ways=isinstance(given, nx.DiGraph))
+    _check_simple(pairs, both_ways=isinstance(given, nx.DiGraph))
     loose = [] if given is None else [str(node) for node, degree in given.degree() if not degree]
     if loose:
-        raise _refused(f"{', '.join(loose)} mesh with nothing", "their place would be anywhere", "leave them out")
+        raise _refused(f"{', '.join(loose)} mesh with nothing", "meshes determine the axes", "leave these gears out")
     found: nx.Graph[Any] = nx.Graph(pairs)
     if found.number_of_nodes() < 4:
         raise _refused(
-            f"{found.number_of_nodes()} gears", "a packing needs a loop of four or more", "add gears until loops close"
+            f"it has {found.number_of_nodes()} gears",
+            "a packing needs a loop of four or more",
+            "add gears until loops close",
         )
-    _no_odd_loop(found)
-    _holds_together(found)
+    _check_bipartite(found)
+    _check_connected(found)
     return found
 
 
-def _simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -> None:
-    """No gear in mesh with itself, and no mesh named twice (unless arrows lead both ways)."""
+def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -> None:
+    """Raise `QuestionError` if a gear meshes with itself, or a mesh is listed twice.
+
+    Opposite arrows of a directed graph count as one mesh.
+    """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
         raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "leave that mesh out")
+    # a mesh is undirected
     counted = Counter(frozenset(pair) for pair in pairs)
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
     if twice:
@@ -95,8 +102,8 @@ def _simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -> None
         raise _refused(f"{names} mesh twice", "two gears on a sphere touch at one point", "name each mesh once")
 
 
-def _holds_together(found: nx.Graph[Any]) -> None:
-    """Connected, and not through one gear alone."""
+def _check_connected(found: nx.Graph[Any]) -> None:
+    """Raise `QuestionError` if the graph is disconnected or has an articulation point."""
     import networkx as nx
 
     parts = [sorted(map(str, part)) for part in nx.connected_components(found)]
@@ -104,19 +111,17 @@ def _holds_together(found: nx.Graph[Any]) -> None:
         minimum = min(parts, key=len)
         apart = ", ".join(minimum)
         raise _refused(
-            f"{apart} stand apart", "parts without a mesh between them do not fix each other", "pack one part at a time"
+            f"{apart} are not connected to the rest", "meshes determine the axes", "pack one connected part at a time"
         )
     cut = next(iter(nx.articulation_points(found)), None)
     if cut is None:
         return
     ends = ", ".join(sorted(str(node) for node, degree in found.degree() if degree == 1))
-    fix = f"leave {ends} out: gears at an end go wherever there is room" if ends else f"add a mesh that passes {cut} by"
-    raise _refused(
-        f"{cut} alone holds two parts together", "the parts can turn about it, so that no packing is the only one", fix
-    )
+    fix = f"leave {ends} out, or add a second mesh to each" if ends else f"add a mesh that bypasses {cut}"
+    raise _refused(f"only {cut} connects two parts", "the parts can turn about it, so the packing is not unique", fix)
 
 
-def _no_odd_loop(found: nx.Graph[Any]) -> None:
+def _check_bipartite(found: nx.Graph[Any]) -> None:
     names = list(found)
     at = {name: k for k, name in enumerate(names)}
     loops = fundamental_loops(len(names), [(at[i], at[j]) for i, j in found.edges()])
@@ -124,7 +129,7 @@ def _no_odd_loop(found: nx.Graph[Any]) -> None:
     if odd:
         walk = " - ".join(str(names[k]) for k in min(odd, key=len))
         raise _refused(
-            f"loop {walk} is odd", "neighbours turn against each other, so an odd loop locks", "leave one mesh out"
+            f"loop {walk} is odd", "meshing gears turn in opposite senses, so an odd loop locks", "leave one mesh out"
         )
 
 
@@ -133,25 +138,33 @@ def _refused(what: str, why: str, fix: str) -> QuestionError:
 
 
 def turning_senses(found: nx.Graph[Any], names: Sequence[Hashable]) -> Ints:
-    """+1 or -1 for each gear: the way it turns."""
+    """Return the sense of rotation of each gear, +1 or -1, by a two-colouring of the graph."""
     import networkx as nx
 
+    # meshing gears turn in opposite senses, so a two-colouring gives the senses
     colours = nx.bipartite.color(found)
     return np.array([1 if colours[name] else -1 for name in names], dtype=np.int64)
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
-    """The regions of a planar embedding, as walks of gear numbers."""
+    """Return the regions of a planar embedding as walks of gear numbers; raise `QuestionError` if the graph is not
+    planar.
+    """
     import networkx as nx
 
     drawn: Any
     planar, drawn = nx.check_planarity(found, counterexample=True)
     if not planar:
+        # branch vertices of a subdivided K5 or K3,3
         corners = sorted((str(node) for node, degree in drawn.degree() if degree > 2))
-        why = "every two of them are joined" if len(corners) == 5 else "three of them are joined to the other three"
+        why = (
+            "each is joined to all others"
+            if len(corners) == 5
+            else "each of three is joined to each of the other three"
+        )
         raise _refused(
             f"it is not planar: {', '.join(corners)}",
-            f"{why}, by meshes or chains of gears that meet nowhere else (Kuratowski)",
+            f"{why}, by meshes or disjoint chains of gears (Kuratowski)",
             "leave a mesh out of these chains",
         )
     at = {name: k for k, name in enumerate(found)}
@@ -162,44 +175,49 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
 def with_region_circles(
     gears: int, regions: Sequence[Sequence[int]], names: Sequence[Hashable]
 ) -> tuple[int, list[tuple[int, ...]]]:
-    """Gears and regions with one circle more in every region beside an idler, touching all that bound it."""
+    """Return gears and regions with an additional circle in every region next to an idler, tangent to its boundary
+    gears.
+
+    Raises `QuestionError` if the map is not 3-connected even so.
+    """
     meshes = Counter(gear for walk in regions for gear in walk)
-    propped: list[tuple[int, ...]] = []
+    completed: list[tuple[int, ...]] = []
     for walk in regions:
+        # an idler has only two meshes, too few for a 3-connected map
         if any(meshes[gear] == 2 for gear in walk):
-            propped += [(walk[k - 1], gear, gears) for k, gear in enumerate(walk)]
+            completed += [(walk[k - 1], gear, gears) for k, gear in enumerate(walk)]
             gears += 1
         else:
-            propped.append(tuple(walk))
-    pair = separating_pair(propped)
+            completed.append(tuple(walk))
+    pair = separating_pair(completed)
     if pair is not None:
         i, j = (str(names[gear]) for gear in pair)
         raise _refused(
-            f"without {i} and {j} it falls apart",
-            "one of its parts can be flipped over about these two, so that no packing is the only one",
-            f"add a mesh that joins the parts beside {i} and {j}, or take one part at a time",
+            f"without {i} and {j} it is not connected",
+            "a part can be reflected about these two gears, so the packing is not unique",
+            f"add a mesh that joins the parts other than {i} and {j}, or pack one part at a time",
         )
-    return gears, propped
+    return gears, completed
 
 
 # ------------------------------------------------------------------------------------------------------------ graph set
 
 
 Aim = Literal["pitch", "phases"]
-_EXACT = 1e-11  # pitches: rounding leaves far less
+_EXACT = 1e-11  # pitches; rounding leaves about 1e-15
 _MOST_CHOICES = 24
-"""Roundings of the teeth that are compared by how far their loops are from closing."""
+"""Maximum number of roundings of the teeth that are compared by the closing errors of their loops."""
 
 
 def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[Ints]:
-    """Whole teeth nearly in proportion to sin rho (cones in rad), from a scan of the scale, best first.
+    """Return integer tooth numbers nearly in proportion to sin rho (cones in rad) from a scan of the scale, best first.
 
-    The smallest gear gets from `minimum` to `upto` teeth (`minimum` only, unless given). Best is the least variance of
-    ln(z / sin rho), that is, of the pitch.
+    The smallest gear gets from `minimum` to `upto` teeth (only `minimum` by default). The best rounding has the minimum
+    variance of ln(z / sin rho), that is, of the pitch.
     """
     sine = np.sin(cones)
     last = minimum if upto is None else max(upto, minimum)
-    # teeth change where a scaled sine passes a half: 200 scales a tooth of the smallest gear meet most
+    # teeth change where a scaled sine passes a half: 200 scales per tooth of the smallest gear find most roundings
     scales = np.linspace(minimum - 0.5, last + 0.5, 200 * (last - minimum + 1) + 1) / sine.min()
     found = {tuple(np.round(sine * scale).astype(int).tolist()) for scale in scales}
     fitting = [teeth for teeth in found if minimum <= min(teeth) <= last]
@@ -208,9 +226,9 @@ def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[
 
 
 def kabsch_aligned(axes: Floats, onto: Floats) -> Floats:
-    """The axes after the rotation that brings them nearest to others (W. Kabsch, Acta Cryst. A32 (1976) 922)."""
+    """Rotate the axes to best match other axes (W. Kabsch, Acta Cryst. A32 (1976) 922)."""
     U, _, V = np.linalg.svd(axes.T @ onto)
-    # the nearest orthogonal matrix may be a reflection: its least singular direction is then turned round
+    # the nearest orthogonal matrix may be a reflection: the direction of its minimum singular value is then reversed
     flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(U @ V)))])
     return np.asarray(axes @ U @ flip @ V, dtype=float)
 
@@ -223,37 +241,37 @@ def from_graph(
     upto: int | None = None,
     teeth: Mapping[Hashable, int] | None = None,
 ) -> GraphSet:
-    """Gears on a sphere that mesh as a graph says: circle packing, whole teeth, axes moved until pitches or phases fit.
+    """Place gears on a sphere that mesh as in a graph, with one exact pitch or with exactly closed loops.
 
-    Circles are packed (Koebe, Andreev and Thurston), teeth rounded to the circles, and the axes moved by as little as
-    it takes for what `aim` names to be exact. In a region beside an idler a circle stands in for the meshes it lacks
-    while circles are packed.
+    Circles are packed (Koebe, Andreev and Thurston), teeth are rounded to the circles, and the axes are moved as little
+    as possible until the quantity named by `aim` is exact. During the packing, an additional circle in each region next
+    to an idler replaces its missing meshes.
 
     Parameters
     ----------
     graph : networkx.Graph, or iterable of pairs
-        Who meshes with whom. It must be simple, planar and bipartite, and 3-connected once gears with two meshes
-        (idlers) are left out of account.
+        Graph of the meshes. It must be simple, planar and bipartite, and 3-connected apart from gears with two meshes
+        (idlers).
     minimum_teeth : int
-        Of the smallest gear.
+        Tooth number of the smallest gear.
     aim : {"pitch", "phases"}
-        `pitch`: all meshes share one pitch; `phases`: all loops close. Both at once seldom exist.
+        `pitch`: all meshes share one pitch; `phases`: all loops close. Both at once are seldom possible.
     upto : int, optional
-        The best rounding is sought for smallest gears from `minimum_teeth` up to that.
+        Upper end of the range of the smallest gear's teeth, from `minimum_teeth`, in which the best rounding is sought.
     teeth : mapping of gear to int, optional
-        Of each gear, in place of rounding.
+        Tooth number of each gear, instead of rounding.
 
     Returns
     -------
     GraphSet
-        The set, and what of it is exact.
+        The set, with its residuals.
 
     Raises
     ------
     QuestionError
-        If the graph cannot be packed, with what is in the way; or teeth are missing.
+        If the graph cannot be packed, with the reason; or if teeth are missing.
     RangeError
-        If no packing is found in floats.
+        If the packing does not converge in double precision.
 
     Examples
     --------
@@ -265,7 +283,7 @@ def from_graph(
     (('pitch', 'phases'), {12})
     """
     if aim not in ("pitch", "phases"):
-        raise QuestionError(Problem(f"no aim {aim!r}", "axes can be moved for one of two ends", "pitch or phases"))
+        raise QuestionError(Problem(f"unknown aim {aim!r}", "the aim is 'pitch' or 'phases'", "pass aim='pitch'"))
     named = checked_graph(graph)
     names = list(named)
     gears, regions, side = len(names), regions_of(named), turning_senses(named, names)
@@ -273,13 +291,14 @@ def from_graph(
     axes, cones = packing.axes[:gears], packing.cones[:gears]
     meshes = tuple(mesh for mesh in packing.meshes if mesh[1] < gears)
     choices = [_teeth(names, teeth)] if teeth is not None else rounded_teeth(cones, minimum_teeth, upto)
-    # round the sphere every tooth is counted once, so the loops of all regions but one imply the last
+    # over the whole sphere every tooth is counted once, so the loops of all regions but one imply the last
     largest = max(range(len(regions)), key=lambda at: len(regions[at]))
     corners = corners_of([walk for at, walk in enumerate(regions) if at != largest], side)
     if aim == "pitch":
         z = choices[0]
         fit = fit_pitch(axes, meshes, z, float((np.sin(cones) / z).mean()))
     else:
+        # the rounding whose pitches remain most uniform when loops are closed
         z = min(choices[:_MOST_CHOICES], key=lambda z: forecast_spread(axes, meshes, z, corners))
         fit = fit_phases(axes, meshes, z, corners)
     return _answer(names, meshes, z, aim, packing, fit, corners_of(regions, side))
@@ -295,6 +314,7 @@ def _answer(
     corners: LoopCorners,
 ) -> GraphSet:
     labels = tuple(str(name) for name in names)
+    # a common rotation is removed, so that displacements are meaningful
     axes = kabsch_aligned(fit.axes, packing.axes[: len(names)])
     chosen = dict(zip(labels, z.tolist(), strict=True))
     title = f"{len(names)} gears on a planar graph"
@@ -311,18 +331,22 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
     missing = [str(name) for name in names if name not in teeth]
     if missing:
         raise QuestionError(
-            Problem(f"no teeth given for {', '.join(missing)}", "teeth= replaces all rounding", "give every gear's")
+            Problem(
+                f"no teeth given for {', '.join(missing)}",
+                "`teeth` replaces all rounding",
+                "give the teeth of every gear",
+            )
         )
     return np.array([teeth[name] for name in names], dtype=np.int64)
 
 
 @dataclass(frozen=True)
 class GraphSet(Result):
-    """Gears made from a graph, and what of them is exact.
+    """Gears made from a graph, with the residuals of pitches and loops.
 
     See Also
     --------
-    from_graph : what gives these.
+    from_graph : Returns such an object.
     """
 
     KEYS = (
@@ -336,32 +360,32 @@ class GraphSet(Result):
     )
 
     configuration: Configuration
-    """Axes, meshes and teeth; every gear is a kind of its own."""
+    """Axes, meshes and teeth; every gear is its own kind."""
     aim: Aim
-    """What the axes were moved for."""
+    """Quantity that the axes were moved to make exact."""
     packing: SpherePacking
-    """The circles from which the axes were moved; circles past the gears stood in beside idlers."""
+    """Circle packing from which the axes were moved; additional circles next to idlers follow the gears."""
     sizing: SphereSizing
     """Cones, pitches and pressure angles."""
     residue: float
     """Largest residue of a loop [pitches]."""
     moved: Floats
-    """How far each axis moved from the packing [rad]. Shape (gears,)."""
+    """Displacement of each axis from the packing [rad]. Shape (gears,)."""
     residuals: tuple[float, ...]
-    """What was left after each step of the fit [rad for pitches, pitches for phases]."""
+    """Residual after each step of the fit [rad for pitches, pitches for phases]."""
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}, aim {self.aim}, residue {self.residue:.3g} pitches"
 
     @property
     def exact(self) -> tuple[str, ...]:
-        """What holds to rounding: "pitch", "phases", both or neither."""
+        """Conditions that are satisfied to rounding: "pitch", "phases", both or neither."""
         found = {"pitch": self.sizing.exact, "phases": self.residue < _EXACT}
         return tuple(name for name, holds in found.items() if holds)
 
     @property
     def spread(self) -> float:
-        """How much the greatest pitch exceeds the least, in percent."""
+        """Excess of the maximum pitch over the minimum [percent]."""
         return 100 * (exp(self.sizing.mismatch) - 1)
 
     @property
@@ -371,7 +395,7 @@ class GraphSet(Result):
 
     @property
     def maximum_move(self) -> float:
-        """How far an axis was moved at most (rad)."""
+        """Maximum displacement of an axis [rad]."""
         return float(self.moved.max())
 
     def __str__(self) -> str:
@@ -382,12 +406,12 @@ class GraphSet(Result):
             f"{' and '.join(self.exact) or 'in neither pitch nor phases'}",
             f"  axes moved by up to {degrees(float(self.moved.max())):.4f} deg",
             f"  pitch spread {self.spread:.3g} %, pressure angles {angles}",
-            f"  loops miss by up to {self.residue:.3g} pitches",
+            f"  maximum closing error of a loop {self.residue:.3g} pitches",
         ]
         if known.size < len(self.sizing.pressure):
-            lines.append(f"  {len(self.sizing.pressure) - known.size} meshes are too close for the common base pitch")
+            lines.append(f"  {len(self.sizing.pressure) - known.size} meshes have a pitch below the common base pitch")
         if self.aim not in self.exact:
-            lines.append(f"  no axes near the packing make the {self.aim} exact; more teeth, or others, may")
+            lines.append(f"  no axes near the packing make the {self.aim} exact; try more or other teeth")
         if self.sizing.collisions:
             lines.append(f"  {len(self.sizing.collisions)} pairs collide, worst {self.sizing.collisions[0]}")
         return "\n".join(lines)

@@ -1,8 +1,8 @@
-"""Cones of gears on a sphere, one pair at a time, and how angles between axes change as axes move.
+"""Pitch and base cones of pairs of gears on a sphere, and derivatives of the angles between their axes.
 
-Pitch and base cones, pressure angles and limits of shape: docs/sphere.md, sections 1 and 4. Derivatives come as sparse
-rows for Newton's method. All angles in radians, all lengths in radii of the sphere on which the teeth are measured,
-axes outwards.
+Equations of cones, pressure angles and limits of shape are in docs/sphere.md, sections 1 and 4. Derivatives are sparse
+rows for Newton's method. All angles are in radians, all lengths in radii of the sphere on which the teeth are measured,
+and axes point outwards.
 """
 
 from __future__ import annotations
@@ -24,25 +24,28 @@ MEAN_PRESSURE = radians(20)
 
 
 def pitch_cone(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
-    """Half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md (1).
+    """Return the half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md (1).
 
-    S is the angle between outward axes (rad, 0 < S < pi), z the teeth. From w_i sin rho_i = -w_j sin rho_j, w_i/w_j =
-    -z_j/z_i and rho_i + rho_j = S: Willis with the frame as carrier. pi/2 is a crown gear, more an internal gear.
+    S is the angle between outward axes [rad], 0 < S < pi, and z the teeth. The formula follows from w_i sin rho_i =
+    -w_j sin rho_j, w_i/w_j = -z_j/z_i and rho_i + rho_j = S (Willis, with the frame as carrier). pi/2 is a crown gear,
+    and a greater angle an internal gear.
     """
     return np.asarray(np.arctan2(np.sin(S), np.cos(S) + np.divide(z_j, z_i)), dtype=float)
 
 
 def operating_pitch(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
-    """lambda = sin rho_i / z_i = sin rho_j / z_j = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S), docs/sphere.md (1).
+    """Return the operating pitch lambda = sin rho_i / z_i = sin rho_j / z_j [radii of the sphere], docs/sphere.md (1).
 
-    In radii of the sphere; the module is 2 lambda, the circular pitch 2 pi lambda. Arguments as in `pitch_cone`.
+    lambda = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S). The module is 2 lambda, the circular pitch 2 pi lambda.
+    Arguments are as in `pitch_cone`.
     """
     z_i, z_j = np.asarray(z_i, dtype=float), np.asarray(z_j, dtype=float)
     return np.asarray(np.sin(S) / np.sqrt(z_i**2 + z_j**2 + 2 * z_i * z_j * np.cos(S)), dtype=float)
 
 
 def base_pitch(pitches: ArrayLike, mean: float = MEAN_PRESSURE) -> float:
-    """c of the base cones sin g_i = c z_i that all gears share, docs/sphere.md (3): cos(mean) times the mean pitch.
+    """Return c of the base cones sin g_i = c z_i that all gears share: cos(mean) times the mean pitch, docs/sphere.md
+    (3).
 
     The mean is geometric: with two pitches the cosines of their pressure angles then lie about cos(mean).
     """
@@ -50,29 +53,33 @@ def base_pitch(pitches: ArrayLike, mean: float = MEAN_PRESSURE) -> float:
 
 
 def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
-    """Operating pressure angle of spherical involutes [rad]: cos alpha_ij = c / lambda_ij, docs/sphere.md (3).
+    """Return the operating pressure angle of spherical involutes [rad]: cos alpha_ij = c / lambda_ij, docs/sphere.md
+    (3).
 
-    nan where the operating pitch is less than the base pitch: there the base cones overlap, and no involute meshes.
+    The result is nan if the operating pitch is less than the base pitch: the base cones then overlap, and involutes
+    cannot mesh.
     """
     share = c / np.asarray(pitch, dtype=float)
-    # `where` works out both sides: without the minimum numpy would warn
+    # numpy evaluates both branches of `where`: without the minimum, arccos would warn
     return np.asarray(np.where(share <= 1, np.arccos(np.minimum(share, 1)), np.nan), dtype=float)
 
 
 def sphere_radius(wheel: float, rho: float) -> float:
-    """Radius of the sphere that carries the pitch circle of radius `wheel`, same unit: R = r / sin rho."""
+    """Return the radius of the sphere that carries a pitch circle of radius `wheel`, in the same unit: R = r
+    / sin rho.
+    """
     return wheel / sin(rho)
 
 
 def wheel_radius(sphere: float, rho: float) -> float:
-    """Radius of the pitch circle on a sphere of radius `sphere`, same unit: r = R sin rho."""
+    """Return the radius of the pitch circle on a sphere of radius `sphere`, in the same unit: r = R sin rho."""
     return sphere * sin(rho)
 
 
 def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
-    """Teeth of the spur gear on the back cone, z / cos rho (Tredgold): what undercut is judged by.
+    """Return the teeth of the spur gear on the back cone, z / cos rho (Tredgold), by which undercut is judged.
 
-    inf for crown and internal gears.
+    The result is inf for crown and internal gears.
     """
     share = np.cos(rho)
     # the cosine of pi/2 in floats is 6e-17
@@ -81,41 +88,45 @@ def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
 
 
 def undercut_limit(pressure: float = MEAN_PRESSURE) -> float:
-    """Least teeth of a spur gear that a rack with an addendum of one module does not undercut: 2 / sin^2 alpha."""
+    """Return the minimum teeth of a spur gear that a rack with an addendum of one module does not undercut, 2 / sin^2
+    alpha.
+    """
     return 2 / sin(pressure) ** 2
 
 
 def overlap_limit(S: float, between: float) -> float:
-    """The ratio z_other/z_own at which equal neighbours `between` apart touch: docs/sphere.md (4).
+    """Return the ratio z_other/z_own at which equal neighbours touch, docs/sphere.md (4).
 
-    sin S cot(between/2) - cos S, all angles in rad.
-
-    From rho_own = between/2 in `pitch_cone`; z_other/z_own must be greater. 0 if every ratio is.
+    The ratio is sin S cot(between/2) - cos S, from rho_own = between/2 in `pitch_cone`; `between` is the angle between
+    the axes of the neighbours, and all angles are in rad. They clear if z_other/z_own is greater. 0 means that every
+    ratio does.
     """
     limit = sin(S) / tan(between / 2) - cos(S)
-    # rounding of axes that touch only with a crown gear must not make a bound of 1e-16
+    # axes that touch only with a crown gear have the bound 0, and rounding must not make it 1e-16
     return limit if limit > 1e-12 else 0.0
 
 
 def angle_between(a: Floats, b: Floats) -> Floats:
-    """Angle between unit vectors (..., 3), in rad: 2 atan2(|a - b|, |a + b|), right near 0 and pi (W. Kahan)."""
+    """Return the angle between unit vectors (..., 3) [rad]: 2 atan2(|a - b|, |a + b|), accurate near 0 and pi (W.
+    Kahan).
+    """
     return np.asarray(2 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)), dtype=float)
 
 
 def separations(axes: Floats) -> Floats:
-    """Angles between all axes, (gears, gears), rad."""
+    """Return the angles between all axes [rad]. Shape (gears, gears)."""
     return angle_between(axes[:, None], axes[None])
 
 
 def mesh_angles(axes: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
-    """Angle between the axes of each mesh (rad)."""
+    """Return the angle between the axes of each mesh [rad]."""
     i, j = np.array(meshes, dtype=int).reshape(-1, 2).T
     return angle_between(axes[i], axes[j])
 
 
 def frames(axes: Floats) -> Floats:
-    """Two directions across each axis that make a right-handed frame with it, (gears, 2, 3)."""
-    # crossed with the coordinate axis farthest from it, of which 0.8 at least is left
+    """Return two directions across each axis that make a right-handed frame with it. Shape (gears, 2, 3)."""
+    # the cross product is taken with the coordinate axis farthest from it, so its length is at least 0.8
     minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
     first = np.cross(axes, minimum)
     first /= np.linalg.norm(first, axis=1)[:, None]
@@ -123,25 +134,28 @@ def frames(axes: Floats) -> Floats:
 
 
 def azimuths(axes: Floats, at: Ints, to: Ints) -> Floats:
-    """Direction (rad) of axis `to` about axis `at`, counterclockwise from the first direction of its `frames`."""
+    """Return the direction [rad] of axis `to` about axis `at`, counterclockwise from the first direction of its
+    `frames`.
+    """
     across = frames(axes)[at]
     first, second = (np.einsum("px,px->p", across[:, k], axes[to]) for k in (0, 1))
     return np.asarray(np.arctan2(second, first), dtype=float)
 
 
 def moved(axes: Floats, steps: Floats) -> Floats:
-    """Axes after steps along the great circles of their `frames`; steps in rad, (gears, 2)."""
+    """Move axes along the great circles of their `frames`; steps in rad, shape (gears, 2)."""
     along = np.einsum("gk,gkx->gx", steps, frames(axes))
     length = np.linalg.norm(along, axis=1)[:, None]
-    # sin(length) / length, right at 0 too
+    # sin(length) / length, also at 0
     turned = np.cos(length) * axes + np.sinc(length / np.pi) * along
     return np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=float)
 
 
 def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, csr_array]:
-    """Angle S between the axes of each pair (rad), and its derivative by the steps of `moved`.
+    """Compute the angle S between the axes of each pair [rad] and its derivative by the steps of `moved`.
 
-    dS = -tau_ij . dn_i - tau_ji . dn_j, tau_ij the unit tangent at i towards j. Columns: 2 i and 2 i + 1 of axis i.
+    dS = -tau_ij . dn_i - tau_ji . dn_j, with tau_ij the unit tangent at i towards j. Columns 2 i and 2 i + 1 belong to
+    axis i.
     """
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     a, b = axes[i], axes[j]
@@ -151,10 +165,10 @@ def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, 
 
 
 def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
-    """Derivative of the azimuth psi of axis `to` about axis `at`, by the steps of `moved`.
+    """Compute the derivative of the azimuth psi of axis `to` about axis `at` by the steps of `moved`.
 
-    d psi = (dn_j / sin S - dn_i cot S) . t, t = n_i x n_j / sin S; the frame at i is carried along in parallel, so
-    that only differences of azimuths about one axis have a meaning.
+    d psi = (dn_j / sin S - dn_i cot S) . t, t = n_i x n_j / sin S. The frame at i is transported in parallel, so only
+    differences of azimuths about one axis have a meaning.
     """
     a, b = axes[at], axes[to]
     t = np.cross(a, b)
@@ -165,7 +179,7 @@ def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
 
 
 def vector_rows(axes: Floats, gears: tuple[Ints, Ints], vectors: tuple[Floats, Floats]) -> csr_array:
-    """Rows of a sparse Jacobian: the sum over two gears of vector . dn, in the steps of `moved`."""
+    """Return rows of a sparse Jacobian: the sum over two gears of vector . dn, by the steps of `moved`."""
     from scipy.sparse import coo_array
 
     across = frames(axes)

@@ -1,7 +1,7 @@
-"""Convex polyhedra about the origin: faces from vertices, adjacency, symmetries; and the solids known by name.
+"""Convex polyhedra about the origin: faces from vertices, adjacency, symmetries, and a catalogue of named solids.
 
-The uniform solids are made by Wythoff's construction: a point at distance 0 or 1 from each of three mirrors, and its
-images.
+The uniform solids are made by Wythoff's construction: the images of a point at distance 0 or 1 from each of three
+mirrors.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 NEAR = 1e-6
-"""What counts as equal, as a part of the solid's size: points, planes and symmetries alike."""
+"""Relative tolerance, as a fraction of the solid's size, for equality of points, planes and symmetries."""
 PHI = (1 + 5**0.5) / 2
 MOST_SIDES = 360
-"""Prisms and the like have at most so many sides: their faces must stay apart."""
-# the mirrors of [p, 3]: the angle of the first two is pi/p, of the last two pi/3, of the others pi/2
+"""Maximum number of sides of prisms and related families: their faces must stay apart."""
+# normals of the mirrors of [p, 3]: the first two meet at pi/p, the last two at pi/3, the first and last at pi/2
 _MIRRORS = {
     3: ([1, -1, 0], [0, 1, -1], [-1, -1, 0]),
     4: ([0, 0, 1], [0, 1, -1], [1, -1, 0]),
     5: ([1, 0, 0], [-PHI, -1, PHI - 1], [0, 1, 0]),
 }
-# p of the mirrors, and the distances from them
+# p of the mirrors, and the distances of the point from them
 _UNIFORM = {
     "tetrahedron": (3, (1, 0, 0)),
     "cube": (4, (1, 0, 0)),
@@ -71,7 +71,7 @@ _DUALS = {
     "disdyakis triacontahedron": "truncated icosidodecahedron",
     "pentagonal hexecontahedron": "snub dodecahedron",
 }
-# the last two are how model makers name the solids with such faces
+# the last two are model makers' names, by the sides of the faces
 _ALIASES = {
     "hexahedron": "cube",
     "buckyball": "truncated icosahedron",
@@ -103,37 +103,38 @@ class Polyhedron(Shown):
 
     See Also
     --------
-    polyhedron, solid : what gives these.
+    polyhedron, solid : Return such an object.
     """
 
     vertices: Floats
-    """As they were given, in any unit. Shape (vertices, 3)."""
+    """Vertices as given, in any unit. Shape (vertices, 3)."""
     faces: tuple[tuple[int, ...], ...]
-    """Vertices of each face by index, counterclockwise seen from outside; faces from the top (z) down, and
-    counterclockwise from x where they are equally high."""
+    """Vertices of each face by index, counterclockwise seen from outside. Faces are sorted from the top (z) down, and
+    counterclockwise from x at equal heights.
+    """
     normals: Floats = field(repr=False)
     """Outward unit normals. Shape (faces, 3)."""
     heights: Floats = field(repr=False)
     """Distance of each face's plane from the origin, in the unit of the vertices. Shape (faces,)."""
     name: str = ""
-    """For a reader."""
+    """Name for display."""
 
     def _summary(self) -> str:
         return f"{self.name or 'polyhedron'}: {len(self.vertices)} vertices, {len(self.faces)} faces"
 
     @cached_property
     def _left(self) -> dict[tuple[int, int], int]:
-        """The face to the left of each directed edge."""
+        """Face to the left of each directed edge."""
         return {side: at for at, face in enumerate(self.faces) for side in _sides(face)}
 
     @cached_property
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """Every edge once, as two vertices."""
+        """Edges as pairs of vertices, each once."""
         return tuple(sorted(side for side in self._left if side[0] < side[1]))
 
     @cached_property
     def borders(self) -> tuple[tuple[int, int], ...]:
-        """The two faces at each edge."""
+        """Two faces at each edge."""
         return tuple((self._left[a, b], self._left[b, a]) for a, b in self.edges)
 
     @cached_property
@@ -144,11 +145,13 @@ class Polyhedron(Shown):
 
     @cached_property
     def symmetries(self) -> Floats:
-        """All rotations and reflections about the origin that keep the solid, (order, 3, 3), errors about 1e-15.
+        """All rotations and reflections about the origin that map the solid to itself. Shape (order, 3, 3), errors
+        about 1e-15.
 
-        A symmetry is known by the image of one corner (three vertices in a row on one face), so trying all corners
-        that are congruent to the first finds them all.
+        A symmetry is determined by the image of one corner (three consecutive vertices of one face), so trying all
+        corners that are congruent to the first finds every symmetry.
         """
+        # Gram matrices are invariant under rotation and reflection
         corners = self.vertices[[corner for face in self.faces for corner in _corners(face)]]
         gram = corners @ corners.transpose(0, 2, 1)
         alike = np.abs(gram - gram[0]).max(axis=(1, 2)) < NEAR * gram[0].max()
@@ -157,16 +160,16 @@ class Polyhedron(Shown):
         image = image[distance.max(axis=1) < NEAR * self.size]
         # orthogonal Procrustes
         left, _, right = np.linalg.svd(self.vertices[image].transpose(0, 2, 1) @ self.vertices)
-        found: Floats = left @ right  # of all matrices the best one for all vertices, not for the first corner only
+        found: Floats = left @ right  # the best fit to all vertices, not only to the first corner
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Where each symmetry takes each point of a set that it keeps.
+        """Return the image of each point under each symmetry, for a set that the symmetries map to itself.
 
         Parameters
         ----------
         points : array of float, (points, 3)
-            A set that all symmetries keep.
+            Set of points that all symmetries map to itself.
 
         Returns
         -------
@@ -176,12 +179,12 @@ class Polyhedron(Shown):
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """For each point of a set that the symmetries keep, the first point that they take to it.
+        """Return the first point of the orbit of each point, for a set that the symmetries map to itself.
 
         Parameters
         ----------
         points : array of float, (points, 3)
-            A set that all symmetries keep.
+            Set of points that all symmetries map to itself.
 
         Returns
         -------
@@ -197,12 +200,13 @@ class Polyhedron(Shown):
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
-        """The polar solid: its vertices stand on the normals of these faces, and its normals at these vertices.
+        """Return the polar solid: its vertices are along the normals of these faces, and its normals along these
+        vertices.
 
         Parameters
         ----------
         name : str
-            Of the polar solid, for a reader.
+            Name of the polar solid, for display.
 
         Returns
         -------
@@ -220,28 +224,28 @@ class Polyhedron(Shown):
 
 
 def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> Polyhedron:
-    """The convex polyhedron with these vertices: convex hull (Qhull), flat facets joined, Euler's formula checked.
+    """Return the convex polyhedron with these vertices from the convex hull (Qhull), with coplanar facets merged.
 
-    Vertices count as one, and a face as flat, within a millionth of the size.
+    Points count as equal, and a face as flat, within a millionth of the size. Euler's formula is checked.
 
     Parameters
     ----------
     points : sequence of points, (vertices, 3)
         The vertices, in any unit.
     recentre : bool
-        Puts the mean of the vertices at the origin; else the origin must lie inside.
+        Move the mean of the vertices to the origin; otherwise the origin must lie inside.
     name : str
-        For a reader.
+        Name for display.
 
     Returns
     -------
     Polyhedron
-        With faces, normals and heights.
+        The solid, with faces, normals and heights.
 
     Raises
     ------
     GearTrainError
-        If a point is no corner of the hull, the points are degenerate, or the origin is not inside.
+        If a point is not a vertex of the hull, the points are degenerate, or the origin is not inside.
 
     Examples
     --------
@@ -252,6 +256,7 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
     vertices = _checked(points)
     if recentre:
         vertices = vertices - vertices.mean(axis=0)
+    # tolerances are relative to the size of the solid
     scale = float(np.linalg.norm(vertices - vertices.mean(axis=0), axis=1).max())
     found = [_face(vertices, face, scale) for face in _flats(vertices, scale)]
     normals = np.array([normal for _, normal, _ in found])
@@ -267,10 +272,10 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
 
 
 def from_the_top(points: Floats) -> Ints:
-    """The order of points from the top (z) down, counterclockwise from x where they are equally high."""
+    """Return the order of points from the top (z) down, counterclockwise from x at equal heights."""
     size = np.linalg.norm(points, axis=1).max()
     turn = np.arctan2(points[:, 1], points[:, 0]) / (2 * np.pi) % 1
-    # millionths: noise neither parts equals nor puts the one at x last
+    # rounding to millionths: noise neither separates equal points nor puts the one at x last
     return np.lexsort((np.round(turn, 6) % 1, -np.round(points[:, 2] / size, 6))).astype(np.int64)
 
 
@@ -279,24 +284,24 @@ def _sides(face: tuple[int, ...]) -> Iterator[tuple[int, int]]:
 
 
 def _corners(face: tuple[int, ...]) -> Iterator[tuple[int, int, int]]:
-    """Three vertices in a row, from every vertex and both ways round."""
+    """Yield three consecutive vertices of a face, from every vertex and in both senses."""
     for way in (face, face[::-1]):
         yield from zip(way, way[1:] + way[:1], way[2:] + way[:2], strict=True)
 
 
 def _checked(points: ArrayLike) -> Floats:
-    """The points as an array, if they can be vertices of a solid at all."""
+    """Return the points as an array; raise `GearTrainError` if they cannot be vertices of a solid."""
     try:
         vertices = np.array(points, dtype=np.float64)
     except (TypeError, ValueError):
         vertices = np.empty(0)
     if vertices.ndim != 2 or vertices.shape[1] != 3 or not np.isfinite(vertices).all():
-        raise _refused("the vertices are no list of points", "a point is three finite numbers x, y, z")
+        raise _refused("the vertices are not a list of points", "a point has three finite coordinates x, y, z")
     if len(vertices) < 4:
-        raise _refused(f"{len(vertices)} points make no solid", "a polyhedron has at least four vertices")
+        raise _refused(f"{len(vertices)} points do not make a solid", "a polyhedron has at least four vertices")
     spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     if spread[2] <= NEAR * spread[0]:
-        raise _refused("the points lie in one plane", "a polyhedron has a volume")
+        raise _refused("the points lie in one plane", "a polyhedron has a positive volume")
     _check_apart(vertices, NEAR * float(spread[0]) / len(vertices) ** 0.5)
     return vertices
 
@@ -306,20 +311,21 @@ def _check_apart(vertices: Floats, near: float) -> None:
 
     for first, second in sorted(cKDTree(vertices).query_pairs(near)):
         raise _refused(
-            f"vertices[{second}] repeats vertices[{first}] {_at(vertices[first])}",
-            "the corners of a polyhedron are distinct",
+            f"vertices[{second}] repeats vertices[{first}] {_coordinates(vertices[first])}",
+            "the vertices of a polyhedron must be distinct",
             "leave one of them out",
         )
 
 
 def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
-    """The vertices of each face: of each plane of the hull, all that lie on it."""
+    """Return the vertices of each face: all points that lie on a plane of the hull."""
     from scipy.spatial import ConvexHull, QhullError
 
     try:
         hull = ConvexHull(vertices / scale)
     except QhullError:
-        raise _refused("the points are nearly flat", "a polyhedron has a volume") from None
+        raise _refused("the points nearly lie in one plane", "a polyhedron has a positive volume") from None
+    # a point inside the hull would never carry a face
     inside = sorted(set(range(len(vertices))) - set(hull.vertices.tolist()))
     if inside:
         raise _not_a_corner(vertices, inside[0])
@@ -329,11 +335,11 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
 
 
 def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tuple[int, ...], Floats, float]:
-    """A face as a cycle, counterclockwise from outside, with its outward normal and its height."""
+    """Return a face as a cycle, counterclockwise from outside, with its outward normal and its height."""
     index = np.array(sorted(members))
     centre = vertices[index].mean(axis=0)
     arms = vertices[index] - centre
-    # the plane of least squares: the right singular vector of the least singular value is its normal
+    # plane fitted by least squares: its normal is the right singular vector of the minimum singular value
     first, second, normal = np.linalg.svd(arms)[2]
     if normal @ (centre - vertices.mean(axis=0)) < 0:
         normal = -normal
@@ -346,6 +352,7 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
     if area < NEAR * scale**2:
         raise _refused(f"face {index.tolist()} has no area", "its vertices lie on one line")
     lengths = np.linalg.norm(ways, axis=1)
+    # sines of the exterior angles: 0 for a point on an edge
     turns = np.cross(np.roll(ways, 1, axis=0), ways) @ normal / (np.roll(lengths, 1) * lengths)
     if turns.min() < NEAR:
         raise _not_a_corner(vertices, int(index[turns.argmin()]))
@@ -356,32 +363,32 @@ def _check_origin(heights: Floats, scale: float) -> None:
     if heights.min() <= NEAR * scale:
         raise _refused(
             "the origin does not lie inside the solid",
-            "the sphere's centre is the origin: all axes of gears go through it",
+            "the origin is the centre of the sphere, through which all axes of gears pass",
             "move the vertices so that it does, or pass recentre=True to put it at their mean",
         )
 
 
 def _check_closed(solid: Polyhedron) -> None:
-    """Every edge has a face on both sides, and Euler's formula holds."""
+    """Raise `GearTrainError` unless every edge has a face on both sides and Euler's formula is satisfied."""
     left = solid._left
     closed = all((b, a) in left for a, b in left) and len(left) == sum(len(face) for face in solid.faces)
     if not closed or len(solid.vertices) - len(left) // 2 + len(solid.faces) != 2:
         raise _refused(
             "the faces do not close",
-            "some points are neither clearly on a common plane nor clearly off it",
+            "some points are neither clearly on a common plane nor clearly outside it",
             "give the coordinates to nine digits or more",
         )
 
 
 def _not_a_corner(vertices: Floats, at: int) -> GearTrainError:
     return _refused(
-        f"vertices[{at}] {_at(vertices[at])} is no corner: it lies inside the hull of the others, or on its surface",
-        "gears stand on the faces and vertices of a convex solid",
+        f"vertices[{at}] {_coordinates(vertices[at])} is not a vertex: it lies in the hull of the others",
+        "gears are placed on the faces and vertices of a convex solid",
         "leave the point out, or move it outwards",
     )
 
 
-def _at(point: Floats) -> str:
+def _coordinates(point: Floats) -> str:
     return "(" + ", ".join(f"{x:.6g}" for x in point) + ")"
 
 
@@ -393,7 +400,7 @@ def _refused(what: str, why: str, fix: str = "correct the vertices") -> GearTrai
 
 
 def solid_names() -> tuple[str, ...]:
-    """The names that `solid` knows; n stands for a number of sides.
+    """Return the names that `solid` knows; n is a number of sides.
 
     Returns
     -------
@@ -410,24 +417,24 @@ def solid_names() -> tuple[str, ...]:
 
 @cache
 def solid(name: str) -> Polyhedron:
-    """A solid by name: the uniform ones by Wythoff's construction, their duals, prisms and antiprisms, and J37.
+    """Return a solid by name: uniform solids by Wythoff's construction, their duals, prisms and antiprisms, and J37.
 
-    Coordinates are right to about 1e-15 of the size; uniform solids have edges of length 2.
+    Coordinates are accurate to about 1e-15 of the size; uniform solids have edges of length 2.
 
     Parameters
     ----------
     name : str
-        Such as `icosidodecahedron`, `6-antiprism`, `hexagonal prism`, `J37` or `buckyball`.
+        Name, such as `icosidodecahedron`, `6-antiprism`, `hexagonal prism`, `J37` or `buckyball`.
 
     Returns
     -------
     Polyhedron
-        Shared by all who ask for it; its arrays cannot be written to.
+        The solid. It is shared by all callers, and its arrays are read-only.
 
     Raises
     ------
     GearTrainError
-        If no solid has this name, or a prism too few or too many sides (3 to 360).
+        If no solid has this name, or the number of sides is not 3 to 360.
 
     Examples
     --------
@@ -441,11 +448,11 @@ def solid(name: str) -> Polyhedron:
         return solid(_DUALS[key]).dual(key)
     family = _FAMILY.fullmatch(key)
     if family:
-        return _of_sides(int(_SIDES.get(family[1], family[1])), family[2])
+        return _family_member(int(_SIDES.get(family[1], family[1])), family[2])
     if key in _UNIFORM:
         points = _wythoff(*_UNIFORM[key])
     elif key == "j37":
-        key, points = "J37", _turned_cupola()
+        key, points = "J37", _j37_vertices()
     else:
         raise _unknown(name)
     return polyhedron(points[from_the_top(points)], name=key)
@@ -456,18 +463,25 @@ def _unknown(name: str) -> GearTrainError:
     fix = suggest(name.lower(), known)
     if not fix.startswith("did"):
         fix = f"use a name such as 'icosidodecahedron' or '6-antiprism', one of: {', '.join(solid_names())}"
-    return GearTrainError(Problem(f"there is no solid '{name}'", "no known polyhedron has this name", fix))
+    return GearTrainError(
+        Problem(f"unknown solid '{name}'", "a solid is given by a known name or by its vertices", fix)
+    )
 
 
 def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
-    """Images of the point at these distances from the mirrors of [p, 3]; of a snub's under rotations only."""
+    """Return the images of the point at these distances from the mirrors of [p, 3].
+
+    The point of a snub solid (no distances) has images under rotations only.
+    """
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
     mirrors /= np.linalg.norm(mirrors, axis=1)[:, None]
     group = _group(p)
     if not distances:
+        # snubs are chiral: reflections would give both forms
         group = group[np.linalg.det(group) > 0]
     point = np.linalg.solve(mirrors, np.array(distances or _snub(p), dtype=np.float64))
     images = group @ point
+    # images of a point on a mirror coincide
     _, first = np.unique(np.round(images, 6) + 0.0, axis=0, return_index=True)
     found: Floats = images[first]
     return found
@@ -475,13 +489,13 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
 
 @cache
 def _group(p: int) -> Floats:
-    """All products of the mirrors of [p, 3], (24, 48 or 120, 3, 3), each entry right to the last digit."""
+    """Return all products of the mirrors of [p, 3], shape (24, 48 or 120, 3, 3), each entry exact to the last digit."""
     entries = np.array([sign * x for x in (0, 0.5, 1, PHI / 2, (PHI - 1) / 2) for sign in (1, -1)])
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
     reflections = [np.eye(3) - 2 * np.outer(m, m) / (m @ m) for m in mirrors]
     found, fresh = {}, [np.eye(3)]
     while fresh:
-        # products gather rounding, but the possible entries are known; + 0.0 makes 0.0 of -0.0, for bytes to agree
+        # products accumulate rounding, but the possible entries are known; + 0.0 turns -0.0 into 0.0 for equal bytes
         near = np.abs(fresh.pop()[..., None] - entries).argmin(axis=-1)
         matrix = entries[near] + 0.0
         if matrix.tobytes() not in found:
@@ -491,10 +505,10 @@ def _group(p: int) -> Floats:
 
 
 def _snub(p: int) -> Floats:
-    """Distances (a, b, c) of a snub's point from the mirrors of [p, 3], for edges of length 2.
+    """Compute the distances (a, b, c) of a snub's point from the mirrors of [p, 3], for edges of length 2.
 
-    The turn by two mirrors at an angle g moves a point at distances a and b by 2 sqrt(a^2 + b^2 + 2 a b cos g); all
-    three turns move it equally far. Newton's method on the two differences, with a^2 + c^2 = 1.
+    The rotation by two mirrors at an angle g moves a point at distances a and b by 2 sqrt(a^2 + b^2 + 2 a b cos g). All
+    three rotations move it equally far. Newton's method solves the two differences together with a^2 + c^2 = 1.
     """
     s, t = np.cos(np.pi / p), 0.5
     a, b, c = 0.6, 0.5, 0.8
@@ -509,21 +523,22 @@ def _snub(p: int) -> Floats:
     return np.array([a, b, c])
 
 
-def _of_sides(n: int, family: str) -> Polyhedron:
-    """The uniform prism or antiprism with n-gons of edge 2 as caps, or its dual."""
+def _family_member(n: int, family: str) -> Polyhedron:
+    """Return the uniform prism or antiprism with n-gons of edge 2 as caps, or its dual."""
     if not 3 <= n <= MOST_SIDES:
         raise GearTrainError(
             Problem(
-                f"there is no solid '{n}-{family}' here",
-                f"the number of sides is 3 to {MOST_SIDES}",
-                f"name a number between, such as '6-{family}'",
+                f"the solid '{n}-{family}' is not available",
+                f"the number of sides must be 3 to {MOST_SIDES}",
+                f"choose a number in this range, such as '6-{family}'",
             )
         )
     dual = {"bipyramid": "prism", "trapezohedron": "antiprism"}.get(family)
     if dual:
-        return _of_sides(n, dual).dual(f"{n}-{family}")
+        return _family_member(n, dual).dual(f"{n}-{family}")
+    # circumradius of an n-gon with edge 2, and half a step of rotation
     around, half = 1 / np.sin(np.pi / n), 0.5 * (family == "antiprism")
-    # between the caps of an antiprism a side spans 2 along, and half an edge's turn across
+    # a lateral edge of an antiprism has length 2 and spans half the central angle of a cap's edge
     height = 1.0 if not half else np.sqrt(1 - (around * np.sin(np.pi / (2 * n))) ** 2)
     caps = []
     for z, shift in ((height, 0.0), (-height, half)):
@@ -532,8 +547,8 @@ def _of_sides(n: int, family: str) -> Polyhedron:
     return polyhedron(np.concatenate(caps), name=f"{n}-{family}")
 
 
-def _turned_cupola() -> Floats:
-    """The rhombicuboctahedron with its lower third turned by an eighth of a turn: J37, not uniform."""
+def _j37_vertices() -> Floats:
+    """Return the vertices of J37: the rhombicuboctahedron with its lower third rotated by an eighth of a revolution."""
     long, short = 1 + 2**0.5, 2**0.5
     middle = [[*p, z] for z in (1, -1) for s, t in product((1, -1), repeat=2) for p in ((s * long, t), (s, t * long))]
     top = [[s, t, long] for s, t in product((1, -1), repeat=2)]

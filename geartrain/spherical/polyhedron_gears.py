@@ -1,7 +1,7 @@
 """Gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
 
-The places for them (axes, meshes, kinds by symmetry, names), and a table of polyhedra with gears on all faces: whether
-they move, what would free them, and which have exact tooth numbers.
+The module computes axes, meshes, kinds by symmetry, and names. A survey tabulates polyhedra with gears on all faces:
+their mobility, the number of meshes to remove, and the existence of exact tooth numbers.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ if TYPE_CHECKING:
 
 Gears = Literal["faces", "vertices", "faces+vertices", "faces+edges", "faces+vertices+edges"]
 _AFTER_FACES = ("v", "e")
-_EQUAL = 1e-12  # turns: contacts of a gear that stand at equal angles
-_MOST_PARTS = 60  # of a turn: so few that no angle is within 1e-12 of a multiple of one by accident
+_EQUAL = 1e-12  # revolutions: tolerance of the contact angles of one gear
+_MOST_PARTS = 60  # parts of a revolution: few enough that no angle is within 1e-12 of a multiple by accident
 SURVEYED = (
     *("tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"),
     *("truncated tetrahedron", "cuboctahedron", "truncated cube", "truncated octahedron", "rhombicuboctahedron"),
     *("truncated cuboctahedron", "snub cube", "icosidodecahedron", "truncated dodecahedron"),
     *("truncated icosahedron", "rhombicosidodecahedron", "truncated icosidodecahedron", "snub dodecahedron", "J37"),
 )
-"""The solids of the table: Platonic, Archimedean, and the one that looks Archimedean."""
+"""Solids of the survey: the Platonic and Archimedean ones, and J37, which looks Archimedean."""
 
 
 def from_polyhedron(
@@ -48,35 +48,35 @@ def from_polyhedron(
     exact: bool = False,
     recentre: bool = False,
 ) -> Configuration:
-    """Gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
+    """Place gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
 
     Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides, v and e;
-    where several share that they get letters, fewer gears first, then those nearer to the smallest orbit. Gears are
-    numbered within their kind from the top (z) down, counterclockwise from x. Gears on edges stand where both their
-    pitches are equal, which depends on the teeth; while these are not chosen, at the middle of the arc (of two, at a
-    quarter and three quarters of the edge).
+    kinds that share a name get an additional letter, those with fewer gears first, then those nearer to the smallest
+    orbit. Gears are numbered within their kind from the top (z) down, counterclockwise from x. A gear on an edge is
+    placed where both its pitches are equal, which depends on the teeth. While these are not chosen, it is in the middle
+    of the arc (two gears on one edge: at a quarter and at three quarters).
 
     Parameters
     ----------
     shape : str, Polyhedron or sequence of points, (vertices, 3)
         A name that `solid` knows, a solid, or its vertices.
     gears : str
-        Where gears stand:
+        Arrangement of the gears:
 
         - `faces`: one on each face, about its normal; faces with a common edge mesh.
         - `vertices`: one on each vertex; vertices with a common edge mesh.
-        - `faces+vertices`: a vertex meshes with the faces round it.
-        - `faces+edges`: faces that share an edge mesh with an idler between them.
+        - `faces+vertices`: the gear of a vertex meshes with the gears of the faces round it.
+        - `faces+edges`: the gears of faces that share an edge mesh with an idler between them.
         - `faces+vertices+edges`: two gears on each edge, each in mesh with a vertex and both faces (Platonic solids,
           whose edges are all alike).
     teeth : mapping of str to int, or int, optional
-        Tooth number of each kind, `{"5": 20, "3": 12}`, or one for all; `4` stands for 4a and 4b.
+        Tooth number of each kind, `{"5": 20, "3": 12}`, or one for all; `4` means 4a and 4b.
     drop : iterable of str
         Kinds (`4b`), gears (`5-1`) and meshes (`5-1~3-2`, or `6~6` for all between two kinds) to leave out.
     exact : bool
-        Moves the axes, keeping all symmetries, to where every mesh has the same pitch; needs teeth.
+        Move the axes, keeping all symmetries, until every mesh has the same pitch; requires teeth.
     recentre : bool
-        Puts the mean of the vertices at the sphere's centre.
+        Move the mean of the vertices to the centre of the sphere.
 
     Returns
     -------
@@ -86,7 +86,7 @@ def from_polyhedron(
     Raises
     ------
     GearTrainError
-        If the solid, a kind, a gear or a mesh is not known, or no place with one pitch is found near the solid's own
+        If the solid, a kind, a gear or a mesh is not known, or no axes with one pitch are found near the solid's own
         axes.
 
     Examples
@@ -104,9 +104,11 @@ def from_polyhedron(
     axes = _placed(plan, kinds, meshes, counts, exact)
     order = [at for at in in_order(plan, kinds) if at in kept]
     axes = axes[order]
+    # configurations are immutable
     axes.flags.writeable = False
     place = {at: new for new, at in enumerate(order)}
     meshes = sorted((min(pair), max(pair)) for a, b in meshes if (pair := (place[a], place[b])))
+    # faces with many sides have more contacts than the default limit of parts
     contacts = np.bincount(np.array(plan.meshes).ravel())
     result = Configuration(
         names=tuple(names[at] for at in order),
@@ -121,10 +123,11 @@ def from_polyhedron(
 
 
 def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configuration:
-    """The configuration with `regular` found: the least p up to `most` that parts a turn so that all contacts fit.
+    """Return the configuration with `regular` set: the minimum p up to `most` for which contacts are multiples of 1/p
+    turn.
 
-    Angles within 1e-12 of a turn of a multiple of 1/p are taken for exact; coordinates must be right to more digits
-    than that to be called regular.
+    Angles within 1e-12 of a revolution of a multiple of 1/p are taken as exact; coordinates must be accurate to more
+    digits than that to be called regular.
     """
     contacts = defaultdict(list)
     for i, j in configuration.meshes:
@@ -135,7 +138,7 @@ def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configurat
 
 
 def _parts(azimuths: Floats, most: int) -> int:
-    """The least p of which all differences of these azimuths are multiples of a p-th of a turn, or 0."""
+    """Return the minimum p for which all differences of these azimuths are multiples of 1/p of a revolution, or 0."""
     turns = (azimuths - azimuths[0]) / (2 * np.pi) if len(azimuths) else azimuths
     for p in range(1, most + 1):
         if np.abs(p * turns - np.round(p * turns)).max(initial=0.0) < p * _EQUAL:
@@ -156,14 +159,16 @@ def _placed(
     counts: Mapping[str, int],
     exact: bool,
 ) -> Floats:
-    """The axes, moved to equal pitches where that was asked for; gears on edges as soon as their teeth are known."""
+    """Return the axes: moved to equal pitches if requested, and gears on edges placed as soon as their teeth
+    are known.
+    """
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
         missing = sorted({kinds[at] for pair in meshes for at in pair if not teeth[at]})
         if missing:
             raise QuestionError(
                 Problem(
-                    f"exact places need the teeth of {', '.join(missing)}", "pitches depend on them", "give `teeth`"
+                    f"exact=True requires the teeth of {', '.join(missing)}", "pitches depend on them", "give `teeth`"
                 )
             )
         return equal_pitch(plan.movement, plan.axes, meshes, teeth, range(len(kinds))) if meshes else plan.axes
@@ -172,6 +177,7 @@ def _placed(
         own = [at for at, name in enumerate(kinds) if name == kind]
         touching = [(i, j) for i, j in plan.meshes if kind in (kinds[i], kinds[j])]
         if all(teeth[at] for pair in touching for at in pair):
+            # only the idlers move
             axes = equal_pitch(plan.movement, axes, touching, teeth, own)
     return axes
 
@@ -185,24 +191,26 @@ def _title(base: Polyhedron, gears: str, count: int, meshes: int) -> str:
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All gears a solid gives a place to, before any is left out."""
+    """All places for gears on a solid, before any is dropped."""
 
     axes: Floats
-    """Unit vectors, (gears, 3)."""
+    """Unit vectors of the axes. Shape (gears, 3)."""
     letters: tuple[str, ...]
-    """Of each gear: the number of sides of its face, v for a vertex, e for an edge."""
+    """Class of each gear: the number of sides of its face, v for a vertex, e for an edge."""
     meshes: tuple[tuple[int, int], ...]
     """Pairs of gears by index."""
     movement: SymmetricFreedom
-    """The symmetries of the solid, acting on the gears."""
+    """Symmetries of the solid, acting on the gears."""
 
 
 def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
-    """The places of an arrangement of gears on a solid. Raises `GearTrainError`."""
+    """Return the places of an arrangement of gears on a solid; raise `GearTrainError` if it has none."""
     if gears not in get_args(Gears):
         raise QuestionError(
             Problem(
-                f"there is no arrangement '{gears}'", "gears stand on parts of a solid", suggest(gears, get_args(Gears))
+                f"unknown arrangement '{gears}'",
+                "gears are placed on parts of a solid",
+                suggest(gears, get_args(Gears)),
             )
         )
     faces = (base.normals, [str(len(face)) for face in base.faces])
@@ -220,20 +228,21 @@ def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
         middle = (_between(base.normals, base.borders), ["e"] * len(base.edges))
         idlers = [(face, count + at) for at, border in enumerate(base.borders) for face in border]
         return _joined(base, [faces, middle], idlers)
-    return _two_an_edge(base, faces, vertices)
+    return _two_per_edge(base, faces, vertices)
 
 
-def _two_an_edge(
+def _two_per_edge(
     base: Polyhedron, faces: tuple[Floats, list[str]], vertices: tuple[Floats, list[str]]
 ) -> PolyhedronPlaces:
-    """Vertices, faces, and two gears on each edge, one near each end."""
+    """Return the places of vertices, faces, and two gears on each edge, one near each end."""
     middles = _between(vertices[0], base.edges)
+    # one orbit each means that the solid is Platonic
     if any(base.orbits(points).any() for points in (faces[0], vertices[0], middles)):
         raise GearTrainError(
             Problem(
-                f"the {base.name or 'solid'} takes no two gears on each edge",
-                "that arrangement needs faces, vertices and edges that are each all alike",
-                "take one of the five Platonic solids, or gears='faces+edges'",
+                f"the {base.name or 'solid'} cannot have two gears on each edge",
+                "that arrangement requires that all faces, all vertices and all edges are equivalent by symmetry",
+                "use one of the five Platonic solids, or gears='faces+edges'",
             )
         )
     count, total = len(base.faces), len(base.faces) + len(base.vertices)
@@ -248,7 +257,7 @@ def _two_an_edge(
 
 
 def _between(points: Floats, pairs: Sequence[tuple[int, int]]) -> Floats:
-    """The middles of arcs."""
+    """Return the midpoints of arcs as unit vectors."""
     sums = points[np.array(pairs)].sum(axis=1)
     middles: Floats = sums / np.linalg.norm(sums, axis=1)[:, None]
     return middles
@@ -273,11 +282,15 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """The kind of each gear: its orbit, named by its letter, and by a second one where orbits share the first."""
+    """Return the kind of each gear: its orbit, named by its class, and by an additional letter if orbits share the
+    class.
+    """
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
     rank = np.argsort(from_the_top(layout.axes))
+    # names must not depend on the order of the vertices
     smallest = min(size, key=lambda orbit: (size[orbit], rank[orbit]))
+    # orbits of equal size are distinguished by their distance from the smallest
     steps = _steps(layout, [at for at, orbit in enumerate(orbits) if orbit == smallest])
     alike = defaultdict(list)
     for orbit in sorted(size, key=lambda orbit: (size[orbit], steps[orbit], rank[orbit])):
@@ -285,18 +298,18 @@ def kinds_of(layout: PolyhedronPlaces) -> list[str]:
     names = {}
     for letter, group in alike.items():
         for at, orbit in enumerate(group):
-            names[orbit] = letter + (_lettered(at) if len(group) > 1 else "")
+            names[orbit] = letter + (_letters(at) if len(group) > 1 else "")
     return [names[orbit] for orbit in orbits]
 
 
-def _lettered(at: int) -> str:
-    """a to z, then aa to zz."""
+def _letters(at: int) -> str:
+    """Return the letters of an index: a to z, then aa to zz."""
     ahead, last = divmod(at, 26)
-    return (_lettered(ahead - 1) if ahead else "") + ascii_lowercase[last]
+    return (_letters(ahead - 1) if ahead else "") + ascii_lowercase[last]
 
 
 def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
-    """Least number of meshes from the nearest gear of `start` to each gear."""
+    """Return the minimum number of meshes from the gears of `start` to each gear, by breadth-first search."""
     mates = defaultdict(list)
     for i, j in layout.meshes:
         mates[i].append(j)
@@ -311,7 +324,7 @@ def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
 
 
 def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
-    """The gears in the order of the configuration: larger faces first, then vertices, then edges."""
+    """Return the gears in the order of the configuration: larger faces first, then vertices, then edges."""
     rank = np.argsort(from_the_top(layout.axes))
 
     def key(at: int) -> tuple[int, int, int, str, int]:
@@ -323,7 +336,7 @@ def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
 
 
 def names_of(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[str]:
-    """Each gear's kind with its number in it."""
+    """Return the names of the gears: each kind with a number."""
     names, count = [""] * len(kinds), dict.fromkeys(kinds, 0)
     for at in in_order(layout, kinds):
         count[kinds[at]] += 1
@@ -332,42 +345,44 @@ def names_of(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[str]:
 
 
 def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
-    """Tooth number of each kind; a number of sides stands for all kinds that share it."""
+    """Return the tooth number of each kind; a number of sides means all kinds that share it."""
     known = list(dict.fromkeys(kinds))
     given = {str(kind): count for kind, count in teeth.items()} if isinstance(teeth, Mapping) else {}
     if teeth is not None and not isinstance(teeth, Mapping):
         given = dict.fromkeys(known, teeth)
     for kind, count in given.items():
-        if not _meant(kind, known):
+        if not _matching_kinds(kind, known):
             raise _unknown("kind of gear", kind, known)
         if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 1:
             raise QuestionError(
-                Problem(f"{count} is no tooth number of kind '{kind}'", "it is a whole number from 1", "correct it")
+                Problem(
+                    f"{count} is not a tooth number of kind '{kind}'", "tooth numbers are integers from 1", "correct it"
+                )
             )
-    wide = {kind: int(given[name]) for name in given for kind in _meant(name, known)}
+    wide = {kind: int(given[name]) for name in given for kind in _matching_kinds(name, known)}
     return wide | {kind: int(given[kind]) for kind in known if kind in given}
 
 
-def _meant(word: str, kinds: Iterable[str]) -> list[str]:
-    """The kinds a word stands for: the one of that name, else all that only add letters to it."""
+def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
+    """Return the kinds that a word means: the one of that name, otherwise all that only add letters to it."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 
 
 def letter_of(kind: str) -> str:
-    """A kind without the letter that tells it from others of its sort: 4 of 4b, e of ea."""
+    """Return a kind without its additional letter: 4 of 4b, e of ea."""
     return kind.rstrip(ascii_lowercase) or kind[0]
 
 
 def without_gears(
     names: Sequence[str], kinds: Sequence[str], meshes: Iterable[tuple[int, int]], drop: Iterable[str]
 ) -> tuple[set[int], list[tuple[int, int]]]:
-    """The gears and meshes that stay."""
+    """Return the gears and meshes that remain after `drop`."""
     gone: set[int] = set()
     left = list(meshes)
     for word in map(str, drop):
         first, mesh, second = word.partition("~")
-        sets = [_found(side, names, kinds) for side in ((first, second) if mesh else (first,))]
+        sets = [_matching_gears(side, names, kinds) for side in ((first, second) if mesh else (first,))]
         if not mesh:
             gone |= sets[0]
             continue
@@ -375,16 +390,16 @@ def without_gears(
         rest = [(i, j) for i, j in left if not ((i in a and j in b) or (j in a and i in b))]
         if len(rest) == len(left):
             raise QuestionError(
-                Problem(f"no mesh '{word}' to drop", f"{first} and {second} do not mesh", "name two that mesh")
+                Problem(f"no mesh '{word}' to drop", f"{first} and {second} do not mesh", "name two gears that mesh")
             )
         left = rest
     kept = set(range(len(names))) - gone
     return kept, [(i, j) for i, j in left if i in kept and j in kept]
 
 
-def _found(word: str, names: Sequence[str], kinds: Sequence[str]) -> set[int]:
-    """The gears that a name of a gear or kind stands for."""
-    meant = _meant(word, kinds)
+def _matching_gears(word: str, names: Sequence[str], kinds: Sequence[str]) -> set[int]:
+    """Return the gears named by a gear or a kind."""
+    meant = _matching_kinds(word, kinds)
     found = {at for at, (name, kind) in enumerate(zip(names, kinds, strict=True)) if name == word or kind in meant}
     if not found:
         raise _unknown("gear or kind", word, [*dict.fromkeys(kinds), *names])
@@ -392,7 +407,7 @@ def _found(word: str, names: Sequence[str], kinds: Sequence[str]) -> set[int]:
 
 
 def _unknown(what: str, word: str, known: Iterable[str]) -> GearTrainError:
-    return QuestionError(Problem(f"there is no {what} '{word}'", "it is not part of this set", suggest(word, known)))
+    return QuestionError(Problem(f"unknown {what} '{word}'", "a name must belong to this set", suggest(word, known)))
 
 
 # ---------------------------------------------------------------------------------------------------- polyhedron survey
@@ -404,7 +419,7 @@ class SurveyRow(Result):
 
     See Also
     --------
-    survey : what gives these.
+    survey : Returns such objects.
     """
 
     KEYS = (
@@ -422,44 +437,46 @@ class SurveyRow(Result):
     )
 
     solid: str
-    """Its name."""
+    """Name of the solid."""
     gears: int
     """Number of gears, one on each face."""
     meshes: int
     """Number of meshes, one on each edge."""
     bipartite: bool
-    """Neighbours can turn against each other everywhere: the set moves, with one degree of freedom."""
+    """True if neighbours can turn in opposite senses everywhere. The set then moves with one degree of freedom."""
     gruebler: int
-    """Gears less meshes, the degrees of freedom that a count gives."""
+    """Number of gears minus number of meshes: the degrees of freedom by counting."""
     drop: int
-    """Least number of meshes to take out so that it moves."""
+    """Minimum number of meshes to remove so that the set moves."""
     types: int
-    """Kinds of gear: orbits under the symmetries of the solid."""
+    """Number of kinds of gear: orbits under the symmetries of the solid."""
     mesh_kinds: int
-    """Kinds of mesh, likewise."""
+    """Number of kinds of mesh: orbits under the symmetries of the solid."""
     positions: int
-    """Free parameters of the axes while all symmetries are kept."""
+    """Number of free parameters of the axes while all symmetries are kept."""
     angles: tuple[float, ...]
-    """Of the meshes [deg], those that differ by more than 1e-9, ascending."""
+    """Distinct angles of the meshes [deg], ascending; angles within 1e-9 deg count as equal."""
 
     @property
     def exact(self) -> bool:
-        """Equal pitches have as many unknowns, positions and the pitch, as there are kinds of mesh to satisfy."""
+        """True if the unknowns, positions and the pitch, are at least as many as the kinds of mesh, so that equal
+        pitches can exist.
+        """
         return self.positions + 1 >= self.mesh_kinds
 
 
 def survey(solids: Iterable[str | Polyhedron] = SURVEYED) -> tuple[SurveyRow, ...]:
-    """Gears on all faces of some solids: whether they move, what would free them, and what can be exact.
+    """Tabulate gears on all faces of some solids: mobility, meshes to remove, and whether equal pitches can exist.
 
     Parameters
     ----------
     solids : iterable of str or Polyhedron
-        Default the Platonic and Archimedean solids, and J37.
+        Solids of the survey; default the Platonic and Archimedean ones, and J37.
 
     Returns
     -------
     tuple of SurveyRow
-        One a solid.
+        One row for each solid.
 
     Examples
     --------
@@ -479,7 +496,7 @@ def _row(base: Polyhedron) -> SurveyRow:
         solid=base.name,
         gears=len(base.faces),
         meshes=len(base.edges),
-        # two colours for the faces of a map, when every vertex has an even number of them
+        # the faces of a map are two-colourable if every vertex has an even degree
         bipartite=not any(degree % 2 for degree in base.degrees),
         gruebler=len(base.faces) - len(base.edges),
         drop=least_drop(base),
@@ -491,23 +508,24 @@ def _row(base: Polyhedron) -> SurveyRow:
 
 
 def least_drop(base: Polyhedron) -> int:
-    """The least number of meshes to take out of gears on all faces, so that they move.
+    """Return the minimum number of meshes to remove from gears on all faces so that they move.
 
-    An edge of the solid is a mesh. Taking some out makes the faces two-colourable when at every odd vertex an odd
-    number goes, and at every even one an even number: a T-join, the shortest paths that pair the odd vertices
-    (Edmonds and Johnson 1973).
+    An edge of the solid is a mesh. The faces are two-colourable after removing an odd number of edges at every odd
+    vertex and an even number at every even one: a minimum T-join, the shortest paths that pair the odd vertices
+    (Edmonds and Johnson 1973), by minimum-weight matching.
     """
     import networkx as nx
 
     graph: nx.Graph[int] = nx.Graph(base.edges)
     odd = [vertex for vertex, degree in enumerate(base.degrees) if degree % 2]
-    # one edge for two odd vertices is the least there can be, and needs no weights
+    # a perfect matching along edges removes one mesh for two odd vertices, the minimum possible, and needs no weights
     neighbours = nx.max_weight_matching(graph.subgraph(odd), maxcardinality=True)
     if 2 * len(neighbours) == len(odd):
         return len(neighbours)
     paths: nx.Graph[int] = nx.Graph()
     for at, start in enumerate(odd):
         steps = nx.single_source_shortest_path_length(graph, start)
+        # complete graph of the odd vertices, weighted by distances
         paths.add_weighted_edges_from((start, end, steps[end]) for end in odd[at + 1 :])
     pairs = nx.min_weight_matching(paths)
     return int(sum(paths[a][b]["weight"] for a, b in pairs))

@@ -1,6 +1,6 @@
-"""Where axes may stand while a set keeps its symmetries, and the places where all its meshes have one pitch.
+"""Displacements of axes that keep the symmetries of a set, and axes at which all its meshes have one pitch.
 
-Newton's method on log lambda, docs/sphere.md (1), over one axis of each orbit.
+Newton's method solves for equal log lambda, docs/sphere.md (1), over one axis of each orbit.
 """
 
 from __future__ import annotations
@@ -17,36 +17,38 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 
-_SOLVED = 1e-13  # of a log pitch: rounding of axes leaves about 1e-15
+_SOLVED = 1e-13  # residual of a log pitch; rounding of axes leaves about 1e-15
 _MOST_STEPS = 60
-_LONGEST = 0.2  # rad, of one step
+_LONGEST = 0.2  # largest step [rad]
 
 
 @dataclass(frozen=True, eq=False)
 class SymmetricFreedom:
-    """The symmetries of a set of axes, and what they leave free."""
+    """Symmetries of a set of axes, and the displacements that keep them."""
 
     matrices: Floats
-    """(order, 3, 3)."""
+    """Orthogonal matrices of the symmetries. Shape (order, 3, 3)."""
     images: Ints
-    """Where each symmetry takes each gear, by index, (order, gears)."""
+    """Image of each gear under each symmetry, by index. Shape (order, gears)."""
 
     def orbits(self) -> Ints:
-        """For each gear the first gear of its orbit."""
+        """Return the first gear of the orbit of each gear."""
         first: Ints = self.images.min(axis=0)
         return first
 
     def mesh_orbits(self, meshes: Sequence[tuple[int, int]]) -> Ints:
-        """A number for each mesh, the same for meshes that the symmetries take to each other."""
+        """Return a number for each mesh, equal for meshes that the symmetries map to each other."""
         pairs = np.sort(self.images[:, np.array(meshes, dtype=np.int64).reshape(-1, 2)], axis=2)
         code: Ints = (pairs[..., 0] * self.images.shape[1] + pairs[..., 1]).min(axis=0)
         return code
 
     def freedom(self, gear: int, axis: Floats) -> Floats:
-        """Directions across its axis in which a gear may move with all its images: (0, 1 or 2, 3), orthonormal.
+        """Return an orthonormal basis of the directions in which a gear's axis may move with all its images.
 
-        They are what all symmetries that keep the gear keep: none on an axis of rotation, one on a mirror.
+        The directions are perpendicular to the axis. Shape (0, 1 or 2, 3): none on an axis of rotation, one on a
+        mirror, because the symmetries that fix the gear must fix its direction of motion too.
         """
+        # mean over the stabiliser: the projection onto its fixed vectors
         kept = self.matrices[self.images[:, gear] == gear].mean(axis=0) - np.outer(axis, axis)
         values, vectors = np.linalg.eigh((kept + kept.T) / 2)
         # the mean over a group of matrices is a projection: eigenvalues 0 and 1, but for rounding
@@ -61,23 +63,25 @@ def equal_pitch(
     teeth: Sequence[int],
     movable: Collection[int],
 ) -> Floats:
-    """The axes (gears, 3) moved, with all symmetries kept, so that every mesh has the same circular pitch.
+    """Move the axes (gears, 3), keeping all symmetries, so that every mesh has the same circular pitch.
 
-    `movable` are the gears that may move, whole orbits. A pair at an angle S has the operating pitch
-    lambda = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S); Newton's method on log lambda and the positions, pitches
-    equal within 1e-13. Raises `GearTrainError` where none is found near the given axes.
+    `movable` are the gears that may move, whole orbits. A pair at an angle S has the operating pitch lambda = sin S /
+    sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S). Newton's method on log lambda and the positions makes the pitches equal
+    within 1e-13. Raises `GearTrainError` if it finds no solution near the given axes.
     """
     places = _Places(movement, axes, movable)
+    # one equation for each kind of mesh suffices by symmetry
     _, kept = np.unique(movement.mesh_orbits(meshes), return_index=True)
     pairs = np.array(meshes, dtype=np.int64)[kept]
     z = np.array(teeth, dtype=np.float64)[pairs]
 
     def wrong(unknown: Floats) -> Floats:
-        """By how much each kind of mesh misses the common pitch, as logarithms."""
+        """Return the deviation of each kind of mesh from the common pitch, as logarithms."""
         missed: Floats = _log_pitch(places.moved(unknown[:-1])[pairs], z) - unknown[-1]
         return missed
 
     start = np.zeros(places.free + 1)
+    # initial common pitch
     start[-1] = wrong(start).mean()
     unknown, left = _newton(wrong, start)
     if left > _SOLVED:
@@ -94,6 +98,7 @@ class _Places:
         first = [int(gear) for gear in np.unique(self.orbits) if int(gear) in movable]
         self.ways = {gear: movement.freedom(gear, axes[gear]) for gear in first}
         self.free = sum(map(len, self.ways.values()))
+        # a symmetry that maps the first gear of an orbit to each other one
         bringing = [int(np.argmax(movement.images[:, head] == gear)) for gear, head in enumerate(self.orbits)]
         self.carry = movement.matrices[bringing]
 
@@ -108,8 +113,11 @@ class _Places:
 
 
 def _log_pitch(n: Floats, z: Floats) -> Floats:
-    """Logarithm of the operating pitch, docs/sphere.md (1), of axes (pairs, 2, 3) with tooth numbers (pairs, 2)."""
-    # sine and cosine from the axes themselves: rounding of an angle between would pass into the places found
+    """Return the logarithm of the operating pitch, docs/sphere.md (1).
+
+    Axes have shape (pairs, 2, 3), tooth numbers (pairs, 2).
+    """
+    # sine and cosine directly from the axes: the rounding of an intermediate angle would enter the solution
     sine = np.linalg.norm(np.cross(n[:, 0], n[:, 1]), axis=1)
     cosine = (n[:, 0] * n[:, 1]).sum(axis=1)
     pitch: Floats = np.log(sine) - np.log((z**2).sum(axis=1) + 2 * z.prod(axis=1) * cosine) / 2
@@ -117,10 +125,13 @@ def _log_pitch(n: Floats, z: Floats) -> Floats:
 
 
 def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats, float]:
-    """Least-norm Newton steps, each short and never uphill; the unknowns and the largest residual left."""
+    """Solve by minimum-norm Newton steps with a step limit and backtracking.
+
+    Returns the unknowns and the maximum residual.
+    """
     residual = wrong(unknown)
     for _ in range(_MOST_STEPS):
-        # singular values below 1e-9 are noise of the differences that the slopes are taken from
+        # singular values below 1e-9 are noise of the finite differences
         step = -np.linalg.lstsq(_slopes(wrong, unknown), residual, rcond=1e-9)[0]
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max(initial=0.0)), 1e-300))
         while np.abs(step).max() > 1e-16 and not np.linalg.norm(wrong(unknown + step)) < np.linalg.norm(residual):
@@ -133,17 +144,17 @@ def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats,
 
 
 def _slopes(wrong: Callable[[Floats], Floats], unknown: Floats) -> Floats:
-    # central differences: 1e-5 leaves slopes to 1e-10, enough for steps that correct themselves
+    # central differences: a step of 1e-5 gives slopes to 1e-10, enough because Newton's steps are self-correcting
     apart = 1e-5 * np.eye(len(unknown))
     return np.array([(wrong(unknown + d) - wrong(unknown - d)) / 2e-5 for d in apart]).T
 
 
 def _refused(kinds: int, free: int, left: float) -> GearTrainError:
-    why = f"{kinds} kinds of mesh ask for one pitch, and the symmetries leave {free} positions free"
+    why = f"{kinds} kinds of mesh must have one pitch, and the symmetries leave {free} positions free"
     return GearTrainError(
         Problem(
-            "no place with one pitch for all meshes was found near the solid's own axes",
-            f"{why}; at the best place found they miss it by up to {100 * left:.3g} %",
-            "change the tooth numbers; without exact=True faces and vertices keep their axes",
+            "no axes with one pitch for all meshes were found near the solid's own axes",
+            f"{why}; the best approximation deviates by up to {100 * left:.3g} %",
+            "change the tooth numbers, or omit exact=True to keep the axes of faces and vertices",
         )
     )

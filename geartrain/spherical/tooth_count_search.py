@@ -1,6 +1,6 @@
-"""Tooth numbers that nearly share one pitch, by exhaustive search: loops that close and tips that clear come first.
+"""Exhaustive search for tooth numbers that nearly share one pitch, under the conditions of assembly and tip clearance.
 
-And the range of tooth ratios at which equal neighbouring gears on a sphere do not overlap.
+The module also computes the range of tooth ratios in which equal neighbouring gears on a sphere do not overlap.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 Order = Literal["mismatch", "teeth", "front"]
-_MOST_SETS = 2 * 10**8  # each is looked at
+_MOST_SETS = 2 * 10**8  # all sets are examined
 
 
 def suggest_tooth_counts(
@@ -51,38 +51,38 @@ def suggest_tooth_counts(
     tolerance: float = 1e-9,
     fixed: Mapping[str, int] | None = None,
 ) -> ToothCountSuggestions:
-    """The best tooth numbers whose loops close and whose tips clear: an exhaustive search.
+    """Find the best tooth numbers whose loops close and whose tips clear, by exhaustive search.
 
-    Every set is looked at: time grows with the product of the ranges. Tips clear if gears that do not mesh leave two
-    modules between their largest operating pitch cones.
+    Time grows with the product of the ranges. Tips clear if gears that do not mesh leave two modules between their
+    largest operating pitch cones.
 
     Parameters
     ----------
     configuration : Configuration
-        The set; its own teeth are not asked for.
+        The set; its own teeth are not used.
     most, minimum : int
         Bounds of the tooth numbers.
     best : int
-        How many sets are given.
+        Number of sets to return.
     order : {"mismatch", "teeth", "front"}
-        `mismatch`: least |mismatch| first; `teeth`: least total first; `front`: only sets that every set of no more
-        teeth exceeds in mismatch, least total first.
+        `mismatch`: minimum |mismatch| first; `teeth`: minimum total first; `front`: only Pareto-optimal sets, whose
+        mismatch is less than that of every set with no more teeth, minimum total first.
     mismatch : float
-        Sets whose pitches differ by more (as a logarithm) are left out.
+        Maximum difference of the pitches of a set (as a logarithm).
     tolerance : float
-        By how much a loop may miss where its angles are only known in floats [pitches].
+        Tolerance of the closing error of loops whose angles are known only in floats [pitches].
     fixed : mapping of str to int, optional
-        Teeth of kinds that are chosen already.
+        Teeth of the kinds that are already chosen.
 
     Returns
     -------
     ToothCountSuggestions
-        The sets, best first, and what removed the rest.
+        The sets, best first, and the number rejected by each condition.
 
     Raises
     ------
     QuestionError
-        If no gears mesh, or an odd loop keeps the set from turning.
+        If no gears mesh, or an odd loop locks the set.
     RangeError
         If there are more than 2e8 sets.
 
@@ -95,12 +95,13 @@ def suggest_tooth_counts(
     """
     kinds, meshes = kinds_in_order(configuration), mesh_kinds(configuration)
     if not meshes:
-        raise QuestionError(Problem("no gears mesh", "a pitch follows from a mesh", "declare at least one mesh"))
+        raise QuestionError(Problem("no gears mesh", "the pitch is a property of a mesh", "declare at least one mesh"))
     rules = loop_rules(configuration)
     ranges = _ranges(kinds, rules, minimum, most, fixed or {})
     search = _Search(configuration, kinds, meshes, rules, tolerance, mismatch)
     kept = [search.kept(block) for block in _blocks(ranges)]
     rows = np.concatenate(kept) if kept else np.zeros((0, len(kinds)), dtype=np.int64)
+    # all sets, including those excluded by exact divisibility
     considered = (most - minimum + 1) ** sum(kind not in (fixed or {}) for kind in kinds)
     later = search.tips_removed + search.pitch_removed
     removed = {
@@ -116,10 +117,13 @@ def suggest_tooth_counts(
 def _ranges(
     kinds: Sequence[str], rules: Sequence[Sequence[Fraction | float]], minimum: int, most: int, fixed: Mapping[str, int]
 ) -> list[NDArray[np.int64]]:
-    """The tooth numbers of each kind that the exact rules leave possible."""
+    """Return the tooth numbers of each kind that satisfy the exact rules; raise `RangeError` if there are too many
+    sets.
+    """
     ranges = []
     for kind, divisor in zip(kinds, divisors(rules, len(kinds)), strict=True):
         first, last = (fixed[kind], fixed[kind]) if kind in fixed else (max(minimum, 1), most)
+        # only multiples of the divisor can satisfy the exact rules
         ranges.append(np.arange(divisor * ceil(first / divisor), last + 1, divisor, dtype=np.int64))
     count = 1
     for numbers in ranges:
@@ -127,17 +131,17 @@ def _ranges(
     if count > _MOST_SETS:
         raise RangeError(
             Problem(
-                f"{count:.2g} tooth sets to look at",
-                f"{len(kinds)} kinds of gear up to {most} teeth, and the search looks at each set",
-                f"lower most, or fix the teeth of some kinds: fixed={{{kinds[0]!r}: 20}}",
+                f"the search would examine {count:.2g} tooth sets",
+                f"{len(kinds)} kinds of gear have up to {most} teeth, and the maximum is {_MOST_SETS:.2g} sets",
+                f"lower `most`, or fix the teeth of some kinds: fixed={{{kinds[0]!r}: 20}}",
             )
         )
     return ranges
 
 
 def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int64]]]:
-    """All combinations, as flat columns: the last two kinds in full, the others one combination at a time."""
-    # two kinds at a time bound the memory: all sets at once may be 2e8
+    """Yield all combinations as flat columns: the last two kinds in full, the others one combination at a time."""
+    # blocks of two kinds bound the memory: all sets at once may be 2e8
     tail = [column.ravel() for column in np.meshgrid(*ranges[-2:], indexing="ij")]
     if not tail[0].size:
         return
@@ -146,9 +150,9 @@ def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int
 
 
 def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArray[np.int64]:
-    """Rows in the order asked for; ties by the other measure."""
+    """Return the rows in the requested order; ties are broken by the other measure."""
     totals = rows.sum(axis=1)
-    # rounding must not order sets that share one pitch exactly
+    # rounding must not decide the order of sets that share one pitch exactly
     rounded = np.where(mismatches < 1e-13, 0.0, mismatches)
     keys = (totals, rounded) if order == "mismatch" else (rounded, totals)
     at = np.lexsort(keys)
@@ -160,31 +164,33 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 @dataclass(frozen=True)
 class ToothCountCompromise(Shown):
-    """One set of tooth numbers.
+    """Set of tooth numbers that nearly shares one pitch.
 
     See Also
     --------
-    suggest_tooth_counts : what gives these.
+    suggest_tooth_counts : Returns such objects.
     """
 
     teeth: Mapping[str, int]
-    """Of each kind."""
+    """Tooth number of each kind."""
     mismatch: float
-    """ln(pitch of the first kind of mesh / pitch of the second); with more kinds, ln(greatest / least)."""
+    """Logarithm of the pitch of the first kind of mesh over that of the second; with more kinds, of the maximum over
+    the minimum.
+    """
     pitches: tuple[float, ...]
     """Operating pitch of each kind of mesh [radii of the sphere]."""
     cones: tuple[tuple[float, float], ...]
-    """Operating cones of its two gears [rad], for each kind of mesh."""
+    """Operating cones of the two gears of each kind of mesh [rad]."""
     pressure: tuple[float, ...]
     """Operating pressure angle of each kind of mesh, on one base pitch [rad]."""
     room: float
-    """Least room between pitch circles of gears that do not mesh [modules]."""
+    """Minimum distance between pitch circles of gears that do not mesh [modules]."""
     residue: float
-    """Largest residue of a loop [pitches]; 0 where all loops close exactly."""
+    """Maximum closing error of a loop [pitches]; 0 if all loops close exactly."""
 
     @property
     def total(self) -> int:
-        """Sum of the teeth of the kinds."""
+        """Sum of the tooth numbers of the kinds."""
         return sum(self.teeth.values())
 
     def __str__(self) -> str:
@@ -195,11 +201,11 @@ class ToothCountCompromise(Shown):
 
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
-    """What a search found, best first, and what removed the rest; a sequence of `ToothCountCompromise`.
+    """Result of a search, best first, with the number of rejected sets; a sequence of `ToothCountCompromise`.
 
     See Also
     --------
-    suggest_tooth_counts : what gives these.
+    suggest_tooth_counts : Returns such objects.
     """
 
     PAGE = "report.spherical_report:describe_suggestions"
@@ -225,15 +231,15 @@ class ToothCountSuggestions(Result):
     configuration: Configuration
     """The set."""
     meshes: tuple[MeshKind, ...]
-    """Its kinds of mesh."""
+    """Kinds of mesh of the set."""
     found: tuple[ToothCountCompromise, ...]
-    """The sets."""
+    """Sets of tooth numbers, best first."""
     considered: int
-    """All tooth sets up to the bound."""
+    """Number of tooth sets within the bounds."""
     removed: Mapping[str, int]
-    """How many each condition removed, in the order in which the conditions were asked."""
+    """Number of sets rejected by each condition, in the order in which the conditions are tested."""
     beyond: int
-    """Sets that meet every condition but are worse than the last one listed."""
+    """Number of sets that satisfy every condition but are worse than the last one listed."""
 
     def _summary(self) -> str:
         best = f", best {self.found[0]}" if self.found else ""
@@ -250,7 +256,7 @@ class ToothCountSuggestions(Result):
 
 
 class _Search:
-    """The conditions on a block of tooth sets, and the count of what each one removed."""
+    """Conditions on a block of tooth sets, with the number of sets that each one rejected."""
 
     def __init__(
         self,
@@ -265,11 +271,11 @@ class _Search:
         order = {kind: at for at, kind in enumerate(kinds)}
         self.meshes = [(order[mesh.a], order[mesh.b], mesh.angle) for mesh in meshes]
         near = nearest_unmeshed(configuration)
-        self.strangers = [(order[a], order[b], S) for (a, b), S in near.items() if order[a] <= order[b]]
+        self.unmeshed = [(order[a], order[b], S) for (a, b), S in near.items() if order[a] <= order[b]]
         self.tips_removed = self.pitch_removed = 0
 
     def kept(self, block: list[NDArray[np.int64]]) -> NDArray[np.int64]:
-        """The sets of a block that meet every condition, as rows."""
+        """Return the sets of a block that satisfy every condition, as rows."""
         for rule in self.rules:
             good = closes(block, rule, self.tolerance)
             block = [column[good] for column in block]
@@ -282,28 +288,29 @@ class _Search:
         return np.stack([column[close] for column in block], axis=1)
 
     def pitches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Operating pitch of each kind of mesh (rows) and set (columns)."""
+        """Return the operating pitch of each kind of mesh (rows) and set (columns)."""
         return np.stack([operating_pitch(S, block[a], block[b]) for a, b, S in self.meshes])
 
     def mismatches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Mismatch of each set, as in `ToothCountCompromise`."""
+        """Return the mismatch of each set, as in `ToothCountCompromise`."""
         logs = np.log(self.pitches(block))
         return np.asarray(logs[0] - logs[1] if len(logs) == 2 else logs.max(axis=0) - logs.min(axis=0))
 
     def room(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Least room between the pitch circles of gears that do not mesh, in modules."""
+        """Return the minimum distance between the pitch circles of gears that do not mesh, for each set [modules]."""
+        # largest operating cone of each kind over its meshes
         outer = [np.zeros(len(block[0])) for _ in self.kinds]
         for a, b, S in self.meshes:
             outer[a] = np.maximum(outer[a], pitch_cone(S, block[a], block[b]))
             outer[b] = np.maximum(outer[b], pitch_cone(S, block[b], block[a]))
         module = 2 * np.exp(np.log(self.pitches(block)).mean(axis=0))
         room = np.full(len(block[0]), np.inf)
-        for a, b, S in self.strangers:
+        for a, b, S in self.unmeshed:
             room = np.minimum(room, (S - outer[a] - outer[b]) / module)
         return room
 
     def compromise(self, row: NDArray[np.int64]) -> ToothCountCompromise:
-        """All that is reported of one set."""
+        """Compute the reported figures of one set."""
         block = [np.array([count]) for count in row]
         pitches = self.pitches(block)[:, 0]
         angles = pressure_angle(base_pitch(pitches), pitches)
@@ -327,11 +334,11 @@ class _Search:
 
 @dataclass(frozen=True)
 class NeighbourRatioWindow(Shown):
-    """Range of a tooth ratio in which equal neighbours do not overlap, tips not counted.
+    """Range of a tooth ratio in which equal neighbours do not overlap, addenda not included.
 
     See Also
     --------
-    ratio_windows : what gives these.
+    ratio_windows : Returns such objects.
     """
 
     a: str
@@ -341,26 +348,26 @@ class NeighbourRatioWindow(Shown):
     low: float
     """Lower bound of z_a / z_b."""
     high: float
-    """Upper bound of z_a / z_b; `inf` where there is none."""
+    """Upper bound of z_a / z_b; `inf` if it is unbounded."""
 
     def __str__(self) -> str:
         return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"
 
 
 def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, ...]:
-    """For each kind of mesh between unlike gears, the tooth ratios at which equal neighbours do not overlap.
+    """Return the tooth ratios at which equal neighbours do not overlap, for each kind of mesh between unlike gears.
 
-    With several kinds of mesh each window holds for the operating cones of its own mesh.
+    With several kinds of mesh, each window is valid for the operating cones of its own mesh.
 
     Parameters
     ----------
     configuration : Configuration
-        The set; its teeth are not asked for.
+        The set; its teeth are not used.
 
     Returns
     -------
     tuple of NeighbourRatioWindow
-        One a kind of mesh between unlike gears.
+        One window for each kind of mesh between unlike gears.
 
     Examples
     --------
@@ -373,6 +380,7 @@ def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, .
     for mesh in mesh_kinds(configuration):
         if mesh.a == mesh.b:
             continue
+        # nearest equal neighbours of each gear
         own, other = (nearest.get((kind, kind), pi) for kind in (mesh.a, mesh.b))
         lift = overlap_limit(mesh.angle, own)
         found.append(NeighbourRatioWindow(mesh.a, mesh.b, overlap_limit(mesh.angle, other), 1 / lift if lift else inf))

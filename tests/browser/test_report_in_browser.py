@@ -40,6 +40,7 @@ def open_report(browser: Browser, tmp_path: Path) -> Iterator[Opened]:
         own = (path.as_uri(), "data:", "blob:", "about:")
         page.on("request", lambda requested: None if requested.url.startswith(own) else wrong.append(requested.url))
         page.goto(path.as_uri())
+        page.evaluate("document.querySelectorAll('details').forEach((each) => { each.open = true; })")
         return page, wrong
 
     yield show

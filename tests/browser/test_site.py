@@ -21,9 +21,6 @@ from places import train_files
 from playwright.sync_api import Browser, Page, expect
 from viewing import GALLERY
 
-from geartrain import load
-from geartrain.scene import make_scene
-
 ROOT = Path(__file__).parent.parent.parent
 DOCS = sorted(path.name for path in (ROOT / "docs").glob("*.md"))
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
@@ -203,16 +200,12 @@ def test_where_nothing_draws_the_pages_show_plans(monkeypatch: pytest.MonkeyPatc
     assert gallery.with_wall("<!-- turning: planetary -->\n") == "\n", "no frame of what is not made"
 
 
-def test_the_readme_opens_with_a_machine_that_turns_beside_its_declaration() -> None:
-    text = (ROOT / "README.md").read_text(encoding="utf-8").partition("geartrain answers")[0]
-    (picture,) = re.findall(r'<img src="(.*?)"', text)
-    assert (ROOT / picture).stat().st_size < 1_500_000
+def test_the_readme_opens_with_a_mechanism_that_turns() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8").partition("## An example")[0]
+    (picture,) = re.findall(r"!\[.*?\]\((.*?)\)", text)
+    assert (ROOT / picture).stat().st_size < 1_000_000
     with Image.open(ROOT / picture) as film:
-        assert film.n_frames > 50  # type: ignore[attr-defined]
-    (declared,) = re.findall(r"```yaml\n(.*?)```", text, re.S)
-    shown, worm = make_scene(load(declared)).to_dict(), shipped.scene("worm").to_dict()
-    for part in ("bodies", "wheels", "pairs", "driving_link", "crank", "movement"):
-        assert shown[part] == worm[part], part
+        assert film.n_frames >= 40  # type: ignore[attr-defined]
 
 
 def test_the_gallery_tells_what_the_trains_declare() -> None:

@@ -133,7 +133,7 @@ def test_the_head_of_a_phone_leaves_the_screen_to_the_picture(show: Opening) -> 
     assert shown.page.get_by_role("button", name="Keys").is_hidden()
     shown.page.get_by_role("button", name="Open panels").click()
     tab(shown, "About")
-    assert shown.page.get_by_text("pinch or scroll to come nearer").locator("visible=true").count() == 1
+    assert shown.page.get_by_text("pinch or scroll to zoom").locator("visible=true").count() == 1
     shown.page.get_by_role("button", name="Close panels").click()
     shown.page.get_by_text("Picture", exact=True).click()
     shown.page.get_by_label("Beside").select_option(index=2)

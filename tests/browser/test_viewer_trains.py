@@ -49,7 +49,7 @@ BLIND = "HTMLCanvasElement.prototype.getContext = () => null"
 
 def test_without_webgl_a_plan_turns_in_place_of_the_picture(show: Opening) -> None:
     shown = show(SIMPLE, before=BLIND)
-    assert "shows no 3D picture" in shown.page.locator(".nothing").inner_text()
+    assert "has no 3D graphics" in shown.page.locator(".nothing").inner_text()
     places = """Object.fromEntries([...document.querySelectorAll('.plan .wheel')].map((wheel) => {
       const [x, y] = /M([^L]+)L/.exec(wheel.querySelector('.spoke').getAttribute('d'))[1].split(' ').map(Number);
       const [u, v] = wheel.querySelector('.spoke').getAttribute('d').split('L')[1].split(' ').map(Number);
@@ -109,7 +109,7 @@ def test_a_train_that_asks_for_nothing_opens_on_its_links(show: Opening, tmp_pat
     assert not train.declaration.outputs
     shown = show(text=path.read_text(encoding="utf-8"))
     panel = shown.page.get_by_role("tabpanel", name="Dials")
-    assert "declares no output: here are the first 12 of its 14 links" in panel.inner_text()
+    assert "declares no outputs; the first 12 of its 14 links are listed" in panel.inner_text()
     assert panel.locator(".dial").count() == 12
     tab(shown, "Outputs")
     rows = "[...document.querySelectorAll('.outputs tbody tr')]"

@@ -191,7 +191,7 @@ def test_all_exit_codes_are_told_where_exit_codes_are_told() -> None:
     for page in ("docs/commands.md", "docs/json.md"):
         codes = set(re.findall(r"^\| (\d+) \|", (root / page).read_text(encoding="utf-8"), re.M))
         assert {"0", "1", "2", "3", "130", "141"} <= codes, page
-    assert "code 3" in (root / "README.md").read_text(encoding="utf-8")
+    assert "exit with code 3" in (root / "README.md").read_text(encoding="utf-8")
     assert all(code in str(app.info.epilog) for code in ("0 ", "1 ", "2 ", "3 ", "130 ", "141 "))
 
 

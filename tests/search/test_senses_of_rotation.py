@@ -189,7 +189,7 @@ def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
         }
         found = search_train(GearTrain.declare(data).declaration, rules=())
         assert found.count == 0
-        assert "'b' turn in the other sense" in found.parts[0].shortfall.nearest
+        assert "'b' turn in the opposite sense" in found.parts[0].shortfall.nearest
 
 
 # told ----------------------------------------------------------------------------------------------------------------

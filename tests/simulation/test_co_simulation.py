@@ -152,12 +152,12 @@ def test_a_declaration_written_out_is_read_back_as_it_was() -> None:
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (("planetary-24-18-60", "-o", "x.fmu"), "nothing says how fast"),
+        (("planetary-24-18-60", "-o", "x.fmu"), "the train has no rate"),
         (("moon-triangular", "-o", "x.fmu", "--rate", "1"), "inertia"),
-        ((TRAIN, "-o", "x.fmu", "--rate", "1", "--bore", "2mm"), "--bore says nothing"),
+        ((TRAIN, "-o", "x.fmu", "--rate", "1", "--bore", "2mm"), "--bore does not apply"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--step", "0s"), "0s is not above 0"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--restitution", "2"), "'2' is not a valid restitution"),
-        ((TRAIN, "-o", "x.dot", "--rate", "1"), "--rate is for a unit"),
+        ((TRAIN, "-o", "x.dot", "--rate", "1"), "--rate applies only"),
     ],
 )
 def test_what_cannot_be_such_a_unit_is_said(

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import geartrain
 from geartrain.simulation import PairStrength, TrainStrength
 from geartrain.simulation.strength.contact_pressure import minimum_tooth_pairs
-from geartrain.simulation.strength.iso_6336 import RackWheel, ToothLean, root_stress
+from geartrain.simulation.strength.iso_6336 import HelixData, RackWheel, root_stress
 
 Z1, Z2, NORMAL, TORQUE = 20, 43, 2.0, 50.0
 
@@ -111,11 +111,11 @@ def test_the_tooth_pairs_told_are_those_that_share_the_force(helix: float, width
 
 def test_factors_are_those_of_the_standard() -> None:
     """Ybeta 1 - 15/120 and Zbeta 1/sqrt(cos 15) with an overlap of 1; half as much lean counts half as much overlap."""
-    lean = ToothLean(radians(15), 0.24, 1.3)
+    lean = HelixData(radians(15), 0.24, 1.3)
     assert lean.Ybeta == pytest.approx(0.875)
     assert lean.Zbeta == pytest.approx(1 / sqrt(cos(radians(15))))
-    assert ToothLean(radians(45), 0.6, 2.0).Ybeta == 0.75
-    half = ToothLean(radians(15), 0.24, 0.5)
+    assert HelixData(radians(45), 0.6, 2.0).Ybeta == 0.75
+    half = HelixData(radians(15), 0.24, 0.5)
     assert half.Ybeta == pytest.approx(0.9375)
     assert half.Zeps(1.6) ** 2 == pytest.approx(((4 - 1.6) / 3 + 1 / 1.6) / 2)
     assert half.single(1.2) == pytest.approx(1.1)
@@ -145,7 +145,7 @@ def test_leaning_teeth_bear_more() -> None:
     worst = [max(each.pressure for each in pair.contact) for pair in (straight, leaning)]
     assert worst[1] < worst[0]
     assert leaning.wheels[0].tip_stress < straight.wheels[0].tip_stress
-    assert any("lean" in note for note in leaning.notes)
+    assert any("helical" in note for note in leaning.notes)
 
 
 def test_other_forms_that_lean_are_left_out_by_name() -> None:
@@ -265,9 +265,9 @@ inputs: {{a: 1}}
 def test_wide_teeth_and_flat_cones_are_told() -> None:
     assert "wider than a third" in found(36, 48, 40).pairs["p~w"].notes[1]
     short = found(36, 48, 95)
-    assert short.left_out[0].why == "its teeth are wider than its cones are long"
+    assert short.left_out[0].why == "the width of its teeth exceeds the cone distance"
     flat = found(30, 60, axis="[-0.5, 0.8660254037844386, 0]")  # the cone of the second is a plane
-    assert "is flat or hollow" in flat.left_out[0].why
+    assert "is flat or internal" in flat.left_out[0].why
 
 
 def test_forces_and_stresses_are_of_one_radius() -> None:

@@ -11,8 +11,8 @@ from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.simulation import SeparationRates, find_link_inertias, find_separation
 from geartrain.simulation.contacts.inertial_contacts import (
+    ErrorCoupling,
     InertialContacts,
-    YieldingPairs,
     find_inertial_loads,
     minimum_rate,
 )
@@ -268,7 +268,7 @@ def test_pairs_that_depend_on_each_other_are_solved_as_their_matrices_say() -> N
     gain = np.zeros((3, 4))
     gain[1], gain[2] = random.normal(size=4), random.normal(size=4)
     gain[1:, 1] = 0.0  # the second pair, which keeps its ratio, comes last
-    pairs = YieldingPairs(gain, [0, 2, 3], [[0], [1, 2]])
+    pairs = ErrorCoupling(gain, [0, 2, 3], [[0], [1, 2]])
     slope, given = random.normal(scale=0.3, size=(3, 50)), random.normal(size=(4, 50))
     found, carried = pairs.errors(slope, given), pairs.torques(slope, given)
     for at in range(50):
@@ -462,7 +462,7 @@ def test_a_planet_goes_round_with_its_carrier() -> None:
     carried = {each.link: each.carried for each in plates}["carrier"]
     assert carried == pytest.approx(1000 * 0.005 * pi * 0.018**2 * 0.042**2, rel=0.05)
     nothing = {each.link: each for each in find_link_inertias(load(PLANET_PLATES.format(planet="", rest="")).mechanics)}
-    assert nothing["carrier"].missing == ("the mass of 'planet', which it takes round, is not known",)
+    assert nothing["carrier"].missing == ("the mass of 'planet', which it carries, is not known",)
 
 
 def test_teeth_part_by_the_inertia_of_their_outlines() -> None:

@@ -241,7 +241,7 @@ def test_years_are_turns_by_the_unit_of_speeds() -> None:
         ("material: steel\n", "", "'p' has no `material`"),
         ("face_width: 20 mm\n", "", "'w' has no `face_width`"),
         (", module: 2 mm", "", "'p' has no `module`"),
-        ("tooth_form: {form: involute}\n", "", "it declares no tooth form"),
+        ("tooth_form: {form: involute}\n", "", "it has no tooth form"),
     ],
 )
 def test_what_is_lacking_is_named(old: str, new: str, lacking: str) -> None:
@@ -260,7 +260,7 @@ def test_an_unknown_material_is_refused_with_its_line() -> None:
         changed("material: steel", "material: stel")
 
 
-@pytest.mark.parametrize(("given", "told"), [((1, 2), "twice"), ((-1, None), "wear nothing")])
+@pytest.mark.parametrize(("given", "told"), [((1, 2), "both turns and years"), ((-1, None), "life of -1 turns")])
 def test_times_that_mean_nothing_are_refused(given: tuple[float, float | None], told: str) -> None:
     with pytest.raises(QuestionError, match=told):
         geartrain.load(PAIR).strength(turns=given[0], years=given[1])
@@ -327,7 +327,7 @@ loads: {arm: 1 N m}
     found = geartrain.load(text).strength()
     assert list(found.pairs) == ["s~p"]
     assert [each.where for each in found.left_out] == [("p~ring",)]
-    assert any("for the teeth of pair 'p~ring' do not turn" in note for note in found.pairs["s~p"].notes)
+    assert any("because the teeth of pair 'p~ring' cannot turn" in note for note in found.pairs["s~p"].notes)
     # the carrier's torque is the sun's times 1 + 58/24
     torque = 1 / (1 + 58 / 24)
     alone = geartrain.load(f"""

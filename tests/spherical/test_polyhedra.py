@@ -206,19 +206,19 @@ def test_vertices_in_any_order_make_the_solid() -> None:
 @pytest.mark.parametrize(
     ("points", "answer"),
     [
-        ([*BOX, (0, 0, 0.5)], "vertices[8] (0, 0, 0.5) is no corner"),
-        ([*BOX, (0, 0, 3)], "vertices[8] (0, 0, 3) is no corner"),
-        ([*BOX, (0, 2, 3)], "vertices[8] (0, 2, 3) is no corner"),
-        ([*BOX, (0, 0, 3 + 1e-12)], "vertices[8] (0, 0, 3) is no corner"),
+        ([*BOX, (0, 0, 0.5)], "vertices[8] (0, 0, 0.5) is not a vertex"),
+        ([*BOX, (0, 0, 3)], "vertices[8] (0, 0, 3) is not a vertex"),
+        ([*BOX, (0, 2, 3)], "vertices[8] (0, 2, 3) is not a vertex"),
+        ([*BOX, (0, 0, 3 + 1e-12)], "vertices[8] (0, 0, 3) is not a vertex"),
         ([*BOX, (1, 2, 3)], "vertices[8] repeats vertices[7] (1, 2, 3)"),
         ([*BOX, (1, 2, 3 + 1e-9)], "vertices[8] repeats vertices[7]"),
-        (BOX[:3], "3 points make no solid"),
+        (BOX[:3], "3 points do not make a solid"),
         (BOX[:4], "lie in one plane"),
         ([(0, 0, 0)] * 5, "lie in one plane"),
-        ([(0, 0), (1, 1)], "no list of points"),
-        ([(0, 0, float("inf"))] * 4, "no list of points"),
-        ([(0, 0, 1), (0, 1)], "no list of points"),
-        ([[x + 5, y, z] for x, y, z in BOX], "the sphere's centre is the origin"),
+        ([(0, 0), (1, 1)], "not a list of points"),
+        ([(0, 0, float("inf"))] * 4, "not a list of points"),
+        ([(0, 0, 1), (0, 1)], "not a list of points"),
+        ([[x + 5, y, z] for x, y, z in BOX], "the origin is the centre of the sphere"),
         ([[x + 1, y, z] for x, y, z in BOX], "recentre=True"),
     ],
 )
@@ -362,15 +362,15 @@ def test_without_its_meshes_of_hexagons_a_buckyball_is_an_icosidodecahedron() ->
     ("options", "answer"),
     [
         ({"gears": "face"}, "did you mean 'faces'"),
-        ({"drop": ["4"]}, "no gear or kind '4'"),
-        ({"drop": ["5-13"]}, "no gear or kind '5-13'"),
+        ({"drop": ["4"]}, "unknown gear or kind '4'"),
+        ({"drop": ["5-13"]}, "unknown gear or kind '5-13'"),
         ({"drop": ["5~5"]}, "no mesh '5~5'"),
-        ({"drop": [""]}, "no gear or kind ''"),
-        ({"teeth": {"4": 12}}, "no kind of gear '4'"),
-        ({"teeth": {"5": 0}}, "0 is no tooth number"),
-        ({"teeth": 12.5}, "12.5 is no tooth number"),
-        ({"teeth": {"5": 20}, "exact": True}, "need the teeth of 3"),
-        ({"gears": "faces+vertices+edges"}, "takes no two gears on each edge"),
+        ({"drop": [""]}, "unknown gear or kind ''"),
+        ({"teeth": {"4": 12}}, "unknown kind of gear '4'"),
+        ({"teeth": {"5": 0}}, "0 is not a tooth number"),
+        ({"teeth": 12.5}, "12.5 is not a tooth number"),
+        ({"teeth": {"5": 20}, "exact": True}, "requires the teeth of 3"),
+        ({"gears": "faces+vertices+edges"}, "cannot have two gears on each edge"),
     ],
 )
 def test_what_a_set_does_not_have_is_refused(options: dict[str, object], answer: str) -> None:
@@ -641,7 +641,7 @@ def test_a_set_with_one_kind_of_mesh_is_exact_where_it_stands() -> None:
 )
 def test_where_no_place_gives_one_pitch_it_is_refused(name: str, gears: str, teeth: dict[str, int]) -> None:
     answer = refusal(name, gears, teeth=teeth, exact=True)
-    assert "no place with one pitch" in answer
+    assert "no axes with one pitch" in answer
     assert "positions free" in answer
 
 

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothYield
+from geartrain.simulation.contacts.compliant_train import damping_ratio
+from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothCompliance
 from geartrain.simulation.contacts.pair_tables import tabled_angle
 from geartrain.simulation.contacts.train_model import SlackPin
-from geartrain.simulation.contacts.yielding_train import damping_ratio
 from geartrain.simulation.steps.contact_solution import GAP, IMPACT_COUNT, IMPACTS, TIME_APART
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
@@ -166,7 +166,7 @@ def stepped(restitution: float, steps: int, fast: bool = True) -> PairRun:
 def yielding(restitution: float, stiffness: float, steps: int, fast: bool = True) -> PairRun:
     """With teeth of a stiffness (N m/rad), and the damping at which as much comes back."""
     damping = 2 * damping_ratio(restitution) * sqrt(stiffness * INERTIA)
-    yields = ToothYield(np.array([stiffness]), np.array([damping]))
+    yields = ToothCompliance(np.array([stiffness]), np.array([damping]))
     return _told(simulate(_model(0.0), _plan(steps), fast, yields=yields))
 
 

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from geartrain import GearTrain
-from geartrain.simulation.contacts.yielding_train import damping_ratio
+from geartrain.simulation.contacts.compliant_train import damping_ratio
 from studies.dynamics_methods import INERTIA, RATE, PairRun, by_events, stepped, yielding
 from studies.measurement import Step, taken, timed
 from studies.records import StudyRecords, error_text, seconds_text, table

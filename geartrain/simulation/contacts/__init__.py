@@ -1,12 +1,12 @@
-"""A train with inertia: when its teeth part, and the model that is stepped (docs/dynamics.md).
+"""Train with inertia: the rate at which its teeth separate, and the contact model that is stepped (docs/dynamics.md).
 
 link_inertia        moments of inertia of links, declared or by Green's theorem from the outlines of wheels
 inertial_contacts   torques that pairs carry due to inertia, loads and friction (d'Alembert's principle)
-separation_rate     the rate of the input at which teeth first part (`find_separation`), and impacts of teeth
+separation_rate     the rate of the input at which teeth first separate (`find_separation`), and impacts of teeth
 time_case           inertia, drag, restitution and the drive of a train in one state
-train_model         a train as coordinates and contacts, ideal pairs eliminated exactly
-yielding_train      the same with stiffness and damping of teeth
+train_model         a train as coordinates and contacts, with ideal pairs eliminated exactly
+compliant_train     the same with stiffness and damping of teeth
 contact_model       coordinates, contacts, bearings, stops and springs in solved order: the arrays of the kernels
-pair_tables          transmission functions as tables of polynomials between kinks
+pair_tables         transmission functions as tables of polynomials between kinks
 rubbing_arms        friction of teeth and pins as an addition to the lever arm of the driver
 """

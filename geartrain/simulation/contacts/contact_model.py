@@ -1,8 +1,8 @@
-"""A train as coordinates, contacts, bearings, stops and springs, and its order of solution: what kernels are made from.
+"""Model of a train as coordinates, contacts, bearings, stops and springs, with its elimination order, for the kernels.
 
-Coordinates are whatever moves independently while no contact touches. A pair has two rows over them, the speeds of its
-driver and of its driven side in forward angles. In the solved order each pair that touches determines one coordinate,
-which appears in its driven side alone, from others before it; prescribed coordinates come first.
+The coordinates are the independent motions while no contact touches. A pair has two rows over them, the speeds of its
+driver and of its driven side in forward angles. In the solved order each touching pair determines one coordinate from
+earlier ones; that coordinate appears in only one side of the pair. Prescribed coordinates come first.
 """
 
 from __future__ import annotations
@@ -22,47 +22,53 @@ if TYPE_CHECKING:
 
 
 Form = Mapping[int, float]
-"""A linear form of coordinates: number -> coefficient."""
+"""Linear form of coordinates: number -> coefficient."""
 
-# a row that determines no coordinate yields as if it were so much heavier than all it holds; at most, than its own
+# a row that determines no coordinate is regularised: its inverse compliance exceeds the inertia of all that turns
+# with it by the first factor, and that of its own coordinates by at most the second
 _STIFF, _STIFFEST = 1e6, 1e9
 
 
 @dataclass(frozen=True)
 class ContactPair:
-    """Two flanks, or a pin in its slot."""
+    """Two flanks of teeth, or a pin in its slot."""
 
     name: str
     driver: Form
-    """Forward speeds of both sides."""
+    """Forward speed of the driver as a form of the coordinates."""
     driven: Form
-    """Forward speeds of both sides."""
+    """Forward speed of the driven side as a form of the coordinates."""
     start: tuple[float, float]
-    """Forward angles of both sides where all coordinates are 0 (rad)."""
+    """Forward angles of driver and driven side where all coordinates are 0 [rad]."""
     front: TabledFunction
-    """Driven angles on the drive and the coast flank; the same for what has no play."""
+    """Driven angle in contact on the drive flank, by the driver's angle."""
     back: TabledFunction
-    """Driven angles on the drive and the coast flank; the same for what has no play."""
+    """Driven angle in contact on the coast flank; the same object as `front` for a pair without backlash."""
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
-    """What friction adds to the driver's arm (its torque over the driven side's), for front and back flank, each
-    turning forward and back; None without friction."""
+    """Friction terms of the driver's lever arm (its torque over the driven side's), for front and back flank, each
+    turning forward and back; None without friction.
+    """
     restitution: float = 0.0
-    """Closing speed that comes back."""
-    never_stands: bool = False
-    """True if the driven side moves wherever the driver does, so that it could as well drive."""
+    """Coefficient of restitution."""
+    has_no_dwell: bool = False
+    """True if the transmission function has no dwell: the driven side could also drive."""
 
     @property
     def two_sided(self) -> bool:
-        """True where there is no play."""
+        """True if the pair has no backlash."""
         return self.front is self.back
 
     @property
     def row(self) -> tuple[int, ...]:
-        """The coordinates of both sides."""
+        """Coordinates of both sides."""
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
 
     def moved(self, angle: Floats) -> ContactPair:
-        """The pair where coordinates start at other angles; whole periods of its law are left out: they cost digits."""
+        """Return the pair with its coordinates starting at other angles [rad].
+
+        Whole periods of its transmission function are subtracted, because large angles cost digits.
+        """
+        # large angles lose digits, and the transmission function is periodic
         S, q = (
             start + sum(float(angle[at]) * value for at, value in form.items())
             for start, form in zip(self.start, (self.driver, self.driven), strict=True)
@@ -71,14 +77,14 @@ class ContactPair:
         return replace(self, start=(S - whole, q - whole * self.front.slope))
 
     def could_determine(self, coordinate: int) -> bool:
-        """True if one side alone holds the coordinate, and the row is never without it."""
+        """Return whether only one side contains the coordinate, and its coefficient never vanishes."""
         driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
-        return driven != driver and (driven or self.never_stands)
+        return driven != driver and (driven or self.has_no_dwell)
 
 
 @dataclass(frozen=True)
 class Bearing:
-    """Dry friction against a relative speed: torques while it slides, and up to which it sticks (N m)."""
+    """Dry friction against a relative speed: sliding torque, and limit of the sticking torque [N m]."""
 
     name: str
     speed: Form
@@ -88,7 +94,7 @@ class Bearing:
 
 @dataclass(frozen=True)
 class Stop:
-    """What may not pass an angle, which moves on by a pitch each beat (rad, s): an escapement."""
+    """Limit of an angle that moves on by a pitch [rad] each beat [s]: an escapement."""
 
     name: str
     angle: Form
@@ -99,7 +105,7 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """A torque stiffness (rest + rate t - angle) on a row of coordinates (N m/rad, rad, rad/s)."""
+    """Torque stiffness (rest + rate t - angle) on a row of coordinates (N m/rad, rad, rad/s)."""
 
     name: str
     angle: Form
@@ -109,7 +115,11 @@ class Spring:
 
 
 class SolvedOrder(NamedTuple):
-    """Coordinates in order, the pair that determines each (-1 none), and for each those before it that it may meet."""
+    """Elimination order of the coordinates.
+
+    It has the coordinates in order, the pair that determines each (-1 for none), and for each the earlier ones with
+    which it may be coupled.
+    """
 
     coordinates: tuple[int, ...]
     owner: tuple[int, ...]
@@ -118,18 +128,18 @@ class SolvedOrder(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactModel:
-    """A train that moves in time."""
+    """Contact model of a train that moves in time."""
 
     mass: Floats
-    """Matrices over the coordinates (kg m2, N m s)."""
+    """Mass matrix over the coordinates [kg m2]."""
     viscous: Floats
-    """Matrices over the coordinates (kg m2, N m s)."""
+    """Viscous damping matrix over the coordinates [N m s]."""
     torque: Floats
-    """Constant torques on them (N m)."""
+    """Constant torques on the coordinates [N m]."""
     given: Mapping[int, float]
-    """Prescribed speeds (rad/s)."""
+    """Prescribed speeds by coordinate [rad/s]."""
     typical: Floats
-    """Speeds of all coordinates in mean motion, for scales."""
+    """Speeds of all coordinates in mean motion [rad/s], used as scales."""
     pairs: Sequence[ContactPair] = ()
     bearings: Sequence[Bearing] = ()
     stops: Sequence[Stop] = ()
@@ -138,7 +148,10 @@ class ContactModel:
 
     @cached_property
     def order(self) -> SolvedOrder:
-        """The solved order: a pair whose row holds one unknown determines it; where none does, one is left free."""
+        """Elimination order: a pair whose row has one unknown coordinate determines it; if none does, one coordinate is
+        left free.
+        """
+        # prescribed coordinates first, because nothing determines them
         order = list(self.given)
         owner = [-1] * len(order)
         left = list(range(len(self.pairs)))
@@ -153,6 +166,7 @@ class ContactModel:
                     order.append(unknown[0])
                     owner.append(m)
                     found = True
+            # no pair has a single unknown: free a coordinate, preferably one that no pair determines
             if not found and left:
                 driven = {each for m in left for each in self.pairs[m].row if self.pairs[m].could_determine(each)}
                 rows = [each for m in left for each in self.pairs[m].row if each not in order]
@@ -164,12 +178,15 @@ class ContactModel:
         return SolvedOrder(tuple(order), tuple(owner), self._near(order, owner))
 
     def _near(self, order: Sequence[int], owner: Sequence[int]) -> tuple[tuple[int, ...], ...]:
-        """Fill of the elimination: coordinates that meet in a row, or after one behind both is eliminated."""
+        """Return the fill of the elimination: pairs of coordinates in one row, or coupled by the elimination of a later
+        one.
+        """
         place = {each: at for at, each in enumerate(order)}
         near: list[set[int]] = [set() for _ in order]
         free = [pair.row for m, pair in enumerate(self.pairs) if m not in owner]
         forms = [list(each.speed) for each in self.bearings]
         forms += [list(each.angle) for each in self.stops] + [list(each.angle) for each in self.springs]
+        # mass and damping couple coordinates even if no contact touches
         coupled = np.argwhere((self.mass != 0) | (self.viscous != 0)).tolist()
         for group in (*free, *forms, *coupled):
             places = sorted(place[each] for each in group)
@@ -178,15 +195,17 @@ class ContactModel:
         for d, m in enumerate(owner):
             if m >= 0:
                 near[d].update(place[each] for each in self.pairs[m].row if place[each] != d)
+        # symbolic elimination from the last coordinate to the first
         for d in range(len(order) - 1, -1, -1):
             for each in near[d]:
                 near[each].update(other for other in near[d] if other < each)
         return tuple(tuple(sorted(each)) for each in near)
 
-    def elsewhere(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
-        """The same train at a share of its speeds, from other angles (rad) and speeds (rad/s) on: tables are kept.
+    def restarted(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
+        """Return the same train at scaled speeds, from other angles [rad] and speeds [rad/s], with the same tables.
 
-        Where pairs that touch determine all, speeds are those of their laws at the angles: those of a step are means.
+        `share` scales the speeds. If touching pairs determine all coordinates, speeds follow from their transmission
+        functions at the angles, because the speeds of a step are means.
         """
         given = {at: share * value for at, value in self.given.items()}
         pairs = self.pairs if angle is None else [pair.moved(angle) for pair in self.pairs]
@@ -198,11 +217,12 @@ class ContactModel:
         return found
 
     @property
-    def falls(self) -> list[float]:
-        """How long each stopped link takes from one stop to the next, all coordinates in their mean ratios (s).
+    def fall_times(self) -> list[float]:
+        """Time that each stopped link takes from one stop to the next [s], all coordinates in their mean ratios.
 
-        By what drives at the start, without what resists it.
+        It follows from the driving torque at the start, without resistance.
         """
+        # generalised torque and inertia of the mean motion, which has one degree of freedom
         torque = float(self.typical @ self.torque)
         for spring in self.springs:
             torque += spring.stiffness * spring.rest * sum(self.typical[at] * c for at, c in spring.angle.items())
@@ -216,12 +236,13 @@ class ContactModel:
 
     @cached_property
     def transmissions(self) -> PairTables:
-        """The tables of all pairs."""
+        """Tables of the transmission functions of all pairs."""
         return join_tables(self._functions[0])
 
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
-        """Each function once; numbers of the laws and of the friction of each pair."""
+        """Distinct functions, and for each pair the numbers of its transmission and friction functions."""
+        # functions shared by several pairs are tabulated once, by identity
         known: dict[int, int] = {}
         functions: list[TabledFunction] = []
 
@@ -236,10 +257,11 @@ class ContactModel:
         return functions, transmissions, rubbing
 
     def system(self, step: float) -> ContactSystem:
-        """The arrays for one length of step (s)."""
+        """Return the arrays of the kernels for one time step [s]."""
         order, n = self.order, len(self.torque)
         place = {each: at for at, each in enumerate(order.coordinates)}
         mass, viscous = (matrix[np.ix_(order.coordinates, order.coordinates)] for matrix in (self.mass, self.viscous))
+        # implicit in drag and springs, so that stiff ones remain stable
         matrix = mass + step * viscous
         for spring in self.springs:
             c = np.zeros(n)
@@ -284,7 +306,12 @@ class ContactModel:
     def _pair_rows(
         self, place: Mapping[int, int], near_at: Ints, near: Ints
     ) -> tuple[Ints, Ints, Floats, Floats, Ints]:
-        """Rows of pairs, the coordinate that each determines first; and where the others stand near that."""
+        """Return the sparse rows of the pairs, with the determined coordinate of each first, and the slots of the
+        others.
+
+        A slot is the index of a coordinate in `near` of the determined one, -1 for the latter itself, -2 if there is
+        none.
+        """
         owner = {m: d for d, m in enumerate(self.order.owner) if m >= 0}
         at, of, S, q, slot = [0], [], [], [], []
         for m, pair in enumerate(self.pairs):
@@ -296,6 +323,7 @@ class ContactModel:
                 of.append(each)
                 S.append(float(pair.driver.get(back[each], 0.0)))
                 q.append(float(pair.driven.get(back[each], 0.0)))
+                # slot codes of the kernels: -2 without owner, -1 the owner itself
                 if m not in owner:
                     slot.append(-2)
                 elif each == owner[m]:
@@ -309,13 +337,13 @@ class ContactModel:
         return starts, places, np.array(S, dtype=np.float64), np.array(q, dtype=np.float64), slots
 
     def _stiffness(self, form: Form) -> float:
-        """Inverse compliance of a row (kg m2): much above the inertia it can stop, that of all that turns with it."""
+        """Return the inverse compliance of a row [kg m2], much above the inertia of all links that turn with it."""
         row = np.zeros(len(self.torque))
         for each, value in form.items():
             row[each] = value
         heavy = float(self.typical @ self.mass @ self.typical)
         speed = float(row @ self.typical)
-        # a prescribed coordinate gives way to nothing, as if it were heavy without bound
+        # a prescribed coordinate has infinite inertia, so it does not contribute
         free = [at for at, value in form.items() if value and at not in self.given]
         with np.errstate(divide="ignore"):
             own = float(1 / np.sum(row[free] ** 2 / np.diag(self.mass)[free])) if free else heavy
@@ -331,7 +359,7 @@ def _placed(form: Form, place: Mapping[int, int]) -> dict[int, float]:
 
 
 def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
-    """Rows one behind another: where each begins, columns, coefficients."""
+    """Return rows in compressed sparse format: row starts, columns, coefficients."""
     at = np.cumsum([0, *(len(row) for row in rows)]).astype(np.int64)
     of = np.array([each for row in rows for each in row], dtype=np.int64)
     return at, of, np.array([value for row in rows for value in row.values()], dtype=np.float64)
@@ -341,21 +369,23 @@ def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
 
 
 class ContactSystem(NamedTuple):
-    """A train as coordinates and contacts, in SI units.
+    """Arrays of a train as coordinates and contacts, in SI units.
 
     mass, viscous, matrix   M, D, and M + h D + h^2 K, (n, n)
     torque                  constant torque on each coordinate
-    given                   1 where the speed is prescribed
-    owner                   the pair that determines a coordinate when it touches; -1 none
-    near                    coordinates before it with which each may be coupled (sparse, `near_at`)
-    pair_of                 of a pair's row; `pair_driver`, `pair_driven`: what they add to the speeds of both sides
-    slot                    where in `near` of its owner an entry stands; -1 for the owner itself, -2 without one
+    given                   1 if the speed is prescribed
+    owner                   the pair that determines a coordinate when it touches; -1 for none
+    near                    earlier coordinates with which each may be coupled (sparse, `near_at`)
+    pair_of                 coordinates of a pair's row; `pair_driver`, `pair_driven`: coefficients of the speeds of
+                            both sides
+    slot                    index of an entry in `near` of its owner; -1 for the owner itself, -2 without one
     start_driver, start_driven   angles of both sides where all coordinates are 0
-    two_sided               1 for a pin without clearance, and gears without play
-    tables, rubbing         laws of both flanks; what friction adds to a driver's arm, (front, back) x (forward, back)
-    stiff                   of pairs that determine nothing: inverse compliance of their row
+    two_sided               1 for a pin without clearance, and gears without backlash
+    tables, rubbing         functions of both flanks; friction terms of the driver's arm, (front, back) x (forward,
+    back)
+    stiff                   inverse compliance of the rows of pairs that determine no coordinate
     bearing_*               rows of relative speeds in bearings, with torques of sliding and sticking
-    stop_*                  rows that may not pass first + (1 + floor(t/beat)) pitch
+    stop_*                  rows bounded by first + (1 + floor(t/beat)) pitch
     spring_*                rows pulled by stiffness (rest + rate t - angle)
     """
 
@@ -400,8 +430,8 @@ class ContactSystem(NamedTuple):
     spring_rate: Floats
 
 
-class ToothYield(NamedTuple):
-    """Stiffness (N m/rad) and damping (N m s/rad) of each pair, on its driven side."""
+class ToothCompliance(NamedTuple):
+    """Stiffness [N m/rad] and damping [N m s/rad] of each pair, about its driven side."""
 
     stiffness: Floats
     damping: Floats

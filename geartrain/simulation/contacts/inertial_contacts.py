@@ -1,14 +1,15 @@
-"""What the flanks of each pair must carry while a train turns fast: docs/dynamics.md, equations (1) to (6).
+"""Torques that the flanks of each pair must carry while a train turns fast: docs/dynamics.md, equations (1) to (6).
 
-While all drive flanks touch, links follow `motion`. Let pair m give way: its driven side moves ahead by p_m, the input
-stays, and every other pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m, so that links
-move by e = R J^-1 p with the matrix J = I - diag(sense (tau - mean)) G of (5) in docs/motion.md. By d'Alembert's
-principle no work is done on the way: the torque that its flanks must carry, lambda = -sum (T - J_l theta'') e, is
+While all drive flanks touch, links follow `motion`. Let pair m be displaced virtually: its driven side moves ahead by
+p_m, the input is fixed, and every other pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m,
+so that links move by e = R J^-1 p with the matrix J = I - diag(sense (tau - mean)) G of (5) in docs/motion.md. By
+d'Alembert's principle the total virtual work is zero. The torque that the flanks must carry, lambda = -sum (T - J_l
+theta'') e, is
 
     lambda_m(x, w) = D_m(x) + V_m(x) w + A_m(x) w^2,
 
-with loads and dry friction of bearings in D, viscous drag in V, inertia in A. The least w > 0 at which it vanishes is
-the rate sought, the least of all positions.
+with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The separation rate is the minimum w
+> 0 at which it vanishes, over all positions.
 """
 
 from __future__ import annotations
@@ -39,18 +40,22 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 
-_SLOPE = 1e-12  # of the mean ratio: speeds of the tables whose derivatives are taken
+_SLOPE = 1e-12  # relative tolerance, over the mean ratio, of tables of the speed that are differentiated
 _DEGREE = 9
-_LEAP = 1e-7  # of the input's speed and the greatest of a link's: a lesser jump of a speed is rounding
-_MANY, _TABLES = 8, 1e-11  # laws of longer trains are read from tables of so many pitches
-_NUMBERS = 1 << 22  # most entries of matrices at once
+_LEAP = 1e-7  # relative to the larger of the input's and the link's maximum speed: smaller jumps are rounding
+_MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of their functions, tolerance in pitches
+_NUMBERS = 1 << 22  # maximum number of matrix entries in one batch
 
 FlankArms = tuple[Callable[["Floats"], "Floats"], Callable[["Floats"], "Floats"]]
-"""What friction adds to the arm of a driver on its drive flank, turning forward and back, by its forward angle."""
+"""Friction terms of a driver's lever arm on its drive flank, turning forward and back, as functions of its forward
+angle.
+"""
 
 
 class CarriedTorques(NamedTuple):
-    """Terms of the torque that each pair must carry, (pairs, n): N m, N m s, N m s2, of forward driven torque."""
+    """Terms of the forward torque on the driven side that each pair must carry [N m, N m s, N m s2]. Shape
+    (pairs, n).
+    """
 
     constant: Floats
     viscous: Floats
@@ -58,19 +63,21 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links over the input's at n positions, and slopes of errors of the sources."""
+    """Speeds and accelerations of all links over the input's speed at n positions, and slopes of the errors of the
+    sources.
+    """
 
     speed: Floats
     acceleration: Floats
     slope: Floats
     arm: Floats
-    """Slopes and speeds where each driver's arm is that with friction: those of virtual work."""
+    """Slopes with friction in each driver's lever arm, for virtual work. Shape (sources, n)."""
     virtual: Floats
-    """Slopes and speeds where each driver's arm is that with friction: those of virtual work."""
+    """Virtual speeds of the links with friction in each driver's lever arm. Shape (links, n)."""
 
 
 class InertialContacts:
-    """The torque that each pair of a moving train must carry at every position."""
+    """Torque that each pair of a moving train must carry at every position."""
 
     def __init__(
         self,
@@ -81,6 +88,7 @@ class InertialContacts:
     ) -> None:
         self.moving, self.acting, self.rubbing = moving, acting, rubbing or {}
         outputs = {link: (link, moving.frame) for link in moving.system.links}
+        # tables cost a setup but make every further evaluation cheaper
         if tolerance is None and len(moving.circuits) > _MANY:
             tolerance = _TABLES
         self.motion = Motion(moving, outputs, tolerance)
@@ -90,17 +98,17 @@ class InertialContacts:
 
     @property
     def pairs(self) -> tuple[str, ...]:
-        """Pairs and couplings by name."""
+        """Names of pairs and couplings."""
         return self.motion._propagation.pairs
 
     @cached_property
     def _response(self) -> Floats:
-        """R: angles of links from errors of pairs, each alone, (links, pairs)."""
+        """Response R: angles of links to a unit error of each single pair. Shape (links, pairs)."""
         return self.motion._propagation.errors(np.eye(len(self.pairs)))
 
     @cached_property
     def _gain(self) -> Floats:
-        """G: what the error of each pair adds to the driver's angle of each source, (sources, pairs)."""
+        """Gain G: driver's angle of each source by the error of each pair. Shape (sources, pairs)."""
         rows = np.zeros((len(self.sources), len(self.pairs)))
         for row, source in enumerate(self.sources):
             for link, sign in self.motion._forward.turned_by(source):
@@ -108,14 +116,14 @@ class InertialContacts:
         return rows
 
     @cached_property
-    def _yielding(self) -> YieldingPairs:
+    def _coupling(self) -> ErrorCoupling:
         of_pair = {source.pair: at for at, source in enumerate(self.sources)}
         blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion._propagation.parts]
-        return YieldingPairs(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
+        return ErrorCoupling(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
 
     @cached_property
     def _slopes(self) -> tuple[CellTable, ...]:
-        """d tau / dS of each source's law; laws of many pairs may be one."""
+        """Tables of d tau / dS of each source's transmission function; pairs may share one."""
         known: dict[int, CellTable] = {}
         for source in self.sources:
             if id(source.transmission) not in known:
@@ -124,7 +132,7 @@ class InertialContacts:
 
     @cached_property
     def _senses(self) -> Floats:
-        """1, or -1 where the driven side of a pair turns backwards on average, by pair."""
+        """Mean sense of rotation of the driven side by pair: 1 forwards, -1 backwards."""
         circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in self.moving.circuits}
         errors = PairErrors(self.moving, None, ())
         return np.array([errors.sense(circuits[name]) for name in self.pairs], dtype=float)
@@ -134,7 +142,7 @@ class InertialContacts:
 
     @cached_property
     def _joints(self) -> tuple[Ints, Floats]:
-        """Of each link the one that bears it, and the sense of their axes towards each other."""
+        """Bearing link of each link by index, and the relative sense of their axes."""
         at = {link: number for number, link in enumerate(self.moving.system.links)}
         bearers = [self.acting.bearer.get(link, self.moving.frame) for link in at]
         signs = self.moving.signs
@@ -167,15 +175,16 @@ class InertialContacts:
                 ahead, back = self.rubbing[source.id]
                 arm[row] += source.sense * np.where(turning >= 0, ahead(S), back(S))
             pulled[source.pair] = arm[row] * source.mean
-        acceleration = self._response @ self._yielding.errors(slope, kick)
+        acceleration = self._response @ self._coupling.errors(slope, kick)
         speed = means[:, None] + found.rate
         virtual = speed
         if self.rubbing:
-            virtual = means[:, None] + self._response @ self._yielding.errors(arm, pulled)
+            virtual = means[:, None] + self._response @ self._coupling.errors(arm, pulled)
         return _State(speed, acceleration, slope, arm, virtual)
 
     def torques(self, turns: Floats) -> CarriedTorques:
-        """What each pair must carry where the input has made some turns."""
+        """Compute the torque terms that each pair must carry at positions of the input [revolutions]."""
+        # batches bound the memory of the dense matrices
         size = max(64, _NUMBERS // (4 * (len(self.pairs) + len(self.moving.system.links)) + 1))
         parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
         return CarriedTorques(*(np.concatenate(each, axis=1) for each in zip(*parts, strict=True)))
@@ -196,54 +205,58 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """What pairs carry under forces that links ask for, by the transposed matrices: sense J^-T R^T f."""
+        """Yield the torques of the pairs under forces on the links by the transposed matrices: sense J^-T R^T f."""
         for requested in forces:
-            force = self._less_the_crank(requested, state.virtual)
-            yield self._senses[:, None] * self._yielding.torques(state.arm, self._response.T @ force)
+            force = self._without_crank_power(requested, state.virtual)
+            yield self._senses[:, None] * self._coupling.torques(state.arm, self._response.T @ force)
 
-    def _less_the_crank(self, requested: Floats, speed: Floats) -> Floats:
-        """What links ask of their pairs: where a crank keeps the input turning, all the virtual work is its."""
+    def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
+        """Subtract the driving torque of the crank, which supplies all virtual work."""
+        # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
         crank = self.moving.system.links.index(self.acting.crank)
         force = requested.copy()
+        # the crank torque follows from zero total virtual power
         force[crank] -= (requested * speed).sum(axis=0) / speed[crank]
         return force
 
     def rates(self, turns: Floats) -> Floats:
-        """The rate (rad/s of the input) from which each pair parts at each position, (pairs, n)."""
+        """Return the rate of the input [rad/s] at which each pair separates at each position. Shape (pairs, n)."""
         return minimum_rate(*self.torques(turns))
 
     def impulses(self, kinks: Floats, width: float) -> Floats:
-        """What pairs carry of the blow where some law is at a corner, for each unit of the input's speed (N m s2).
+        """Compute the impulse of each pair at kinks of the transmission functions, over the input's speed [N m s2].
 
-        Below 0 they part at any rate. 0 where no speed jumps.
+        Pairs with a negative impulse separate at any rate. The impulse is 0 where no speed jumps.
 
-        width   turns of the input by which a position is asked beside a corner
+        width   distance of the evaluated positions from a kink [revolutions of the input]
         """
         before, after = self._state(kinks - width), self._state(kinks + width)
         jump = after.speed - before.speed
         scale = np.maximum(1.0, np.abs(after.speed).max(axis=1, initial=0.0))[:, None]
+        # rounding of speeds must not count as an impact
         jump[np.abs(jump) <= _LEAP * scale] = 0.0
         (found,) = self._carried(after, [self._by_link(self.acting.inertia)[:, None] * jump])
         return found
 
 
 @dataclass(frozen=True)
-class YieldingPairs:
-    """The matrix J = I - diag(slope) G at many positions, in the order in which pairs determine each other."""
+class ErrorCoupling:
+    """Matrix J = I - diag(slope) G at many positions, in block triangular order."""
 
     gain: Floats
-    """G, (sources, pairs); `pairs`, the pair of each source."""
+    """Gain G. Shape (sources, pairs). `pairs` is the pair of each source."""
     pairs: Sequence[int]
     blocks: Sequence[Sequence[int]]
-    """Sources that are solved together, each block after those that it depends on."""
+    """Sources that are solved together; each block follows those that it depends on."""
 
     def errors(self, slope: Floats, given: Floats) -> Floats:
-        """J^-1 times vectors, (pairs, n)."""
+        """Solve J x = b by block substitution. Shape (pairs, n)."""
         found = given.copy()
         for block in self.blocks:
             rows = [self.pairs[at] for at in block]
+            # inside a block, rows must not see each other's new values
             known = found.copy() if len(block) > 1 else found
             right = np.stack([given[row] + slope[at] * (self._before(block, at) @ known)
                               for at, row in zip(block, rows, strict=True)])  # fmt: skip
@@ -251,7 +264,7 @@ class YieldingPairs:
         return found
 
     def torques(self, slope: Floats, given: Floats) -> Floats:
-        """The transposed of J^-1 times vectors, (pairs, n)."""
+        """Solve J^T x = b by block substitution in reverse order. Shape (pairs, n)."""
         found = given.copy()
         for block in reversed(self.blocks):
             rows = [self.pairs[at] for at in block]
@@ -261,13 +274,14 @@ class YieldingPairs:
         return found
 
     def _before(self, block: Sequence[int], at: int) -> Floats:
-        """What pairs outside of its block add to a source's driver."""
+        """Return the gain of a source's driver by the pairs outside of its block."""
         row: Floats = self.gain[at].copy()
         row[[self.pairs[each] for each in block]] = 0.0
         return row
 
     def _solved(self, block: Sequence[int], slope: Floats, right: Floats, transposed: bool) -> Floats:
         own = self.gain[np.ix_(block, [self.pairs[at] for at in block])]
+        # blocks without internal feedback are the usual case and need no linear solve
         if not own.any():
             return right
         matrices = np.eye(len(block)) - slope[list(block)].T[:, :, None] * own
@@ -277,19 +291,19 @@ class YieldingPairs:
 
 
 def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
-    """The least w >= 0 from which on D + V w + A w^2 is negative for a while; infinite where it never is."""
+    """Return the minimum w >= 0 beyond which D + V w + A w^2 becomes negative; infinite if it never does."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        root = np.sqrt(V * V - 4 * D * A)  # NaN where it never vanishes
-        q = -(V + np.copysign(root, V)) / 2  # no digits are lost in this sum, nor in the quotients
+        root = np.sqrt(V * V - 4 * D * A)  # NaN if it never vanishes
+        q = -(V + np.copysign(root, V)) / 2  # the stable quadratic formula: neither the sum nor the quotients cancel
         first, second = q / A, D / q
     roots = np.stack([np.where(each > 0, each, inf) for each in (first, second)]).min(axis=0)
     starts = (D < 0) | ((D == 0) & ((V < 0) | ((V == 0) & (A < 0))))
-    # at D = 0 a root above 0 is one from which on it is negative only where A is
+    # at D = 0 the torque becomes negative beyond a positive root only if A < 0
     return np.where(starts, 0.0, np.where((D == 0) & (A >= 0), inf, roots))
 
 
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
-    """d tau / dS (1/rad) of a law, from a table of its speed that is cut at its corners."""
+    """Return a table of d tau / dS [1/rad] of a transmission function, from a table of its speed cut at its kinks."""
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(
         transmission.speed, transmission.period, folded_kinks(transmission), _SLOPE * max(maximum, 1.0), _DEGREE
@@ -301,39 +315,41 @@ def speed_slope(transmission: TransmissionFunction) -> CellTable:
 
 @dataclass(frozen=True)
 class InertialLoads:
-    """What acts on links besides their pairs: SI units, by link, about their own axes."""
+    """Loads on links besides those of their pairs, in SI units, by link, about their own axes."""
 
     inertia: Mapping[str, float]
-    """kg m2; of a link that takes others round, theirs too."""
+    """Moment of inertia [kg m2], including the links that a link carries round."""
     load: Mapping[str, float]
-    """Constant torque (N m), positive about the link's axis."""
+    """Constant torque [N m], positive about the link's axis."""
     friction: Mapping[str, float]
-    """Of its bearing while it turns (N m), 0 or more; `drag`, viscous (N m s)."""
+    """Friction torque of the bearing while it turns [N m], 0 or more; `drag` is viscous [N m s]."""
     drag: Mapping[str, float]
     bearer: Mapping[str, str]
-    """The link in which it turns."""
+    """Link in which it turns."""
     crank: str | None = None
-    """The link at which power enters so that the input turns evenly; None where that is the input."""
+    """Link at which power enters so that the input turns uniformly; None if that is the input."""
 
 
 def find_inertial_loads(
     train: Train, case: StateCase, tree: Tree, inertias: Sequence[LinkInertia], speeds: Mapping[str, Fraction]
 ) -> InertialLoads:
-    """Of one state. Raises `QuestionError` where no link has an inertia, or a torque has no unit.
+    """Collect the loads of one state; raise `QuestionError` if no link has an inertia, or a torque has no unit.
 
-    speeds   mean speeds of links: a weight or a torque that drives pulls the way its link turns
+    speeds   mean speeds of links: a driving weight or torque acts in the sense in which its link turns
     """
     if not any(each.value for each in inertias):
         what = f"no link of '{train.name}' has a moment of inertia"
-        fix = "give links an `inertia`, such as 30 kg mm2, or wheels `density`, `thickness` and `module`"
-        raise QuestionError(Problem(what, "without one no teeth part", fix))
+        fix = "give links an `inertia`, such as `inertia: 30 kg mm2`, or wheels `density`, `thickness` and `module`"
+        raise QuestionError(Problem(what, "teeth separate only because of inertia", fix))
     turning = {link: part for link, part in train.links.items() if link != train.frame}
     load, friction = _torques(train, case)
     for key, torques in (("load", load), ("bearing", friction)):
         for link, torque in torques.items():
             if _is_plain(torque):
-                what = f"the {key} of '{link}', {torque}, has no unit"
-                raise QuestionError(Problem(what, "inertias are in kg m2", f"write for example '{torque} N m'"))
+                what = f"the {key} torque of '{link}', {torque}, has no unit"
+                raise QuestionError(
+                    Problem(what, "torques are compared with inertias in kg m2", f"write for example '{torque} N m'")
+                )
     return InertialLoads(
         {each.link: each.value for each in inertias},
         loads_with_drive({link: torque.si for link, torque in load.items()}, train, case, speeds),
@@ -347,8 +363,9 @@ def find_inertial_loads(
 def loads_with_drive(
     loads: dict[str, float], train: Train, case: StateCase, speeds: Mapping[str, Fraction]
 ) -> dict[str, float]:
-    """Loads, and at the crank what drives with a steady torque, where the crank is not the input that stays."""
+    """Add the steady driving torque at the crank to the loads, if the crank is not a prescribed input."""
     torque = None if case.drive is None else case.drive.steady_torque
+    # a torque on a prescribed input does no virtual work
     if torque is None or train.crank is None or train.crank in case.inputs:
         return loads
     way = -1 if speeds[train.crank] < 0 else 1
@@ -356,18 +373,22 @@ def loads_with_drive(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """True if a link that is no input keeps the input turning: one that drives with a torque of its own does not."""
+    """Return whether a link other than the input keeps the input turning; a link driven by a steady torque does not."""
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
 
 def torques_have_units(train: Train, case: StateCase) -> bool:
-    """True if every torque that acts in one state has a unit."""
+    """Return whether every torque that acts in one state has a unit."""
     return not any(_is_plain(torque) for torques in _torques(train, case) for torque in torques.values())
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Loads and friction of bearings, by link; loads on inputs do no work when pairs give way, unless a crank does."""
+    """Return loads and bearing friction by link.
+
+    Loads on inputs do no virtual work unless a crank drives, so they are left out.
+    """
+    # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}
     loads = {link: torque for link, torque in case.loads.items() if link not in still}
     bearings = ((link, part.bearing) for link, part in train.links.items() if link != train.frame)

@@ -1,8 +1,8 @@
-"""The moment of inertia of every link, and where each is from: declared, or the plates that its wheels are cut from.
+"""Moments of inertia of links, declared or computed from the plates that their wheels are cut from.
 
-A wheel of density rho and thickness t has I = rho t (integral of r^2 dA) over its outline, exactly by Green's theorem,
-its teeth those that are drawn and cut; it is a plate without spokes. A planet of mass m whose axis is r from that of
-its carrier adds m r^2 to it; its own inertia counts about its own axis.
+A wheel of density rho and thickness t has I = rho t (integral of r^2 dA) over its outline, exactly by Green's theorem.
+The outline has the teeth that are drawn and cut, and the wheel is a plate without spokes. A planet of mass m at a
+distance r from its carrier's axis adds m r^2 to the carrier; its own inertia counts about its own axis.
 """
 
 from __future__ import annotations
@@ -24,34 +24,37 @@ _MILLIMETRES = 1e-3
 
 @dataclass(frozen=True)
 class LinkInertia(Result):
-    """The moment of inertia of a link, and where it is from.
+    """Moment of inertia of a link, with its source.
 
     See Also
     --------
-    find_link_inertias : what gives these.
+    find_link_inertias : Returns such objects.
     """
 
     link: str
-    """The link."""
+    """Name of the link."""
     value: float
-    """About its own axis [kg m^2], what it takes round with it included; 0 where nothing is known."""
+    """Moment of inertia about its own axis [kg m^2], including the planets that it carries round; 0 if unknown."""
     source: Literal["declared", "outlines", "unknown"]
-    """Where its own is from."""
+    """Source of the link's own inertia."""
     carried: float = 0.0
-    """What of it planets add by their masses [kg m^2]."""
+    """Contribution of the masses of planets [kg m^2]."""
     missing: tuple[str, ...] = ()
-    """Why it is not known, or what of it is not."""
+    """Reasons why the inertia, or a part of it, is not known."""
 
 
 class PlateMoments(NamedTuple):
-    """Mass (kg) and moment of inertia (kg m2) of a plate."""
+    """Mass [kg] and moment of inertia [kg m2] of a plate."""
 
     mass: float
     inertia: float
 
 
 def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: float) -> PlateMoments:
-    """Of a wheel of some module and thickness (m) and density (kg/m3), all of it solid but the holes of its pins."""
+    """Compute the moments of a wheel of some module and thickness [m] and density [kg/m3], solid except for its pin
+    holes.
+    """
+    # moments are signed by the orientation of the contour
     outer, *holes = (contour.moments() for contour in teeth.contours(module / _MILLIMETRES))
     area = abs(outer[0]) - sum(abs(hole[0]) for hole in holes)
     polar = abs(outer[1]) - sum(abs(hole[1]) for hole in holes)
@@ -62,21 +65,21 @@ def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: f
 def find_link_inertias(
     train: TrainMechanics, state: str | None = None, with_inputs: bool = False
 ) -> tuple[LinkInertia, ...]:
-    """The moment of inertia of every link that moves and whose motion is not prescribed, and where each is from.
+    """Return the moment of inertia of every link that moves and whose motion is not prescribed, with its source.
 
     Parameters
     ----------
     train : TrainMechanics
         `GearTrain.mechanics`.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state; None only for a train that has no states.
     with_inputs : bool
-        Those of the inputs too, as where a torque or a weight drives them.
+        Include the inputs, for example if a torque or a weight drives them.
 
     Returns
     -------
     tuple of LinkInertia
-        In the order of the declaration (docs/dynamics.md, section 1).
+        Inertias in the order of the declaration (docs/dynamics.md, section 1).
 
     Examples
     --------
@@ -95,22 +98,23 @@ def find_link_inertias(
     >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in found]
     [('b', 'outlines', 2.2e-05)]
     """
+    # equal planets share the load, and their masses add
     train = train.planets_as_one
     declared, case = train.declaration, train.kinematics.case(state)
     prescribed = {declared.frame, *case.fixed} | (set() if with_inputs else set(case.inputs))
     bodies = _Bodies(train)
-    return tuple(bodies.whole(link) for link in declared.links if link not in prescribed)
+    return tuple(bodies.total_inertia(link) for link in declared.links if link not in prescribed)
 
 
 class _Bodies:
-    """The links of a train as bodies."""
+    """Links of a train as rigid bodies."""
 
     def __init__(self, train: TrainMechanics) -> None:
         self.train, self.declared = train, train.declaration
 
-    def whole(self, link: str) -> LinkInertia:
-        """With the planets that it takes round."""
-        own = self._own(link)
+    def total_inertia(self, link: str) -> LinkInertia:
+        """Return the inertia of a link including the planets that it carries round."""
+        own = self._own_inertia(link)
         tree, missing = self.train.tree, list(own.missing)
         carried = 0.0
         for planet in self.declared.links:
@@ -119,18 +123,18 @@ class _Bodies:
             mass, radius = self._mass(planet), self._orbit(link, planet)
             if mass is None or radius is None:
                 what = "mass" if mass is None else "distance from its axis"
-                missing.append(f"the {what} of '{planet}', which it takes round, is not known")
+                missing.append(f"the {what} of '{planet}', which it carries, is not known")
             else:
                 carried += mass * radius**2
         return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
 
-    def _own(self, link: str) -> LinkInertia:
+    def _own_inertia(self, link: str) -> LinkInertia:
         part = self.declared.links[link]
         if part.inertia is not None:
             return LinkInertia(link, part.inertia.si, "declared")
         plates, missing = self._plates(link)
         if missing or not plates:
-            return LinkInertia(link, 0.0, "unknown", missing=missing or ("it has no wheels, and no `inertia`",))
+            return LinkInertia(link, 0.0, "unknown", missing=missing or ("it has neither wheels nor an `inertia`",))
         return LinkInertia(link, sum(plate.inertia for plate in plates), "outlines")
 
     def _mass(self, link: str) -> float | None:
@@ -141,7 +145,7 @@ class _Bodies:
         return None if missing or not plates else sum(plate.mass for plate in plates)
 
     def _plates(self, link: str) -> tuple[Sequence[PlateMoments], tuple[str, ...]]:
-        """Of all its wheels, or what is not known of them."""
+        """Return the moments of all wheels of a link, and what is missing for them."""
         plates, missing = [], []
         for name, wheel in self.declared.links[link].wheels.items():
             thickness = wheel.thickness or self.declared.thickness
@@ -151,34 +155,39 @@ class _Bodies:
             if lacking or thickness is None or density is None:
                 missing.append(f"wheel '{name}' has no {', no '.join(lacking)}")
             elif wheel.internal:
-                missing.append(f"wheel '{name}' is a ring, and nothing says how broad its rim is")
+                missing.append(f"wheel '{name}' is a ring, and the width of its rim is not known")
             elif name not in self.teeth:
-                missing.append(f"wheel '{name}' has no flat outline")
+                missing.append(f"wheel '{name}' has no planar outline")
             else:
                 plates.append(plate_moments(self.teeth[name], self.modules[name], thickness.si, density.si))
         return plates, tuple(missing)
 
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Transverse modules (m) by wheel."""
+        """Transverse modules by wheel [m]."""
         return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """The teeth of all wheels that lie in a plane."""
+        """Teeth of all planar wheels."""
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Distance (m) of a planet's axis from its carrier's: that of a pair with a wheel about the carrier's axis."""
+        """Return the distance [m] of a planet's axis from its carrier's axis.
+
+        It is the centre distance of a pair of the planet and a wheel about the carrier's axis; None if there is none.
+        """
         from geartrain.dynamics.gear_meshes import find_sizes
 
         tree = self.train.tree
         for circuit in self.train.circuits:
+            # only a gear pair on this carrier fixes the distance of the planet's axis
             ends = (circuit.i, circuit.j)
             if circuit.kind != "gear" or circuit.carrier != carrier or planet not in ends:
                 continue
             other = ends[1 - ends.index(planet)]
             module = self.modules.get(circuit.wheels[0])
+            # the mate must turn about the carrier's own axis
             if module is None or tree.axis_seen_from(carrier, other) != tree.axis(carrier):
                 continue
             sizes = find_sizes(mesh for mesh in self.train.meshes if mesh.name == circuit.id)
@@ -186,5 +195,6 @@ class _Bodies:
                 return sizes[circuit.id].distance * module
             first, second = (self.declared.wheels[wheel][1] for wheel in circuit.wheels)
             z1, z2 = first.count or 0, second.count or 0
+            # centre distance of standard gears without profile shift
             return module * (abs(z1 - z2) if first.internal or second.internal else z1 + z2) / 2
         return None

@@ -1,12 +1,12 @@
-"""Transmission functions as tables that a kernel reads: polynomials on cells, cut where the law has corners.
+"""Transmission functions as tables for the kernels: polynomials on cells, cut at the kinks of the function.
 
-A blow is a jump of the speed ratio, and a table read across one makes it many small blows that lose less. So cells end
-at `transmission.kinks()`, and each side of a corner follows that side alone. Angle and speed ratio come from one
-polynomial
-and its derivative: what holds the gap of two flanks closed is then the gradient of that gap to the last digit.
+An impact is a jump of the speed ratio. A table interpolated across a jump would replace it by many small impacts that
+lose less energy. Therefore cells end at `transmission.kinks()`, and each side of a kink follows only that side. Angle
+and speed ratio come from one polynomial and its derivative, so the constraint that keeps two flanks in contact is the
+exact gradient of their gap.
 
-Motion, which asks one law at many angles at once, reads error and speed from a table each
-(`teeth.transmission_table`); here one angle is asked of many laws in turn.
+`Motion`, which evaluates one function at many angles at once, uses separate tables of error and speed
+(`teeth.transmission_table`). The kernels evaluate many functions in turn at one angle.
 """
 
 from __future__ import annotations
@@ -24,50 +24,51 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
     from geartrain.teeth.transmission import TransmissionFunction
 
-TOLERANCE = 1e-10  # of a driven pitch: the rounding of angles after a thousand turns
-_SAME = 1e-6  # of the mean ratio: a smaller jump is a kink
+TOLERANCE = 1e-10  # driven pitches; the rounding of angles after a thousand revolutions
+_SAME = 1e-6  # relative to the mean ratio: a smaller jump of the speed ratio does not cause an impact
 
 
 class PairTables(NamedTuple):
-    """Periodic functions of a driver's angle, one after another."""
+    """Periodic functions of a driver's angle, concatenated."""
 
     period: Floats
-    """Of each function: it is slope S + a periodic part (slope 0 where it is no angle)."""
+    """Period of each function [rad]."""
     slope: Floats
-    """Of each function: it is slope S + a periodic part (slope 0 where it is no angle)."""
+    """Mean slope of each function, which is slope S + a periodic part (slope 0 if it is not an angle)."""
     cells: Ints
-    """Uniform cells in a period; `start`, the first of them in `first`."""
+    """Number of uniform cells in a period; `start` is the index of a function's first cell in `first`."""
     start: Ints
     first: Ints
-    """The piece in which each uniform cell begins; pieces lie in order."""
+    """Piece in which each uniform cell begins; pieces are in order."""
     ends: Floats
-    """Of the pieces (rad behind the start of the period); the last end of a function is infinite."""
+    """Ends of the pieces [rad from the start of the period]; the last end of a function is infinite."""
     middles: Floats
-    """Of the pieces (rad behind the start of the period); the last end of a function is infinite."""
+    """Middles of the pieces [rad from the start of the period]."""
     coefficients: Floats
-    """Of the pieces about their middles, (pieces, DEGREE + 1)."""
+    """Polynomial coefficients of the pieces about their middles. Shape (pieces, DEGREE + 1)."""
     jump: Floats
-    """Least jump of the derivative at a corner; infinite where there is none."""
+    """Minimum jump of the derivative at a kink; infinite if there is none."""
 
 
 class TabledFunction(NamedTuple):
-    """One function for `PairTables`."""
+    """Tabulated function for `PairTables`."""
 
     slope: float
     table: CellTable
     jump: float
 
     def __call__(self, S: Floats) -> Floats:
-        """The function at driver's angles (rad)."""
+        """Evaluate the function at driver's angles [rad]."""
         found: Floats = self.slope * S + self.table(S)
         return found
 
 
 def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANCE) -> TabledFunction:
-    """The driven angle q(S) of a law, whose derivative is its speed ratio."""
+    """Tabulate the driven angle q(S) of a transmission function, whose derivative is its speed ratio."""
     ratio = float(transmission.ratio)
     cuts = folded_kinks(transmission)
     table = fit(transmission.error, transmission.period, cuts, tolerance * (ratio or 1.0) * transmission.period)
+    # both sides of a kink, beyond the rounding of its position
     away = 1e-9 * transmission.period
     jumps = np.abs(transmission.speed(cuts + away) - transmission.speed(cuts - away))
     minimum = np.min(jumps[jumps > _SAME * (ratio or 1.0)], initial=inf)
@@ -77,12 +78,14 @@ def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANC
 def tabled_function(
     function: Callable[[Floats], Floats], transmission: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
-    """A function of the driver's angle that has the corners of a law, such as what its friction adds to an arm."""
+    """Tabulate a function of the driver's angle that has the kinks of a transmission function, such as a
+    friction term.
+    """
     return TabledFunction(0.0, fit(function, transmission.period, folded_kinks(transmission), tolerance), inf)
 
 
 def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
-    """Functions in the arrays that kernels read; a function's number is its place in the sequence."""
+    """Join functions to the arrays of the kernels; a function's number is its index in the sequence."""
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
     for each in functions:
@@ -112,14 +115,16 @@ def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
 
 @kernel
 def value_and_slope(transmissions: PairTables, which: int, S: float) -> tuple[float, float]:
-    """A function and its derivative at a driver's angle (rad)."""
+    """Evaluate a function and its derivative at a driver's angle [rad]."""
     period = transmissions.period[which]
     u = S - floor(S / period) * period
-    if not 0.0 <= u < period:  # rounded up to it, or so far that no digit is left, or no number
+    if not 0.0 <= u < period:  # rounded up to the period, beyond the resolution of floats, or NaN
         u = 0.0
     cell = int(u * transmissions.cells[which] / period)
+    # rounding of the quotient may reach the number of cells
     cell = min(cell, transmissions.cells[which] - 1)
     piece = transmissions.first[transmissions.start[which] + cell]
+    # a uniform cell may contain several pieces, because kinks cut it
     while u >= transmissions.ends[piece]:
         piece += 1
     x = u - transmissions.middles[piece]

@@ -1,8 +1,8 @@
-"""What friction adds to the driver's arm of a pair: T_1 = (tau + more) T_2, docs/dynamics.md (10).
+"""Friction terms of the driver's lever arm of a pair: T_1 = (tau + more) T_2, docs/dynamics.md (10).
 
-Four cases of flank and turning. On one flank the sliding changes its sign with the turning, so that what passes
-eta(f) = (1 + f out)/(1 + f into) of its power forwards asks tau/eta(f) of the driver, and tau/eta(-f) backwards,
-whichever wheel puts the power in.
+There are four cases of flank and sense of rotation. On one flank the sliding velocity changes its sign with the sense
+of rotation. A contact that transmits the fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards requires
+tau/eta(f) of the driver, and tau/eta(-f) backwards, whichever wheel is the power input.
 """
 
 from __future__ import annotations
@@ -27,24 +27,25 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
     from geartrain.train.mechanism import GearPair
 
-_ROUGH = 1e-4  # of what friction adds, where it is read between nodes
+_ROUGH = 1e-4  # relative tolerance of friction terms that are interpolated between nodes
 Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
-"""Of the drive flank turning forward and back, and of the coast flank turning forward and back."""
+"""Tables of the drive flank turning forward and back, then of the coast flank turning forward and back."""
 
 
 def tooth_arms(mesh: GearMesh) -> Arms | None:
-    """What friction adds to the arm of a driver of teeth; None where nothing says that they rub."""
+    """Return the friction terms of the driver's arm of toothed wheels; None if no friction is known."""
     ahead, back = drive_flank_arms(mesh), _flank_arms(mesh, mesh.coast)
+    # the coast flank drives in the opposite sense, so its terms are swapped
     return None if ahead is None or back is None else (ahead[0], ahead[1], back[1], back[0])
 
 
 def drive_flank_arms(mesh: GearMesh) -> tuple[TabledFunction, TabledFunction] | None:
-    """The same of the drive flank alone, turning forward and back."""
+    """Return the friction terms on the drive flank only, turning forward and back."""
     return _flank_arms(mesh, mesh.transmission)
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Of one flank, turning the way in which it was made to drive, and the other way."""
+    """Return the friction terms on one flank, turning in its driving sense and in the opposite sense."""
     if not mesh.tells_losses or not mesh.rubs:
         return None
     losses = mesh.losses
@@ -56,9 +57,9 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
         nodes = transmission.rubbing_nodes()
         if nodes is None:
             return tabled_function(partial(_at_angles, transmission, coefficient, way, mesh.label), transmission)
-        # laws that would be slow to ask elsewhere are read between the nodes at which they know how teeth rub
+        # functions that are slow to evaluate are interpolated between the nodes at which their sliding is known
         S = np.mod(nodes[0], transmission.period)
-        more = _more_by_teeth(transmission.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
+        more = _friction_term(transmission.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
         return tabled_function(lambda at: np.interp(at, S, more, period=transmission.period), transmission, _ROUGH)
 
     return table(1), table(-1)
@@ -67,30 +68,35 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
 def _at_angles(
     transmission: TransmissionFunction, coefficient: Callable[[Floats], Floats | float], way: int, label: str, S: Floats
 ) -> Floats:
-    return _more_by_teeth(transmission.speed(S), transmission.rubbing(S), coefficient, way, label)
+    return _friction_term(transmission.speed(S), transmission.rubbing(S), coefficient, way, label)
 
 
-def _more_by_teeth(
+def _friction_term(
     tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
 ) -> Floats:
-    """tau (1/eta - 1) at driver angles; 0 in a standstill, where nothing rubs. `way` -1 reverses the sliding."""
+    """Return the friction term tau (1/eta - 1) at driver angles; 0 in a dwell, where nothing slides.
+
+    `way` -1 reverses the sliding. Raises `GearTrainError` if friction locks the teeth.
+    """
     sliding, into, out = rubbing
+    # NaN marks tooth pairs that do not touch at this angle
     touching = ~np.isnan(out)
     f = way * np.asarray(coefficient(sliding))
     with np.errstate(invalid="ignore", divide="ignore"):
         passed = np.where(touching, (1 + f * out) / (1 + f * into), 0.0).sum(axis=0) / touching.sum(axis=0)
     if (passed[touching.any(axis=0)] <= 0).any():
-        why = "friction locks its teeth at some angle, so that no torque of the one wheel moves the other"
-        raise GearTrainError(Problem(f"{label} cannot be stepped through time", why, "give it less friction"))
+        why = "friction locks its teeth at some angle: no torque of the driver moves the driven wheel"
+        raise GearTrainError(Problem(f"{label} cannot be simulated in time", why, "declare a lower `friction`"))
     return np.where(touching.any(axis=0), tau * (1 / np.where(passed > 0, passed, 1.0) - 1), 0.0)
 
 
 def separate_rubbing(
     moving: MotionProblem, gears: Sequence[GearPair] = ()
 ) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
-    """Drive flanks that rub, of teeth that do not keep their ratio, and all other pairs and pins that lose, by name.
+    """Return drive flanks whose friction is modelled, and the names of other pairs and pins with losses.
 
-    Teeth that friction locks somewhere are among the others, and gears with a declared efficiency.
+    Modelled are teeth with a variable ratio. Teeth that friction locks at some angle are among the others, as are gears
+    with a declared efficiency.
     """
     found: dict[str, FlankArms] = {}
     left = []
@@ -111,11 +117,14 @@ def separate_rubbing(
 
 
 def pin_arms(transmission: PinTransmission) -> Arms | None:
-    """The same for a pin that drives a slot: (r/rho) f |sin d|, with the sign of slot torque and turning."""
+    """Return the friction terms of a pin that drives a slot: (r/rho) f |sin d|, signed by slot torque and sense of
+    rotation.
+    """
     if not transmission.friction:
         return None
 
     def more(S: Floats) -> Floats:
+        # r^2 + e^2 - 2 r e cos S in a form without cancellation
         half = np.sin(S / 2)
         square = (transmission.r - transmission.e) ** 2 + 4 * transmission.r * transmission.e * half**2
         return np.asarray(transmission.r * transmission.friction * transmission.e * np.abs(np.sin(S)) / square)
@@ -124,17 +133,21 @@ def pin_arms(transmission: PinTransmission) -> Arms | None:
     return plus, minus, minus, plus
 
 
-def even_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
-    """The same for a pair that keeps its ratio and passes a declared part of its power, by the wheel that drives."""
+def constant_ratio_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
+    """Return the friction terms of a pair with constant ratio and a declared efficiency for either driving wheel.
+
+    None means that the pair has no loss. Raises `GearTrainError` if the pair is self-locking forwards.
+    """
     if forward == 1 and backward == 1:
         return None
     if forward <= 0:
-        why = f"its efficiency is {forward:g} with the wheel driving that drives here"
-        raise GearTrainError(Problem(f"{label} cannot be stepped through time", why, "give an efficiency above 0"))
+        why = f"its efficiency is {forward:g} in the direction of the power flow, so it locks"
+        raise GearTrainError(Problem(f"{label} cannot be simulated in time", why, "declare an `efficiency` above 0"))
     ratio = float(transmission.ratio)
 
     def constant(value: float) -> TabledFunction:
         return tabled_function(lambda S: np.full(np.shape(S), value), transmission)
 
+    # backwards the driven wheel drives, so losses reduce its torque on the driver
     ahead, back = constant(ratio * (1 / forward - 1)), constant(ratio * (max(backward, 0.0) - 1))
     return ahead, back, back, ahead

@@ -1,7 +1,8 @@
-"""The rate of the input at which teeth first part, searched over all positions with their corners and jumps.
+"""Rate of the input at which teeth first separate, searched over all positions including kinks and jumps.
 
-Between corners of laws what each pair must carry is smooth: every stretch is sampled, its ends on their own sides of
-their corners, and the best stretches are searched ever finer. Where a speed jumps, the sign of the blow decides.
+Between kinks of the transmission functions, the torque that each pair must carry is smooth. Every interval is sampled,
+with its ends on their own sides of the kinks, and the best intervals are refined. Where a speed jumps, the sign of the
+impulse decides.
 """
 
 from __future__ import annotations
@@ -29,39 +30,39 @@ if TYPE_CHECKING:
     from geartrain.simulation.contacts.link_inertia import LinkInertia
 
 
-_INSIDE = 1e-9  # of a stretch: its ends are asked so far within it, on its own side of a corner
-_SAMPLES = 9  # positions of a stretch at first
-_BEST = 12  # stretches of each pair that are searched further
-_ZOOMS = 9  # of which each narrows what is searched to a quarter
-_NARROW = 1e-12  # turns: a stretch between two corners at one place is none
-_PLACES = 8  # of turns: positions on both sides of a corner are told as one
-_MOST_KINKS = 80_000  # times pairs, searched by default: some seconds
+_INSIDE = 1e-9  # fraction of an interval: its ends are evaluated this far inside, on its own side of a kink
+_SAMPLES = 9  # initial number of positions in an interval
+_BEST = 12  # intervals of each pair that are refined
+_ZOOMS = 9  # refinements; each one reduces the searched width to a quarter
+_NARROW = 1e-12  # revolutions: a shorter interval lies between two kinks at one position and is skipped
+_PLACES = 8  # decimals of reported positions, so that both sides of a kink are printed alike
+_MOST_KINKS = 80_000  # maximum product of kinks and pairs by default; takes some seconds
 
 
 def find_separation(
     train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
 ) -> SeparationRates:
-    """The rates of the input at which flanks first part, by pair: `motion` does not apply above the lowest.
+    """Find the rates of the input at which flanks first separate, by pair; `motion` is valid below the lowest.
 
-    Inertia, loads, a weight or a torque that drives, friction of bearings and of teeth that do not keep their ratio,
-    viscous drag, and impacts where speeds jump are included (docs/dynamics.md, section 3).
+    Inertia, loads, a driving weight or torque, friction of bearings and of teeth with a variable ratio, viscous drag,
+    and impacts at speed jumps are included (docs/dynamics.md, section 3).
 
     Parameters
     ----------
     train : TrainMechanics
         `GearTrain.mechanics`.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state; None only for a train that has no states.
     without : sequence of str
-        Pairs left out, as of `motion`.
+        Names of pairs that are left out, as for `motion`.
     turns : float, optional
-        Turns of the input that are searched [turn]; by default all after which everything repeats, or fewer where
-        these are very many.
+        Searched range of the input [turn]; by default one full period of the train, or less if a period is very
+        long.
 
     Returns
     -------
     SeparationRates
-        With the pair that parts first.
+        Rates by pair, the lowest first.
 
     Raises
     ------
@@ -99,7 +100,7 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """True if `find_separation` has an answer: a link behind the input has an inertia, and torques have units."""
+    """Return whether `find_separation` has a result: a link behind the input has an inertia, and torques have units."""
     declared = train.declaration
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
@@ -109,21 +110,21 @@ def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
 
 
 def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mapping[str, ToothImpact]:
-    """Power lost in collisions of triangular teeth by pair (docs/motion.md, equation 7).
+    """Compute the power lost in collisions of triangular teeth by pair (docs/motion.md, equation 7).
 
-    Empty unless inertias and a rate are declared.
+    The result is empty unless inertias and a rate are declared.
 
     Parameters
     ----------
     train : TrainMechanics
         `GearTrain.mechanics`.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state; None only for a train that has no states.
 
     Returns
     -------
     mapping of str to ToothImpact
-        By pair.
+        Impacts by pair.
 
     Examples
     --------
@@ -154,32 +155,32 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
 
 @dataclass(frozen=True)
 class PairSeparation(Result):
-    """From what rate of the input on the teeth of a pair, or a pin and its slot, part.
+    """Rate of the input above which the teeth of a pair, or a pin and its slot, separate.
 
     See Also
     --------
-    SeparationRates : holds one of each pair
+    SeparationRates : Contains one such object for each pair.
     """
 
     KEYS = ("pair", "rate", "at", "leap")
 
     pair: str
-    """The pair or coupling."""
+    """Name of the pair or coupling."""
     rate: float | None
-    """Of the input [turn/s]; 0 where they part at any rate; None where they part at none."""
+    """Rate of the input [turn/s]; 0 if they separate at any rate; None if they never separate."""
     at: float
-    """Turns of the input at which they do so first."""
+    """Position of the input at which they first separate [turn]."""
     leap: bool = False
-    """True if a speed jumps there, so that the blow would have to pull."""
+    """True if a speed jumps there so that the impulse would be tensile."""
 
 
 @dataclass(frozen=True)
 class SeparationRates(Result):
-    """At what rates of the input the flanks of a train first part: while it is slower, `motion` holds.
+    """Rates of the input at which the flanks of a train first separate; `motion` is valid below the lowest.
 
     See Also
     --------
-    geartrain.simulation.find_separation : gives these.
+    geartrain.simulation.find_separation : Returns such an object.
     """
 
     PAGE = "simulation.contacts.separation_rate:separation_document"
@@ -187,43 +188,43 @@ class SeparationRates(Result):
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
-    """As it was named."""
+    """Name of the state as given."""
     input: str
-    """The link whose rate it is."""
+    """Link whose rate it is."""
     turns: float
-    """Turns of it that were searched."""
+    """Searched range of the input [turn]."""
     complete: bool
-    """True if everything repeats after them."""
+    """True if the searched range is a full period of the train."""
     pairs: tuple[PairSeparation, ...]
-    """The pair that parts first before the others."""
+    """Results by pair, in ascending order of the rate."""
     inertias: tuple[LinkInertia, ...]
-    """What was counted with."""
+    """Moments of inertia that were used."""
     uncounted: tuple[str, ...] = ()
-    """Pairs and pins whose friction is not counted: those that keep their ratio, and pins."""
+    """Pairs and pins whose friction is not included: those with a constant ratio, and pins."""
 
     @property
     def first(self) -> PairSeparation | None:
-        """The pair that parts first; None where none does."""
+        """Pair that separates first; None if none does."""
         return self.pairs[0] if self.pairs and self.pairs[0].rate is not None else None
 
     @property
     def rate(self) -> float | None:
-        """Rate of the input [turn/s] up to which all flanks touch; None where they part at none."""
+        """Rate of the input [turn/s] up to which all flanks touch; None if they never separate."""
         return None if self.first is None else self.first.rate
 
     @property
     def pair(self) -> str | None:
-        """The pair that parts first."""
+        """Name of the pair that separates first."""
         return None if self.first is None else self.first.pair
 
     @property
     def unknown(self) -> tuple[str, ...]:
-        """Links that turn and have no inertia here."""
+        """Links that turn and whose inertia is unknown."""
         return tuple(each.link for each in self.inertias if each.source == "unknown")
 
     def _summary(self) -> str:
         first = "never" if self.first is None else f"from {self.first.rate:.5g} turn/s of {self.input} at {self.pair}"
-        return f"teeth part {first}, {len(self.pairs)} pairs"
+        return f"teeth separate {first}, {len(self.pairs)} pairs"
 
 
 def separation_document(found: SeparationRates) -> Document:
@@ -234,27 +235,27 @@ def separation_document(found: SeparationRates) -> Document:
 
 
 def separation_section(found: SeparationRates) -> Section:
-    """The rate of each pair."""
+    """Return a section of a report with the rate of each pair."""
     from geartrain.report.document import Section, Table
 
     rows = [(each.pair, *separation_words(each)) for each in found.pairs]
-    header = ("pair", f"parts from (turn/s of {found.input})", f"at (turns of {found.input})")
-    return Section("Up to which rate it holds", tuple(separation_text(found)), (Table(header, rows),))
+    header = ("pair", f"separates from (turn/s of {found.input})", f"at (turns of {found.input})")
+    return Section("Separation rate", tuple(separation_text(found)), (Table(header, rows),))
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Which pair parts first and when, what was searched, and which inertias are not known."""
+    """Yield sentences on the first separation, the searched range, and unknown inertias."""
     yield _first_separation(found)
     if found.uncounted:
-        yield f"Friction not counted: that of {', '.join(found.uncounted)}."
+        yield f"Friction not included: {', '.join(found.uncounted)}."
     if not found.complete:
-        yield f"Searched were {found.turns:.6g} turns of '{found.input}', not all after which everything repeats."
+        yield f"The search covered {found.turns:.6g} turns of '{found.input}', which is not a full period."
     if found.unknown:
-        yield f"Counted without inertia, for none is known: {', '.join(found.unknown)}."
+        yield f"Links of unknown inertia, taken as 0: {', '.join(found.unknown)}."
 
 
 def separation_words(pair: PairSeparation) -> tuple[str, str]:
-    """From what rate on a pair parts, and at what position, in words."""
+    """Return the rate above which a pair separates, and the position, as text."""
     if pair.rate is None:
         return "never", "-"
     return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
@@ -263,18 +264,18 @@ def separation_words(pair: PairSeparation) -> tuple[str, str]:
 def _first_separation(found: SeparationRates) -> str:
     first = found.first
     if first is None:
-        return f"No teeth part, at whatever rate '{found.input}' turns."
+        return f"No teeth separate at any rate of '{found.input}'."
     where = f"after {separation_words(first)[1]} turns of '{found.input}'"
     if first.leap:
-        return f"Teeth of {first.pair} part at any rate: {where} a speed falls at once, and nothing pulls."
+        return f"Teeth of {first.pair} separate at any rate: {where} a speed drops abruptly, and flanks cannot pull."
     if not first.rate:
         return (
-            f"Teeth of {first.pair} part at any rate, first {where}: neither load nor friction of bearings holds them "
-            "together there."
+            f"Teeth of {first.pair} separate at any rate, first {where}: neither load nor bearing friction keeps them "
+            "in contact."
         )
     return (
-        f"Holds up to {first.rate:.5g} turn/s of '{found.input}': from there on the teeth of {first.pair} part, "
-        f"{where}, for what they drive runs ahead."
+        f"The motion is valid up to {first.rate:.5g} turn/s of '{found.input}': above this rate the teeth of "
+        f"{first.pair} separate, first {where}, because the driven side runs ahead."
     )
 
 
@@ -284,20 +285,21 @@ def _first_separation(found: SeparationRates) -> str:
 def find_separation_rates(
     contacts: InertialContacts, inertias: Sequence[LinkInertia], state: str | None, turns: float | None = None
 ) -> SeparationRates:
-    """Rates over the train's period, or over fewer turns where that has too many corners to contacts."""
+    """Compute the rates over the train's period, or over fewer revolutions if a period has too many kinks."""
     period = contacts.motion.period
+    # without a common period one revolution is searched
     whole = 1.0 if period is None else float(period)
     if turns is None:
         kinks = KinkSearch(contacts.motion._forward).rate
         most = max(1.0, _MOST_KINKS / max(1, len(contacts.pairs)))
         turns = whole if kinks * whole <= most else most / kinks
     found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)
-                  for each in find_partings(contacts, turns))  # fmt: skip
+                  for each in find_pair_separations(contacts, turns))  # fmt: skip
     return SeparationRates(state, contacts.moving.driving_link, turns, turns >= whole, found, tuple(inertias))
 
 
-class Parting(NamedTuple):
-    """A pair parts from a rate (rad/s of the input) on, at a position (turns); `leap` where a speed jumps there."""
+class Separation(NamedTuple):
+    """Separation of a pair above a rate [rad/s] at a position [revolutions]; `leap` if a speed jumps there."""
 
     pair: str
     rate: float
@@ -305,31 +307,32 @@ class Parting(NamedTuple):
     leap: bool
 
 
-def find_partings(contacts: InertialContacts, turns: float) -> tuple[Parting, ...]:
-    """Of each pair the rate from which it parts somewhere in so many turns of the input, least first."""
+def find_pair_separations(contacts: InertialContacts, turns: float) -> tuple[Separation, ...]:
+    """Find the minimum rate at which each pair separates in a range of the input [revolutions], in ascending order."""
     kinks = contacts.motion.kink_positions(0.0, turns).turns
     ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
     low, high = ends[:-1], ends[1:]
     wide = high - low > _NARROW * max(1.0, turns)
     low, high = low[wide], high[wide]
+    # Chebyshev nodes: denser at the ends, where the rate is often lowest
     shares = _INSIDE + (1 - 2 * _INSIDE) * (1 - np.cos(np.pi * np.arange(_SAMPLES) / (_SAMPLES - 1))) / 2
     at = low[:, None] + (high - low)[:, None] * shares
     rates = contacts.rates(at.ravel()).reshape(len(contacts.pairs), *at.shape)
     found = _minimum(contacts, at, rates)
-    leaping = _leaps(contacts, kinks, float((high - low).min(initial=turns)))
+    leaping = _jump_separations(contacts, kinks, float((high - low).min(initial=turns)))
     partings = [leaping.get(pair, each) for pair, each in enumerate(found)]
     return tuple(sorted(partings, key=lambda each: (each.rate, each.pair)))
 
 
-def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Parting]:
-    """The least rate of each pair: its best stretches searched further, by ever finer samples about the best.
+def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Separation]:
+    """Find the minimum rate of each pair by refining its best intervals with ever finer samples.
 
-    at      positions, (stretches, samples); `rates` of all pairs there
+    at      positions, (intervals, samples); `rates` of all pairs there
     """
     count = len(contacts.pairs)
     best = np.argsort(rates.min(axis=2), axis=1, kind="stable")[:, :_BEST]
     at, rates = at[best], np.take_along_axis(rates, best[:, :, None], axis=1)
-    found = [Parting(name, inf, 0.0, False) for name in contacts.pairs]
+    found = [Separation(name, inf, 0.0, False) for name in contacts.pairs]
     own, shares = np.arange(count), np.arange(_SAMPLES) / (_SAMPLES - 1)
     for zoom in range(_ZOOMS + 1):
         where = rates.argmin(axis=2)[:, :, None]
@@ -338,6 +341,7 @@ def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Part
             if minimum[pair, row] < found[pair].rate:
                 found[pair] = found[pair]._replace(rate=float(minimum[pair, row]), turns=float(place[pair, row]))
         if zoom < _ZOOMS:
+            # the interval between the neighbours of the best sample
             left, right = (np.take_along_axis(at, np.clip(where + step, 0, _SAMPLES - 1), axis=2) for step in (-1, 1))
             at = left + (right - left) * shares
             # each pair at its own positions
@@ -345,19 +349,20 @@ def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Part
     return found
 
 
-def _leaps(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, Parting]:
-    """Pairs that part at any rate, because a speed jumps so that their blow would have to pull."""
+def _jump_separations(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, Separation]:
+    """Return the pairs that separate at any rate, because a speed jumps so that their impulse would be tensile."""
     if not len(kinks):
         return {}
     impulses = contacts.impulses(kinks, _INSIDE * max(narrowest, 1e-6))
+    # rounding must not make an impulse negative
     tolerance = 1e-9 * np.abs(impulses).max(axis=1, keepdims=True, initial=0.0)
     found = {}
     for pair, row in enumerate(impulses < -tolerance):
         if row.any():
-            found[pair] = Parting(contacts.pairs[pair], 0.0, float(kinks[row.argmax()]), True)
+            found[pair] = Separation(contacts.pairs[pair], 0.0, float(kinks[row.argmax()]), True)
     return found
 
 
 def _in_turns(rate: float) -> float | None:
-    """Turns a second of a rate in rad/s; None where it is infinite."""
+    """Convert a rate from rad/s to revolutions per second; None if it is infinite."""
     return None if rate == inf else rate / tau

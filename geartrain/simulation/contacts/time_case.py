@@ -1,4 +1,4 @@
-"""What motion in time needs beside the motion itself: inertia, drag, restitution, what drives. SI units."""
+"""Data of a simulation in time besides the kinematics: inertia, drag, restitution, and the drive. All in SI units."""
 
 from __future__ import annotations
 
@@ -18,52 +18,52 @@ if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
     from geartrain.train import Drive, StateCase, Train
 
-_EQUAL = 1e-9  # of a speed: rounding of decimals in which it is given
+_EQUAL = 1e-9  # relative tolerance of a speed given in rounded decimals
 
 
 @dataclass(frozen=True)
 class PowerInput:
-    """What keeps a train going."""
+    """Drive of a train."""
 
     link: str
-    """Where it acts."""
+    """Link on which it acts."""
     kind: Literal["rate", "torque", "spring", "hand"]
     rate: float = 0.0
-    """Speed that is kept: of the link itself, or of the hand (rad/s)."""
+    """Prescribed speed of the link or of the hand [rad/s]."""
     torque: float = 0.0
-    """Constant torque, also that of a weight on its drum (N m)."""
+    """Constant torque, also of a weight on its drum [N m]."""
     stiffness: float = 0.0
-    """Of a spring or a hand (N m/rad); `wound`, by how much the spring is wound at the start (rad)."""
+    """Stiffness of a spring or a hand [N m/rad]; `wound` is the initial winding of the spring [rad]."""
     wound: float = 0.0
     inertia: float = 0.0
-    """What it adds to the link's own (kg m2)."""
+    """Inertia that it adds to the link [kg m2]."""
 
     @property
     def value(self) -> float:
-        """What could be steered: the speed of the link, or of the hand (rad/s); the torque (N m); 0 of a spring."""
+        """Control value: the speed of the link or of the hand [rad/s]; the torque [N m]; 0 for a spring."""
         return {"rate": self.rate, "hand": self.rate, "torque": self.torque}.get(self.kind, 0.0)
 
 
 @dataclass(frozen=True)
 class TimeCase:
-    """A train in one state, as it is to move in time."""
+    """Train in one state, with the data of its motion in time."""
 
     drive: PowerInput
-    """Where power enters; `rate`, speed of the lead that sets the scale of time (rad/s)."""
+    """Power input; `rate` is the speed of the driving link that sets the time scale [rad/s]."""
     rate: float
     inertia: Mapping[str, float]
-    """Of links (kg m2); `drag`, viscous (N m s/rad)."""
+    """Moments of inertia of links [kg m2]; `drag` is viscous [N m s/rad]."""
     drag: Mapping[str, float] = field(default_factory=dict)
     bearing: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Dry friction of links in their bearings, sliding and sticking (N m)."""
+    """Dry friction of links in their bearings, sliding and sticking [N m]."""
     load: Mapping[str, float] = field(default_factory=dict)
-    """Torques on links (N m)."""
+    """Torques on links [N m]."""
     restitution: Mapping[str, float] = field(default_factory=dict)
-    """Of pairs."""
+    """Coefficient of restitution of each pair."""
     clearance: Mapping[str, float] = field(default_factory=dict)
-    """Of pins in their slots (m)."""
+    """Clearances of pins in their slots [m]."""
     escapements: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """By link: angle (rad) about the link that bears it, and time (s) of a beat."""
+    """Pitch angle [rad] relative to the bearing link, and beat [s], by escape wheel."""
 
 
 def find_time_case(
@@ -76,9 +76,9 @@ def find_time_case(
     restitution: float | None = None,
     scale: float | None = None,
 ) -> TimeCase:
-    """What is declared, where a rate (rad/s of the first input that turns) or a restitution is not given instead.
+    """Collect the declared data; `rate` [rad/s of the first input that turns] and `restitution` override them.
 
-    scale   magnitude of that rate where none is declared either, for answers that do not depend on it
+    scale   magnitude of the rate if none is declared either, for results that do not depend on it
     """
     links = {name: link for name, link in train.links.items() if name != train.frame}
     given = {part.name: train.restitution_of(part) for part in (*train.gears, *train.couplings)}
@@ -87,6 +87,7 @@ def find_time_case(
     turning = rate if rate is not None else _declared_rate(train, case, problem, passed, scale)
     bounces = {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()}
     if escapement is not None:
+        # a stop has only the restitution of the whole train
         own = 0.0 if train.restitution is None else float(train.restitution.value)
         bounces[escapement.link] = own if restitution is None else restitution
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
@@ -111,9 +112,9 @@ def find_time_case(
 
 
 def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput, passed: Fraction) -> None:
-    """Raises `QuestionError` where a speed is kept at which an escapement would have to let more than a tooth pass.
+    """Raise `QuestionError` if a prescribed speed would make an escapement pass more than one tooth per beat.
 
-    passed   speed of the escape wheel relative to the link that bears it, over the lead's
+    passed   speed of the escape wheel relative to its bearing link, over the driving link's
     """
     beats = train.escapement
     if beats is None or not problem.ratio(drive.link):
@@ -121,21 +122,20 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
     per_turn = abs(float(passed / problem.ratio(drive.link)))
     speed, most = abs(drive.rate) / tau, float(beats.speed)
     if speed * per_turn > most * (1 + _EQUAL):
-        what = f"'{drive.link}' is kept at {speed:.6g} turn/s, which its escapement does not let pass"
-        why = f"'{beats.link}' may make {most:.6g} turn/s in the mean, and would make {speed * per_turn:.6g}"
+        what = f"'{drive.link}' has a prescribed speed of {speed:.6g} turn/s, which exceeds that of its escapement"
+        why = (
+            f"the beat limits '{beats.link}' to {most:.6g} turn/s on average, and it would make {speed * per_turn:.6g}"
+        )
         driving_link = problem.driving_link
         slow = most / abs(float(passed))
-        fix = (
-            f"ask for {slow:.6g} turn/s of '{driving_link}' or less, or give no rate, but a "
-            f"`drive` by a weight or a spring"
-        )
+        fix = f"give at most {slow:.6g} turn/s for '{driving_link}', or no rate but a `drive` with a weight or a spring"
         raise QuestionError(Problem(what, why, fix))
 
 
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Speed of the lead (rad/s): a declared rate, the escapement's, that of a hand, or else `scale`."""
+    """Return the speed of the driving link [rad/s]: declared, of the escapement, of a hand, or else `scale`."""
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.driving_link])
@@ -146,29 +146,29 @@ def _declared_rate(
         return problem.way * hand.rate.si / abs(float(problem.ratio(train.crank or problem.driving_link)))
     if scale is not None:
         return problem.way * scale
-    what = "nothing says how fast the train turns"
-    why = "the length of a step follows from the time in which teeth pass"
-    raise QuestionError(
-        Problem(what, why, "give a rate such as `rate: 1 turn/s`, or `--rate 1`: that which is expected")
-    )
+    what = "the train has no rate"
+    why = "the time step is a fraction of the tooth-passing period"
+    raise QuestionError(Problem(what, why, "declare the expected rate, such as `rate: 1 turn/s`, or pass `--rate 1`"))
 
 
 def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
-    """What drives where power enters, the way its link turns."""
+    """Return the drive at the power input, acting in the sense in which its link turns."""
     driving_link = problem.driving_link
     link = train.crank or driving_link
     speed = rate * float(problem.ratio(link))
     if drive is None or drive.rate is not None:
-        # beside other inputs, which keep their speeds as well, a crank that is none of them would be one too many
+        # with several prescribed inputs, a crank that is not one of them would overdetermine the train
         return (
             PowerInput(link, "rate", rate=speed)
             if len(case.inputs) == 1
             else PowerInput(driving_link, "rate", rate=rate)
         )
+    # a weight, spring or torque acts in the sense in which its link turns
     way = -1.0 if speed < 0 else 1.0
     hand = drive.hand
     inertia = 0.0 if hand is None or hand.inertia is None else hand.inertia.si
     if drive.weight is not None and drive.drum is not None:
+        # a falling weight adds m R^2 to the link of its drum
         inertia = drive.weight.si * drive.drum.si**2
     if drive.steady_torque is not None:
         return PowerInput(link, "torque", torque=way * drive.steady_torque, inertia=inertia)

@@ -1,8 +1,8 @@
-"""From a train and what drives it to coordinates and contacts: ideal pairs merge links, real ones join coordinates.
+"""Reduction of a train and its drive to coordinates and contacts: ideal pairs merge links, real ones join coordinates.
 
-Rows of ideal pairs, locks and brakes are eliminated exactly, so that speeds of links are forms of few coordinates,
-docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with real teeth, pins, and pairs that lose a declared part of their
-power are contacts between coordinates.
+Rows of ideal pairs, locks and brakes are eliminated exactly. Speeds of links are then linear forms of a few
+coordinates, docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with real teeth, pins, and pairs with a declared
+efficiency are contacts between coordinates.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
 from geartrain.simulation.contacts.pair_tables import TOLERANCE, TabledFunction, tabled_angle
-from geartrain.simulation.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
+from geartrain.simulation.contacts.rubbing_arms import Arms, constant_ratio_arms, pin_arms, tooth_arms
 from geartrain.simulation.contacts.time_case import TimeCase
 from geartrain.teeth.transmission import ExactRatio
 
@@ -33,21 +33,21 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.contacts.contact_model import ToothYield
+    from geartrain.simulation.contacts.contact_model import ToothCompliance
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.train import Train
 
 
-_FREE = 0.05  # of the mean ratio: a pair whose ratio stays above is followed the other way round as well
+_FREE = 0.05  # relative to the mean ratio: a pair whose ratio stays above can also be solved for its driver
 
 
 class SlackPin(ExactRatio):
-    """The law of a pin on one side of its slot, which is wider than the pin by `clearance`, docs/dynamics.md (9).
+    """Transmission function of a pin on one side of its slot with some clearance, docs/dynamics.md (9).
 
-    The slot stands asin(clearance/(2 rho)) ahead of where a tight pin would have it (`side` 1), or behind (-1), rho the
-    pin's distance from the slot's axis.
+    The slot is asin(clearance/(2 rho)) ahead of its position with a tight pin (`side` 1), or behind (-1); rho is the
+    distance of the pin from the slot's axis.
     """
 
     def __init__(self, transmission: PinTransmission, clearance: float, side: int) -> None:
@@ -60,13 +60,13 @@ class SlackPin(ExactRatio):
         )
 
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission error (rad of the slot) at pin angles S (rad)."""
+        """Return the transmission error [rad of the slot] at pin angles S [rad]."""
         return np.asarray(
             self.transmission.error(S) + self.side * np.arcsin(self.clearance / 2 / np.sqrt(self._square(S)))
         )
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Speed ratio at pin angles S (rad)."""
+        """Return the speed ratio at pin angles S [rad]."""
         square, half = self._square(S), self.clearance / 2
         turning = half * self.transmission.r * self.transmission.e * np.sin(S) / (square * np.sqrt(square - half**2))
         return np.asarray(self.transmission.speed(S) - self.side * turning)
@@ -80,12 +80,12 @@ class SlackPin(ExactRatio):
 
 @dataclass(frozen=True)
 class TrainModel:
-    """A train in one case as a model of contacts.
+    """Contact model of a train in one case.
 
-    problem   its rows, mean speeds, laws and drivers
-    case      inertia, drag, what drives
-    tree      its turning pairs
-    tolerance of the tables in which laws are read (driven pitches)
+    problem   rows, mean speeds, transmission functions and drivers of the train
+    case      inertia, drag, and the drive
+    tree      turning pairs of the train
+    tolerance tolerance of the tables of transmission functions [driven pitches]
     """
 
     train: Train
@@ -96,55 +96,55 @@ class TrainModel:
     tolerance: float = TOLERANCE
 
     def typical(self, link: str) -> float:
-        """Speed of a link in mean motion (rad/s)."""
+        """Return the speed of a link in mean motion [rad/s]."""
         return float(self.problem.ratio(link)) * self.case.rate
 
     def sense(self, link: str, base: str) -> int:
-        """1, or -1 where the axes of two links point against each other."""
+        """Return 1, or -1 if the axes of two links have opposite directions."""
         return axis_sense(link, base, self.problem.signs)
 
     @cached_property
     def sources(self) -> Mapping[str, PairErrorSource]:
-        """Pairs and pins with laws of their own, with the phases in which they start."""
+        """Pairs and pins with variable ratios, with their initial phases."""
         names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
         return {source.id: source for source in self.motion._with_sources(names).sources}
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is left out."""
+        """Effects that are not included."""
         found = []
         if not self.contacts:
-            found.append("play and impacts: no pair has real teeth, a pin or a loss, so that all links turn as one")
+            found.append("backlash and impacts: no pair has real teeth, a pin or losses, so all links turn as one")
         left = [mesh.name for mesh in self.problem.teeth if mesh.rubs and not mesh.tells_losses]
         if left:
-            found.append(f"friction of {', '.join(left)}: it depends on a speed that is not known")
+            found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
         return tuple(found)
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """What nothing declares and was estimated."""
+        """Estimates that replace missing declarations."""
         return ()
 
     @property
-    def yields(self) -> ToothYield | None:
-        """How the teeth of each pair yield; None where they are rigid."""
+    def yields(self) -> ToothCompliance | None:
+        """Stiffness and damping of the teeth of each pair; None for rigid teeth."""
         return None
 
     @property
     def fastest(self) -> float:
-        """Circular frequency that steps have to follow (rad/s); 0 where teeth are rigid."""
+        """Angular frequency that time steps must resolve [rad/s]; 0 for rigid teeth."""
         return 0.0
 
     # ------------------------------------------------------------------------------------------------------ coordinates
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """The column of each link."""
+        """Column of each link."""
         return {link: at for at, link in enumerate(self.problem.system.links)}
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """The circuits that are contacts: all that do not keep their ratio without play and loss."""
+        """Circuits that are contacts: all except those with a constant ratio and neither backlash nor losses."""
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:
@@ -170,13 +170,13 @@ class TrainModel:
 
     @cached_property
     def prescribed(self) -> Mapping[str, float]:
-        """Links whose speed is given (rad/s)."""
+        """Prescribed speeds by link [rad/s]."""
         unit = self.case.rate / float(self.problem.speeds[self.problem.driving_link])
         held = {row.label.removeprefix("input "): float(row.right) for row in self._rows("input")}
         found = {link: speed * unit for link, speed in held.items()}
         drive = self.case.drive
         if drive.kind != "rate" or drive.link not in found:
-            # power enters at one link instead; where it is not an input, the first input that turns is let go
+            # power enters at one link instead; if that is not an input, the first input that turns is released
             found.pop(drive.link if drive.link in found else self.problem.driving_link)
         return found if drive.kind != "rate" else {**found, drive.link: drive.rate}
 
@@ -185,20 +185,22 @@ class TrainModel:
 
     @cached_property
     def forms(self) -> tuple[tuple[str, ...], Floats]:
-        """The links that serve as coordinates, and speeds of all links over theirs, (links, coordinates)."""
+        """Coordinate links, and speeds of all links over the speeds of these; shape (links, coordinates)."""
         free = {circuit.id for circuit in self.contacts}
         symbols = {self.index[link]: -1 - at for at, link in enumerate(self.prescribed)}
         rows = []
         for row in self.problem.system.equations:
             if row.label not in free and row.kind != "input":
                 rows.append({symbols.get(self.index[link], self.index[link]): Fraction(c) for link, c in row.terms})
+        # exact rationals: ideal pairs must not add rounding to the constraints
         solved = eliminate(rows)
         if solved.conditions:
             what = f"the prescribed speeds of {', '.join(self.prescribed)} depend on each other"
-            raise QuestionError(Problem(what, "ideal pairs tie them together", "prescribe one of them"))
+            raise QuestionError(Problem(what, "ideal pairs connect these links rigidly", "prescribe only one of them"))
         pivots = solved.forms()
         columns = [each for each in range(len(self.index)) if each not in pivots and each not in symbols]
         place = {symbol: at for at, symbol in enumerate((*symbols.values(), *columns))}
+        # one row for each link, over the prescribed and the free coordinates
         speeds = np.zeros((len(self.index), len(place)))
         for link in range(len(self.index)):
             own = symbols.get(link, link)
@@ -209,12 +211,12 @@ class TrainModel:
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The links that serve as coordinates."""
+        """Links that serve as coordinates."""
         return self.forms[0]
 
     @property
     def speeds(self) -> Floats:
-        """Speeds of all links over those of the coordinates, (links, coordinates)."""
+        """Speeds of all links over those of the coordinates. Shape (links, coordinates)."""
         return self.forms[1]
 
     def _form(self, link: str, base: str | None = None) -> Floats:
@@ -225,24 +227,27 @@ class TrainModel:
 
     @cached_property
     def mass(self) -> Floats:
-        """M = N^T diag(J) N (kg m2)."""
+        """Mass matrix M = N^T diag(J) N [kg m2]."""
         inertia = np.array([self.case.inertia.get(link, 0.0) for link in self.index])
         inertia[self.index[self.case.drive.link]] += self.case.drive.inertia
         found: Floats = self.speeds.T @ (inertia[:, None] * self.speeds)
+        # the diagonal of M is the inertia that turns with a coordinate
         lacking = [
             name for at, name in enumerate(self.coordinates) if found[at, at] <= 0 and name not in self.prescribed
         ]
         if lacking:
-            what = f"nothing says what inertia turns with {', '.join(lacking)}"
-            why = "where teeth part, a link without inertia has no motion of its own"
-            raise QuestionError(Problem(what, why, "declare `inertia`, or `thickness` and `density`"))
+            what = f"no inertia turns with {', '.join(lacking)}"
+            why = "a link without inertia has no equation of motion after teeth separate"
+            raise QuestionError(
+                Problem(what, why, "declare `inertia: 30 kg mm2` of a link, or `thickness` and `density` of its wheels")
+            )
         return found
 
     # --------------------------------------------------------------------------------------------------------- contacts
 
     @cached_property
     def motion(self) -> Motion:
-        """The motion in which all drive flanks touch, of all links."""
+        """Motion of all links in which all drive flanks touch."""
         frame = self.problem.frame
         return Motion(self.problem, {link: (link, frame) for link in self.problem.system.links})
 
@@ -250,26 +255,29 @@ class TrainModel:
         for circuit in self.contacts:
             restitution = self.case.restitution.get(circuit.id, 0.0)
             driver, driven = self._sides(circuit)
+            # a pair with constant ratio has neither a phase nor a second flank
             if circuit.id not in self.sources:
                 transmission = self._even(circuit)
                 front = self._tabled(transmission)
-                arms = self._even_arms(circuit, transmission)
+                arms = self._constant_ratio_arms(circuit, transmission)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
             front, back, arms, first = self._flanks(circuit)
             S = self.sources[circuit.id].phase
             start = S, float(first.angle(S))
+            # with a dwell the driven side cannot drive
             free = first.speed_range()[0] > _FREE * float(first.ratio)
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Tables of both flanks, what friction adds, and the law of the front."""
+        """Return tables of both flanks, friction terms, and the transmission function of the front flank."""
         if circuit.id in self._pins:
             transmission = self._pins[circuit.id]
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
                 front = self._tabled(transmission)
                 return front, front, pin_arms(transmission), transmission
+            # with clearance the two sides of the slot are two flanks
             before, behind = SlackPin(transmission, clearance, -1), SlackPin(transmission, clearance, 1)
             return self._tabled(before), self._tabled(behind), pin_arms(transmission), before
         mesh = self._meshes[circuit.id]
@@ -281,9 +289,9 @@ class TrainModel:
         return tabled_angle(transmission, self.tolerance)
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
-        """Forward speeds of driver and driven side of a pair, seen from its carrier."""
+        """Return forward speeds of the driver and the driven side of a pair relative to its carrier."""
         source = self.sources.get(circuit.id)
-        # forwards is the sense in which the input turns: front flanks are those that drive that way
+        # forwards is the sense in which the input turns; front flanks are those that drive in this sense
         way = self.problem.way
         forward = way * (source.forward if source else 1)
         sense = way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
@@ -293,22 +301,23 @@ class TrainModel:
         return _sparse(forward * (own - base)), _sparse(sense * (mate - base))
 
     def _even(self, circuit: Circuit) -> ExactRatio:
-        """The law of a pair that keeps its ratio."""
+        """Return the transmission function of a pair with a constant ratio."""
         path = self.motion._path(circuit.id)
         own = circuit.b if path.coefficient == circuit.a else circuit.a
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 
-    def _even_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
+    def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
         ways = self._gears[circuit.id].efficiency
         passed = float(ways.forward.base), float(ways.backward.base)
+        # efficiencies are declared for the first wheel as driver
         if self.problem.drivers[circuit.id].wheel != circuit.wheels[0]:
             passed = passed[1], passed[0]
-        return even_arms(transmission, *passed, f"pair '{circuit.id}'")
+        return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
 
     # --------------------------------------------------------------------------------------------------------- the rest
 
     def _bearings(self) -> Iterator[Bearing]:
-        """Friction in bearings; those of links that turn with each other are one."""
+        """Yield the friction of bearings; bearings of links that turn together are merged."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
             form = self._form(link, self.tree.parent[link][0])
@@ -316,6 +325,7 @@ class TrainModel:
             if not scale or not sticking:
                 continue
             first = form[np.argmax(np.abs(form) > 1e-12 * scale)]
+            # bearings with proportional forms have one relative speed, so their friction adds up
             scale = float(first)
             key = tuple((at, round(value / scale, 12)) for at, value in _sparse(form).items())
             joined.setdefault(key, []).append((link, abs(scale) * sliding, abs(scale) * sticking))
@@ -332,7 +342,7 @@ class TrainModel:
 
     def _stops(self) -> Iterator[Stop]:
         for link, (pitch, beat) in self.case.escapements.items():
-            base = self.tree.top[link]  # pallets ride on what bears the escape wheel
+            base = self.tree.top[link]  # pallets are carried by the link that bears the escape wheel
             way = -1 if self.problem.seen_ratio(link, base) * self.problem.way < 0 else 1
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
@@ -344,7 +354,7 @@ class TrainModel:
             yield Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate)
 
     def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
-        """What torques on links, and one where power enters, are on the coordinates (N m)."""
+        """Return the generalised torques [N m] of torques on links and of the drive on the coordinates."""
         torque = drive * self._form(self.case.drive.link)
         for link, load in loads.items():
             torque += load * self._form(link)
@@ -352,7 +362,7 @@ class TrainModel:
 
     @cached_property
     def model(self) -> ContactModel:
-        """The model that kernels step."""
+        """Contact model that the kernels step."""
         torque = self.torque_of(self.case.load, self.case.drive.torque)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
@@ -370,6 +380,6 @@ class TrainModel:
 
 
 def _sparse(form: Floats) -> dict[int, float]:
-    """What of a form is not 0."""
+    """Return the nonzero coefficients of a form."""
     scale = float(np.max(np.abs(form), initial=0.0))
     return {at: float(value) for at, value in enumerate(form) if abs(value) > 1e-13 * scale}

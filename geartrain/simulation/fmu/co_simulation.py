@@ -1,4 +1,4 @@
-"""A train as a co-simulation unit (FMU, FMI 2.0): its declaration, and a slave that has geartrain step it."""
+"""Gear train as a co-simulation unit (FMU, FMI 2.0): its declaration, and a slave that is stepped by geartrain."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
 DECLARATION, CASE = "train.yaml", "case.json"
-"""Files of the unit: the declaration, and how it is asked."""
-_SCRIPT = f'''"""The train of {DECLARATION} beside this file, stepped by geartrain."""
+"""Files in the unit: the declaration, and the `CoSimulationCase` as JSON."""
+_SCRIPT = f'''"""Co-simulation slave of the train in {DECLARATION} next to this file, stepped by geartrain."""
 
 from geartrain.simulation.fmu.co_simulation_slave import TrainSlave, keep_alive
 
@@ -32,52 +32,52 @@ keep_alive(globals())
 class Train(TrainSlave):
     pass
 '''
-_DAY = (1980, 1, 1, 0, 0, 0)  # the same train is the same file
+_DAY = (1980, 1, 1, 0, 0, 0)  # a fixed date, so that the same train gives the same file
 _MODULE = "geartrain_slave"
 
 
 @dataclass(frozen=True)
 class CoSimulationCase(Shown):
-    """What a co-simulation unit is asked for; all but the state may be None, for what is declared.
+    """Conditions of a co-simulation unit. Every field except the state may be None; the declared value is used then.
 
     See Also
     --------
-    fmu_file : takes it.
+    fmu_file : Takes such an object.
     """
 
     state: str | None = None
-    """A declared state."""
+    """Name of a declared state; None for a train that has no states."""
     rate: float | None = None
     """Speed of the first input that turns [rad/s]."""
     step: float | None = None
-    """Length of a step [s]."""
+    """Time step [s]."""
     restitution: float | None = None
-    """Of all impacts."""
+    """Coefficient of restitution of every impact, 0 to 1."""
     without: Sequence[str] = ()
-    """Pairs that are left out."""
+    """Names of pairs that are left out."""
 
 
 def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
-    """A train as a co-simulation unit (FMI 2.0), for tools that have Python with geartrain at hand.
+    """Return a train as a co-simulation unit (FMI 2.0), for tools whose Python has geartrain installed.
 
     Parameters
     ----------
     train : GearTrain
         The train.
     case : CoSimulationCase
-        In which state, how fast.
+        State, rate and step of the simulation.
 
     Returns
     -------
     bytes
-        The content of an .fmu file; the same for the same train.
+        Content of an .fmu file, identical for the same train and case.
 
     Raises
     ------
     MissingExtraError
         If pythonfmu is not installed.
     QuestionError
-        If the train does not move in time: nothing says how fast, or a link that can move by itself has no inertia.
+        If the train cannot be simulated, because no rate is given, or a link that can move by itself has no inertia.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
         from pythonfmu.builder import FmuBuilder
     except ImportError:
         raise MissingExtraError("pythonfmu", "fmu", "a co-simulation unit") from None
-    # whatever does not move is said here, and not in another tool
+    # a train that cannot be simulated raises its error here, not in the importing tool
     train.simulation(case.rate, case.state, step=case.step, restitution=case.restitution, without=case.without)
     with TemporaryDirectory() as folder, _path_kept():
         script, parts = Path(folder) / f"{_MODULE}.py", Path(folder) / "parts"
@@ -103,7 +103,7 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
 
 @contextmanager
 def _path_kept() -> Iterator[None]:
-    """What is imported, and from where, as before: the builder imports the script by its name."""
+    """Restore the import path and the imported modules on exit, because the builder imports the script by its name."""
     path = list(sys.path)
     try:
         yield
@@ -113,7 +113,7 @@ def _path_kept() -> Iterator[None]:
 
 
 def _repacked(data: bytes) -> bytes:
-    """The same archive in order and without times."""
+    """Return the same archive with sorted entries and without times."""
     found = BytesIO()
     with ZipFile(BytesIO(data)) as old, ZipFile(found, "w", ZIP_DEFLATED) as new:
         for name in sorted(old.namelist()):

@@ -1,6 +1,6 @@
-"""What runs within a co-simulation unit: variables of the train, and a `Simulation` that other tools advance.
+"""Slave inside a co-simulation unit: variables of the train, and a `Simulation` that other tools advance.
 
-Names are those of FMI's structured convention: `angles.moon`, `apart.'d2~e'`.
+Names follow FMI's structured convention: `angles.moon`, `apart.'d2~e'`.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _UNITS = {
 
 
 class TrainSlave(Fmi2Slave):  # type: ignore[misc]
-    """The train that is packed in the unit's resources."""
+    """Slave of the train that is packed in the unit's resources."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
@@ -56,6 +56,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._units: dict[str, str] = {}
         self.modelName = re.sub(r"\W|^(?=\d)", "_", train.name, flags=re.ASCII)
         self.description = train.declaration.title or None
+        # the identifier depends only on content and version, so that equal units are identical
         self.guid = uuid5(NAMESPACE_URL, sha256("\0".join((version("geartrain"), *text)).encode()).hexdigest())
         self._register()
         part_in_order(folder.parent / "binaries" / "linux64" / f"{self.modelName}.so")
@@ -65,7 +66,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
     def _register(self) -> None:
         kind = self._simulation.drive_kind
         name, unit, what = {
-            "rate": ("drive.speed", "rad/s", "speed that is kept"),
+            "rate": ("drive.speed", "rad/s", "prescribed speed"),
             "torque": ("drive.torque", "N.m", "torque"),
             "hand": ("drive.speed", "rad/s", "speed of the hand"),
             "spring": ("", "", ""),
@@ -75,25 +76,25 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
             self._input(name, unit, f"{what}, at {link}", lambda: self._drive, self._set_drive)
         for each in self._loads:
             self._input(f"loads.{_quoted(each)}", "N.m", f"torque on {each}", self._load(each), self._set_load(each))
-        self._parameter("step", "s", "length of a step", lambda: self._step, self._set_step)
+        self._parameter("step", "s", "time step", lambda: self._step, self._set_step)
         for each in self._restitution:
-            what = f"speed of parting over speed of meeting, of {each}"
+            what = f"coefficient of restitution of {each}"
             self._parameter(f"restitution.{_quoted(each)}", "", what, self._bounce(each), self._set_bounce(each))
         if kind in ("torque", "spring", "hand"):
             self._output("drive.link.speed", "rad/s", f"speed of {link}", lambda of: of.speed)
         if kind != "torque":
-            self._output("drive.torque", "N.m", f"mean torque at {link} since the last time", lambda of: of.torque)
+            self._output("drive.torque", "N.m", f"mean torque at {link} since the last output", lambda of: of.torque)
         self._output("drive.angle", "rad", f"angle of {link} since the start", lambda of: of.angle)
         for each in self._simulation.angles:
             self._output(f"angles.{_quoted(each)}", "rad", f"angle of {each}", _item("angles", each))
             self._output(f"speeds.{_quoted(each)}", "rad/s", f"speed of {each}", _item("speeds", each))
         for each in self._simulation.apart:
             own = _quoted(each)
-            share = f"share of time in which no flank of {each} touches, since the last time"
+            share = f"fraction of the time since the last output in which no flank of {each} touches"
             self._output(f"apart.{own}", "", share, _item("apart", each))
-            torque = f"mean torque on the driven side of {each} since the last time"
+            torque = f"mean torque on the driven side of {each} since the last output"
             self._output(f"torques.{own}", "N.m", torque, _item("torques", each))
-            meaning = f"energy lost in impacts of {each} since the last time"
+            meaning = f"energy lost in impacts of {each} since the last output"
             self._output(f"impact_energy.{own}", "J", meaning, _item("impact_energy", each))
 
     def _input(self, name: str, unit: str, what: str, get: Callable[[], float], put: Callable[[float], None]) -> None:
@@ -146,8 +147,9 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 
     @property
     def simulation(self) -> Simulation:
-        """The train as it moves; anew as long as it has not begun and what it starts from is changed."""
+        """Simulation of the train; rebuilt if its initial conditions change before the first step."""
         if self._changed:
+            # before the first step new parameters restart the simulation
             if not self._begun:
                 bounces = self._restitution
                 self._simulation = self._simulation.anew(
@@ -163,11 +165,11 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
     ) -> None:
-        """When it begins."""
+        """Set the start time [s] of the simulation."""
         self._start = start_time
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Go on to the end of a communication step."""
+        """Advance the simulation to the end of a communication step; return False and log if that fails."""
         try:
             simulation = self.simulation
             self._begun = True
@@ -180,8 +182,9 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
     # -------------------------------------------------------------------------------------------------------- as XML
 
     def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
-        """The description, with units and bounds, without the day."""
+        """Return the model description with units and bounds, and without the generation date."""
         root: Element = super().to_xml(model_options or {})
+        # a date would make identical units differ
         del root.attrib["generationDateAndTime"]
         root.set("generationTool", f"geartrain {version('geartrain')} by {root.get('generationTool')}")
         units = Element("UnitDefinitions")
@@ -207,19 +210,20 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 
 
 def keep_alive(names: dict[str, Any]) -> None:
-    """Add a reference that is never given back to the globals of the unit's script, each time it is run.
+    """Add a reference that is never released to the globals of the unit's script, each time it is run.
 
-    The library through which other tools call Python takes one away that is not its own, each time (PythonFMU 0.7.0).
+    The library through which other tools call Python releases a reference that it does not own, each time (PythonFMU
+    0.7.0).
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(names))
 
 
 @cache
 def part_in_order(library: Path) -> None:
-    """Let go of the library before the process ends, where Python is the process.
+    """Register the release of the library before the process ends, if Python is the process.
 
-    Left to itself it gives its own memory back twice at the end (PythonFMU 0.7.0 on Linux): first with all statics, and
-    once more when it is unloaded.
+    Otherwise the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all statics, and
+    again when it is unloaded.
     """
     if sys.platform == "linux" and sys.orig_argv and library.is_file():
         atexit.register(ctypes.CDLL(str(library)).finalizePythonInterpreter)
@@ -230,7 +234,7 @@ def _item(what: str, name: str) -> Callable[[Simulation], float]:
 
 
 def _quoted(name: str) -> str:
-    """A name as it may stand between the dots of a structured name."""
+    """Return a name as it may appear between the dots of a structured name."""
     if _PLAIN.fullmatch(name):
         return name
     return "'" + name.replace("\\", "\\\\").replace("'", "\\'") + "'"

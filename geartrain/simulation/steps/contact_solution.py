@@ -1,12 +1,14 @@
-"""The speeds at the end of one step, for one guess of what touches and sticks: elimination in the solved order.
+"""Speeds at the end of one step for one guess of the touching and sticking contacts, by elimination in the solved
+order.
 
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ = k_c  for every c that touches        docs/dynamics.md (11)
 
-A pair that touches gives its driven coordinate, v_d = sum w_o v_o + k/r_d, and (13) hands row and column of d on to the
-coordinates before it; one that is apart leaves d free, and d is eliminated by Gauss. Where each depends on one
-before it (a chain, a tree) the first is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c), and a step costs O(n).
+A touching pair determines its driven coordinate, v_d = sum w_o v_o + k/r_d, and (13) condenses row and column of d into
+the coordinates before it. A pair without contact leaves d free, and d is eliminated by Gauss. If each coordinate
+depends on one before it (a chain, a tree), the condensation is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c), and a step
+costs O(n).
 
-Rows that determine no coordinate (a second way between two links, stops, stuck bearings) stand in the matrix with a
+Rows that determine no coordinate (a second path between two links, stops, stuck bearings) enter the matrix with a
 compliance far below that of any mass: s r^T r v = s k r.
 """
 
@@ -21,53 +23,55 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 OPEN, FRONT, BACK = 0, 1, 2
-"""Which flank of a pair touches: none, the drive flank, the coast flank."""
+"""Flank in contact: none, the drive flank, the coast flank."""
 
 WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRICTION = range(8)
-"""Columns of the energy account (J): three kinds of work put in, five of loss."""
+"""Columns of the energy balance [J]: three kinds of input work, and five kinds of loss."""
 
 ENERGIES = 8
 TIME_APART, TIME_COAST, IMPACT_COUNT, IMPACT_ENERGY, IMPACT_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
-"""Columns of what is counted of each pair: steps apart and on the coast flank, blows, their energy and greatest speed,
-impulse, energy rubbed away, greatest gap, changes of flank."""
+"""Columns of the counts of each pair: steps apart and on the coast flank, impacts, their energy and maximum speed,
+impulse, friction energy, maximum gap, and changes of flank."""
 
 COUNTS = 9
 IMPACT_COLUMNS = 5
-"""Columns of the list of impacts: time, pair (stops behind the pairs), closing speed, energy, impulse."""
+"""Columns of the list of impacts: time, contact (stops after the pairs), closing speed, energy, impulse."""
 
 
 class ContactState(NamedTuple):
-    """Where a train is: changed by the kernel in place."""
+    """State of a train; modified in place by the kernels."""
 
     clock: Floats
-    """Time (s), step number."""
+    """Time [s], and step number."""
     angle: Floats
-    """Of the coordinates (rad); `speed` (rad/s)."""
+    """Angles of the coordinates [rad]; `speed` is in rad/s."""
     speed: Floats
     touching: Ints
-    """Flank of each pair; `turning`, of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1."""
+    """Touching flank of each pair; `turning` of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1."""
     turning: Ints
     stopped: Ints
     ratio: Floats
-    """Speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 in a blow."""
+    """Speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 during an impact."""
     struck: Ints
     steady: Floats
-    """Impulse of each pair in its last step without blow."""
+    """Impulse of each pair in its last step without an impact."""
     flown: Ints
-    """Steps for which each pair has been apart; `stop_rate`, (stops, 2), speeds at each stop a step ago, and when it
-    was last left."""
+    """Number of steps since each pair separated.
+
+    `stop_rate`, (stops, 2), has the speed at each stop one step ago, and when it was last left.
+    """
     stop_rate: Floats
 
 
 class RunRecord(NamedTuple):
-    """What a run leaves: changed by the kernel in place.
+    """Results of a run; modified in place by the kernels.
 
-    energy         as `WORK_DRIVE` and the others
+    energy         columns `WORK_DRIVE` and following
     counts         (pairs and stops, COUNTS)
-    angles, speeds samples, (samples, n); `forces` mean force torques between samples, (samples, pairs + stops)
+    angles, speeds samples, (samples, n); `forces` mean torques between samples, (samples, pairs + stops)
     drive          mean torque of each prescribed coordinate between samples, (samples, n)
-    impacts        (room, IMPACT_COLUMNS); `numbers`: samples, impacts seen, steps not solved, pivots, steps
-                   counted, 1 where the steps diverged and the run stopped
+    impacts        (capacity, IMPACT_COLUMNS); `numbers`: samples, impacts detected, unsolved steps, pivots, steps
+                   counted, and 1 if the steps diverged and the run stopped
     """
 
     energy: Floats
@@ -84,66 +88,64 @@ SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
 class StepEquations(NamedTuple):
-    """One step: what is given of it, room to solve it in, and what comes out."""
+    """Equations of one step: its data, workspace, and solution."""
 
     load: Floats
-    """Impulses from outside, and momentum at the start of the step."""
+    """External impulses and momentum at the start of the step."""
     bound: Floats
-    """K of both flanks of each pair (rad/s); `stop_bound` of each stop."""
+    """Bound k of both flanks of each pair [rad/s]; `stop_bound` of each stop."""
     stop_bound: Floats
     ratio: Floats
-    """Speed ratio, and driver's torque over the driven side's, of both flanks."""
+    """Speed ratio of both flanks of each pair."""
     arm: Floats
-    """Speed ratio, and driver's torque over the driven side's, of both flanks."""
+    """Driver's torque over the driven side's, of both flanks of each pair."""
     A: Floats
-    """The matrix and right side, as they are eliminated."""
+    """Matrix; overwritten by the elimination."""
     b: Floats
-    """The matrix and right side, as they are eliminated."""
+    """Right side; overwritten by the elimination."""
     w: Floats
-    """Of a driven coordinate: its speed is w v + known, its row is handed on by g."""
+    """Coefficients of the speed of a driven coordinate, which is w v + known."""
     g: Floats
-    """Of a driven coordinate: its speed is w v + known, its row is handed on by g."""
+    """Factors that condense the row of a driven coordinate into earlier rows."""
     known: Floats
-    """Of a driven coordinate: its speed is w v + known, its row is handed on by g."""
+    """Known part of the speed of a driven coordinate."""
     v: Floats
-    """Speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates."""
+    """Speeds of the coordinates."""
     P: Floats
-    """Speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates."""
+    """Impulses of pairs and stops."""
     drive: Floats
-    """Speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates."""
+    """Impulses that maintain the speeds of prescribed coordinates."""
     ahead: Floats
-    """Speeds that say where laws are read; mean speeds of the step."""
+    """Speeds by which the positions of evaluation of the transmission functions are extrapolated."""
     middle: Floats
-    """Speeds that say where laws are read; mean speeds of the step."""
+    """Mean speeds of the step."""
     gap: Floats
-    """Of both flanks: k without restitution, and speeds of closing before the step (rad/s); `stop_closing`, at which
-    stops are met in it."""
+    """Bound k of both flanks without restitution [rad/s]."""
     closing: Floats
-    """Of both flanks: k without restitution, and speeds of closing before the step (rad/s); `stop_closing`, at which
-    stops are met in it."""
+    """Closing speeds of both flanks before the step [rad/s]."""
     stop_closing: Floats
     before: Ints
-    """What touched, and what was stopped, before the step."""
+    """Touching flanks and active stops before the step."""
 
 
 class StepRules(NamedTuple):
-    """How a run is stepped."""
+    """Numerical parameters of a run."""
 
     step: float
-    """Length of a step (s); `stride`, steps from one sample to the next."""
+    """Time step [s]; `stride` is the number of steps between samples."""
     stride: int
     creep: float
-    """Speed up to which a stuck bearing gives way (rad/s); `slack`, error of a speed that is none (rad/s)."""
+    """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""
     slack: float
     rounds: int
-    """Guesses that are tried in a step."""
+    """Maximum number of guesses in a step."""
 
 
 @kernel
 def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Speeds and impulses for what the state takes to touch, turn and be stopped.
+    """Solve for speeds and impulses with the touching, turning and stopped contacts of the state.
 
-    creep   speed up to which a stuck bearing gives way (rad/s)
+    creep   maximum creep speed of a stuck bearing [rad/s]
     """
     assemble(system, state, here, step, creep)
     eliminate_coordinates(system, state, here)
@@ -153,7 +155,7 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 
 @kernel
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """The matrix and right side of all coordinates, without the pairs that determine one."""
+    """Assemble the matrix and right side of all coordinates, without the pairs that determine one."""
     A, b = here.A, here.b
     for d in range(len(b)):
         b[d] = here.load[d]
@@ -168,6 +170,7 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
             if turning != 0:
                 b[system.bearing_of[x]] -= step * system.sliding[m] * turning * system.bearing_c[x]
             else:
+                # a stuck bearing is viscous up to its sticking torque at the creep speed
                 stiff = step * system.sticking[m] / creep * system.bearing_c[x]
                 for y in range(system.bearing_at[m], system.bearing_at[m + 1]):
                     A[system.bearing_of[x], system.bearing_of[y]] += stiff * system.bearing_c[y]
@@ -191,9 +194,9 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
 
 @kernel
 def eliminate_coordinates(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """From the last to the first: one whose pair touches hands its row on, any other is eliminated by Gauss.
+    """Eliminate the coordinates from the last to the first: by condensation if its pair touches, otherwise by Gauss.
 
-    In one loop, for a call with so many arrays costs as much as a coordinate.
+    All is done in one loop, because a call with this number of arrays takes as long as a coordinate.
     """
     A, b, w, g, near = here.A, here.b, here.w, here.g, system.near
     for d in range(len(b) - 1, -1, -1):
@@ -211,7 +214,8 @@ def eliminate_coordinates(system: ContactSystem, state: ContactState, here: Step
                         A[o, near[y]] -= part * A[d, near[y]]
             continue
         side = state.touching[m] - 1
-        first = system.pair_at[m]  # the coordinate that is determined stands first in its row
+        first = system.pair_at[m]  # the determined coordinate is first in its row
+        # the row of speeds uses the ratio, that of forces the lever arm with friction
         lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
         lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
         for x in range(low, high):
@@ -232,7 +236,7 @@ def eliminate_coordinates(system: ContactSystem, state: ContactState, here: Step
 
 @kernel
 def substitute_back(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """From the first to the last: speeds from those before, and impulses of pairs and drives."""
+    """Substitute from the first coordinate to the last: speeds, and impulses of pairs and drives."""
     A, v, near = here.A, here.v, system.near
     here.P[:] = 0.0
     here.drive[:] = 0.0
@@ -241,7 +245,7 @@ def substitute_back(system: ContactSystem, state: ContactState, here: StepEquati
         if system.given[d] != 0:
             v[d] = state.speed[d]
             here.drive[d] += A[d, d] * v[d] - here.b[d]
-            for x in range(low, high):  # prescribed ones come first: these are prescribed too
+            for x in range(low, high):  # prescribed coordinates come first, so these are prescribed too
                 here.drive[d] += A[d, near[x]] * v[near[x]]
                 here.drive[near[x]] += A[near[x], d] * v[d]
             continue
@@ -262,7 +266,7 @@ def substitute_back(system: ContactSystem, state: ContactState, here: StepEquati
 
 @kernel
 def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """Impulses of pairs that determine nothing, and of stops, from what their rows yield."""
+    """Compute the impulses of pairs that determine no coordinate, and of stops, from their regularised rows."""
     pairs = len(system.stiff)
     for m in range(pairs):
         if system.stiff[m] > 0.0 and state.touching[m] != 0:
@@ -278,19 +282,20 @@ def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEq
             rate = 0.0
             for x in range(system.stop_at[m], system.stop_at[m + 1]):
                 rate += system.stop_c[x] * here.v[system.stop_of[x]]
-            # a stop holds from ahead: r v <= k
+            # a stop acts from ahead: r v <= k
             here.P[pairs + m] = system.stop_stiff[m] * (rate - here.stop_bound[m])
 
 
 AT_ONCE = 6
-"""Rounds in which all wrong guesses are turned round together."""
+"""Number of rounds in which all wrong guesses are flipped together (block pivoting)."""
 
 
 @kernel
 def correct_guess(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
 ) -> int:
-    """Turn wrong guesses round, all of them or only that of the least index; how many there were."""
+    """Correct the wrong contact states, all or only the one of lowest index (Murty's method); return their number."""
+    # with `single` the first wrong state ends the search, pairs before bearings before stops
     found = correct_pairs(system, state, here, slack, single)
     if len(system.sliding) > 0 and (found == 0 or not single):
         found += correct_bearings(system, state, here, creep, single)
@@ -301,7 +306,7 @@ def correct_guess(
 
 @kernel
 def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool) -> int:
-    """Let go of flanks that pull, and close gaps below zero."""
+    """Open flanks with tensile impulses, and close flanks that penetrate; return the number of changes."""
     found = 0
     for m in range(len(system.stiff)):
         now = state.touching[m]
@@ -332,7 +337,9 @@ def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquation
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Let bearings go that would creep too fast, and stick that turn against their friction."""
+    """Release bearings that creep too fast, and stop those that turn against their friction; return the number of
+    changes.
+    """
     found = 0
     for m in range(len(system.sliding)):
         rate = 0.0
@@ -346,6 +353,7 @@ def correct_bearings(
             elif rate < -creep:
                 want = -1
         elif rate * now < 0.0:
+            # a fast reversal changes the sense at once; with `single` the bearing sticks first
             want = 0 if single or rate * now > -creep else -now
         if want != now:
             state.turning[m] = want
@@ -357,7 +365,7 @@ def correct_bearings(
 
 @kernel
 def correct_stops(system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool) -> int:
-    """Let go of stops that pull, and hold what passes one."""
+    """Release stops with tensile impulses, and stop links that pass one; return the number of changes."""
     found = 0
     for m in range(len(system.stop_stiff)):
         rate = 0.0

@@ -1,4 +1,4 @@
-"""A model run through time: kernels called with room for what they find."""
+"""Simulation of a contact model: allocation of the arrays of the kernels, and the results of a run."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.simulation.contacts.contact_model import ContactModel, ContactSystem
 from geartrain.simulation.contacts.pair_tables import PairTables, value_and_slope
+from geartrain.simulation.steps.compliant_steps import CompliantTeeth, run_compliant_steps
 from geartrain.simulation.steps.contact_solution import (
     COUNTS,
     DIVERGED,
@@ -27,35 +28,40 @@ from geartrain.simulation.steps.contact_solution import (
     StepRules,
 )
 from geartrain.simulation.steps.time_steps import run_steps
-from geartrain.simulation.steps.yielding_steps import YieldingTeeth, run_yielding_steps
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.simulation.contacts.contact_model import ToothYield
+    from geartrain.simulation.contacts.contact_model import ToothCompliance
 
     _Mark = tuple[Floats, Floats, Floats]
 
-_CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
-_SLACK = 1e-11  # of that speed
-_ROOM = 100_000  # impacts that are kept
-_AT_A_TIME = 1000, 40_000  # steps between two words on how far a run is: in plain Python, and compiled
-_ROUNDS = 60  # guesses tried in a step, and six more for each contact and bearing
+_CREEP = 1e-10  # creep speed of a stuck bearing, relative to the fastest coordinate
+_SLACK = 1e-11  # rounding error of a speed, relative to the fastest coordinate
+_ROOM = 100_000  # maximum number of stored impacts
+_AT_A_TIME = 1000, 40_000  # steps between two progress reports: in plain Python, and compiled
+_ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact and bearing
 
 
 class StepPlan(NamedTuple):
-    """How a model is stepped: length of a step (s), steps not counted, steps counted, steps from sample to sample."""
+    """Time steps of a run.
+
+    Its fields are the time step [s], the numbers of skipped and of counted steps, and the steps between samples.
+    """
 
     step: float
     skip: int
     steps: int
     stride: int
     block: int = 0
-    """Steps of each of the equal parts of what is counted whose figures are kept; 0 for none."""
+    """Steps of each of the equal blocks of the counted part whose figures are kept; 0 for none."""
 
 
 @dataclass
 class SimulatedRun:
-    """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J)."""
+    """Results of a run in the original order of the coordinates.
+
+    `start` and `end` are the kinetic energies [J] at both ends of the counted part.
+    """
 
     plan: StepPlan
     angles: Floats
@@ -69,13 +75,13 @@ class SimulatedRun:
     start: float
     end: float
     turned: Floats
-    """Angles of the coordinates over what is counted (rad)."""
+    """Angles of the coordinates over the counted part [rad]."""
     pressed: float = 0.0
-    """By how much the energy stored in teeth that yield has grown (J)."""
+    """Increase of the energy stored in compliant teeth [J]."""
     peaks: Floats | None = None
-    """Greatest torque of each pair whose teeth yield (N m)."""
+    """Maximum torque of each pair with compliant teeth [N m]."""
     blocks: tuple[SimulatedRun, ...] = ()
-    """The run's parts of `plan.block` steps: their counts, energies and angles turned through."""
+    """Parts of the run with `plan.block` steps each: their counts, energies and angles."""
 
 
 def simulate(
@@ -83,22 +89,24 @@ def simulate(
     plan: StepPlan,
     fast: bool = False,
     on_done: Callable[[int], object] = lambda _: None,
-    yields: ToothYield | None = None,
+    yields: ToothCompliance | None = None,
 ) -> SimulatedRun:
-    """Run a model; `fast` compiles the kernels.
+    """Simulate a model; `fast` compiles the kernels.
 
-    on_done   called with the steps done since the last time; where it returns True the run ends, and the plan of what
-              is given back has the steps that were counted
-    yields    how the teeth of each pair yield; None where they are rigid
+    on_done   called with the steps done since the last call; the run stops if it returns True, and the plan of the
+              result
+              has the number of counted steps
+    yields    stiffness and damping of each pair; None for rigid teeth
     """
     system, n = model.system(plan.step), len(model.torque)
     if yields is not None:
-        system = _yielding(model, system, plan.step, yields)
+        system = _midpoint_system(model, system, plan.step, yields)
     state = start_state(model, system)
     here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
     samples = (plan.skip + plan.steps) // plan.stride
     record = empty_record(n, len(model.pairs) + len(model.stops), samples, _ROOM)
     teeth = _teeth(model, yields)
+    # counting must start at a sample
     skip = plan.skip - plan.skip % plan.stride
     rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps))
     given = system, model.transmissions, state, here, record, rules
@@ -108,10 +116,10 @@ def simulate(
         if teeth is None:
             run_steps.chosen(fast)(*given, steps, counted)
         else:
-            run_yielding_steps.chosen(fast)(*given, teeth, steps, counted)
+            run_compliant_steps.chosen(fast)(*given, teeth, steps, counted)
 
     def go(steps: int, counted: bool) -> int:
-        """Piece by piece between samples; how many steps were done."""
+        """Advance in pieces between samples; return the number of steps done."""
         done = 0
         while done < steps:
             own = min(piece, steps - done)
@@ -132,6 +140,7 @@ def simulate(
         marks.append(_mark(record, state))
         if done < end - begin:
             break
+    # energy still stored in teeth is not dissipated
     pressed = _stored(system, model.transmissions, state, yields) - pressed
     record.energy[STEP] -= pressed
     order = np.argsort(model.order.coordinates)
@@ -161,36 +170,40 @@ def simulate(
 
 
 def _mark(record: RunRecord, state: ContactState) -> _Mark:
-    """Counts, energies and angles up to now."""
+    """Copy the counts, energies and angles up to now."""
     return record.counts.copy(), record.energy.copy(), state.angle.copy()
 
 
 def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark, order: Ints) -> SimulatedRun:
-    """One block of a run, between two marks."""
+    """Return one block of a run, between two marks."""
     counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
     plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
     return replace(run, plan=plan, counts=counts, energy=energy, turned=turned[order], blocks=())
 
 
 def check_convergence(state: ContactState, record: RunRecord, step: float) -> None:
-    """Raise `QuestionError` where the steps of a run diverged."""
+    """Raise `QuestionError` if the steps of a run diverged."""
     if record.numbers[DIVERGED]:
-        why = f"steps of {step:.3g} s are too long for what is stiff or heavy in this train: speeds grow without bound"
-        what = f"motion in time diverges after {state.clock[0]:.4g} s"
-        raise QuestionError(Problem(what, why, "give more `--steps`, or a shorter `step`", "--steps"))
+        why = f"time steps of {step:.3g} s are too long for the stiffness of this train: speeds grow without bound"
+        what = f"the simulation diverges after {state.clock[0]:.4g} s"
+        raise QuestionError(Problem(what, why, "give more `--steps` per turn, or a shorter `step`", "--steps"))
 
 
 def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duration: float) -> StepRules:
-    """How a model is stepped in a run of so many seconds, with what rounding leaves of its speeds."""
+    """Return the numerical parameters of a run of some duration [s], with tolerances for the rounding of its speeds."""
     fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
+    # a train at rest has no speed scale
     fastest = fastest or 1.0
+    # rounding of angles grows with time and is divided by the step
     slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + fastest * duration) / plan.step)
     rounds = _ROUNDS + 6 * (len(model.pairs) + len(model.stops) + len(model.bearings))
     return StepRules(plan.step, plan.stride, _CREEP * fastest, slack, rounds)
 
 
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
-    """All coordinates at 0, at the speeds the model starts with, or those of all front flanks in contact."""
+    """Return the initial state: coordinates at 0, and the model's initial speeds or those with all front flanks in
+    contact.
+    """
     n, pairs = len(model.torque), len(model.pairs)
     place = {each: at for at, each in enumerate(model.order.coordinates)}
     speed = np.zeros(n)
@@ -203,11 +216,13 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
                 model.transmissions, int(system.tables[m, side]), float(system.start_driver[m])
             )
     for d, m in enumerate(model.order.owner):
+        # speeds that follow from prescribed ones through touching front flanks
         if m >= 0 and model.given:
             row = slice(system.pair_at[m] + 1, system.pair_at[m + 1])
             lead = system.pair_driven[row.start - 1] - ratio[m, 0] * system.pair_driver[row.start - 1]
             others = speed[system.pair_of[row]]
             speed[d] = (ratio[m, 0] * system.pair_driver[row] - system.pair_driven[row]) @ others / lead
+    # a continued run overrides the consistent initial speeds
     if model.start is not None:
         speed = np.array([model.start[each] for each in model.order.coordinates], dtype=np.float64)
     touching = np.full(pairs, FRONT, dtype=np.int64)
@@ -228,7 +243,7 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
 
 
 def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
-    """Room for what a run leaves of coordinates, and of pairs and stops: so many samples and impacts."""
+    """Allocate the record of a run for a number of coordinates, of pairs and stops, of samples and of impacts."""
     return RunRecord(
         np.zeros(ENERGIES),
         np.zeros((rows, COUNTS)),
@@ -242,7 +257,7 @@ def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
 
 
 def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
-    """Room for one step."""
+    """Allocate the equations of one step."""
     return StepEquations(
         np.zeros(n),
         np.zeros((pairs, 2)),
@@ -266,27 +281,30 @@ def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
     )
 
 
-def _teeth(model: ContactModel, yields: ToothYield | None) -> YieldingTeeth | None:
+def _teeth(model: ContactModel, yields: ToothCompliance | None) -> CompliantTeeth | None:
     if yields is None:
         return None
     pairs = len(model.pairs)
-    return YieldingTeeth(
+    return CompliantTeeth(
         yields.stiffness, yields.damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2))
     )
 
 
-def _yielding(model: ContactModel, system: ContactSystem, step: float, yields: ToothYield) -> ContactSystem:
-    """The arrays for the midpoint rule: no pair determines a coordinate, each is a row that yields."""
+def _midpoint_system(model: ContactModel, system: ContactSystem, step: float, yields: ToothCompliance) -> ContactSystem:
+    """Return the arrays for the midpoint rule: no pair determines a coordinate, and each is a compliant row."""
     springs = system.matrix - system.mass - step * system.viscous  # step^2 K
     return system._replace(
+        # the midpoint rule weighs drag by h/2 and springs by h^2/4
         matrix=system.mass + step / 2 * system.viscous + springs / 4,
         owner=np.full(len(model.torque), -1, dtype=np.int64),
         stiff=step**2 / 4 * yields.stiffness + step / 2 * yields.damping,
     )
 
 
-def _stored(system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothYield | None) -> float:
-    """Energy in teeth that yield and are pressed together (J)."""
+def _stored(
+    system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothCompliance | None
+) -> float:
+    """Return the energy stored in compressed compliant teeth [J]."""
     if yields is None:
         return 0.0
     found = 0.0

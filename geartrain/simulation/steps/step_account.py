@@ -1,4 +1,4 @@
-"""What one step adds to the account of a run: energies, shares of time apart, blows."""
+"""Contributions of one step to the balance of a run: energies, times without contact, impacts."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from geartrain.simulation.steps.contact_solution import (
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
-_ROUNDING = 1e-9  # of the speeds of a pair: flanks that close no faster do not strike
+_ROUNDING = 1e-9  # relative to the speeds of a pair: slower closing is rounding, not an impact
 
 
 @kernel
@@ -49,9 +49,10 @@ def count_energy(
     speed: Floats,
     share: float,
 ) -> None:
-    """Work of drives, torques and springs, losses by drag: each impulse times the mean speed of its step.
+    """Add the work of drives, torques and springs, and the losses by drag: each impulse times the mean speed of its
+    step.
 
-    speed   of which drag and springs know; `share`, the part of the step after which springs are asked
+    speed   speed of drag and springs; `share`, the fraction of the step after which springs are evaluated
     """
     for d in range(len(here.middle)):
         record.energy[WORK_DRIVE] += here.drive[d] * here.middle[d]
@@ -89,7 +90,7 @@ def count_contacts(
     record: RunRecord,
     rules: StepRules,
 ) -> None:
-    """Shares of time, blows with their energy, and what friction takes, by pair."""
+    """Add times in contact, impacts with their energy, and friction losses, by pair."""
     for m in range(len(system.stiff)):
         rate_S, rate_q, mean_S, mean_q = 0.0, 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
@@ -110,7 +111,9 @@ def count_contacts(
             continue
         side = now - 1
         sign = 1.0 - 2.0 * side
+        # work against the contact: impulse times mean opening speed
         taken = -here.P[m] * sign * (mean_q - here.ratio[m, side] * mean_S)
+        # friction is the difference between the speed ratio and the lever arm of forces
         rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
         record.energy[FRICTION] += rubbed
         counts[RUBBED] += rubbed
@@ -118,6 +121,7 @@ def count_contacts(
         if now != here.before[m] and here.before[m] != 0:
             counts[CHANGES] += 1.0
         struck = now != here.before[m] or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)
+        # scale of rounding errors of the closing speed
         minimum = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
         if struck and system.two_sided[m] == 0 and here.closing[m, side] > minimum:
             state.struck[m] = 1
@@ -126,7 +130,7 @@ def count_contacts(
             counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], here.closing[m, side])
             note_impact(record, state.clock[0] + rules.step, m, here.closing[m, side], taken, here.P[m])
         elif state.struck[m] != 0:
-            # a ratio that jumps within a step is met by the mean of both, and the rest follows in the next
+            # a ratio that jumps within a step is replaced by the mean of both values; the next step has the rest
             state.struck[m] = 0
             count_impact(record, m, taken, here.P[m], state.steady[m])
         else:
@@ -136,9 +140,9 @@ def count_contacts(
 
 @kernel
 def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> None:
-    """Time apart and on the coast flank, and the greatest gap, from both gaps of a pair (rad).
+    """Add the time without contact and on the coast flank, and update the maximum gap, from both gaps of a pair [rad].
 
-    flight   share of the step in which no flank touches
+    flight   fraction of the step in which no flank touches
     """
     counts[TIME_APART] += flight
     if behind < ahead:
@@ -148,20 +152,20 @@ def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> Non
 
 @kernel
 def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
-    """Share of the step in which no flank of a pair touches: of one that is met and kept, up to where it is met."""
+    """Return the fraction of the step in which no flank of a pair touches; for a new contact, until it closes."""
     if touching[m] == OPEN:
         return 1.0
     side = touching[m] - 1
     if here.before[m] != OPEN or here.closing[m, side] <= 0.0:
         return 0.0
     if here.bound[m, side] > here.gap[m, side]:
-        return 1.0  # it bounces, and is apart before and after
+        return 1.0  # it bounces, and separates again
     return float(min(max(-here.gap[m, side] / here.closing[m, side], 0.0), 1.0))
 
 
 @kernel
 def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
-    """Part what a contact takes in a step between the blow and the steady force beside it."""
+    """Divide the energy dissipated by a contact in a step between the impact and the steady force."""
     share = (impulse - steady) / impulse if impulse > steady else 0.0
     record.energy[IMPACT_LOSS] += taken * share
     record.energy[STEP] += taken * (1.0 - share)
@@ -170,9 +174,9 @@ def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady
 
 @kernel
 def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side: int) -> bool:
-    """Whether the speed ratio of a flank has passed a jump of its law since the last step.
+    """Return whether the speed ratio of a flank has passed a jump of its transmission function since the last step.
 
-    now, before   ratios of all pairs; few arrays, for calls with many are slow
+    now, before   ratios of all pairs; calls with many arrays are slow, so only a few are passed
     """
     return bool(abs(now[m, side] - before[m, side]) > jump[tables[m, side]] / 2)
 
@@ -181,7 +185,7 @@ def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side:
 def count_stops(
     system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, step: float
 ) -> None:
-    """Blows of links against their stops."""
+    """Add the impacts of links against their stops."""
     pairs = len(system.stiff)
     for m in range(len(system.stop_stiff)):
         if state.stopped[m] == 0:
@@ -199,7 +203,7 @@ def count_stops(
             record.energy[IMPACT_LOSS] += taken
             counts[IMPACT_ENERGY] += taken
         elif here.before[pairs + m] == 0 and start > 0.0:
-            # it comes to its stop in this step, and to rest in the next
+            # it reaches its stop in this step, and comes to rest in the next
             state.struck[pairs + m] = 1
             record.energy[IMPACT_LOSS] += taken
             counts[IMPACT_COUNT] += 1.0
@@ -208,8 +212,8 @@ def count_stops(
             counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], closing)
             note_impact(record, state.clock[0], pairs + m, closing, taken, here.P[pairs + m])
         else:
-            # a stop that moves on and is met again within one step: all that it takes is of that blow
-            # (its closing speed is that of the step at least)
+            # a stop that advances and is reached again within one step: its whole dissipation belongs to that impact
+            # (its closing speed is at least that of the step)
             record.energy[IMPACT_LOSS] += taken
             counts[IMPACT_ENERGY] += taken
             if here.stop_bound[m] * step > system.stop_pitch[m] / 2:
@@ -220,7 +224,7 @@ def count_stops(
 
 @kernel
 def note_impact(record: RunRecord, time: float, which: int, speed: float, energy: float, impulse: float) -> None:
-    """Write an impact down, as long as there is room."""
+    """Append an impact to the list, unless the list is full."""
     at = record.numbers[IMPACTS]
     if at < len(record.impacts):
         row = record.impacts[at]

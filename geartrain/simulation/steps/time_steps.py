@@ -1,16 +1,17 @@
-"""Nonsmooth time stepping after Moreau and Jean: one kernel that runs a train through many steps of one length.
+"""Nonsmooth time stepping after Moreau and Jean: a kernel that advances a train by steps of constant length.
 
-Contact is held at the level of positions for what does not bounce, docs/dynamics.md (12): with S* = S + h dS/dt and
-F*, tau* there,
+Contacts without rebound are enforced at the position level, docs/dynamics.md (12). With S* = S + h dS/dt and F*, tau*
+there,
 
     dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
 
-so that gaps do not drift. Which contacts touch and which bearings stick is found by turning wrong guesses round, all at
-once and, should that not settle, least index first, from the guess of the step before.
+so that gaps do not drift. The complementarity problem of touching contacts and sticking bearings is solved from the
+solution of the previous step. Wrong contact states are flipped all at once (block pivoting) and, if that does not
+converge, the lowest index first (Murty's method).
 
-A train at rest takes steps that would all be alike at once, up to the next beat of an escapement: between two beats a
-clock stands most of the time, its stop holds, bearings stick, and torques do not change. A step that starts and ends
-without speed, and for which no guess was turned round, is followed by the same step again.
+A train at rest takes identical steps at once, up to the next beat of an escapement. Between two beats a clock rests
+most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends without
+speed, and for which no contact state was flipped, is followed by the same step again.
 """
 
 from __future__ import annotations
@@ -48,18 +49,18 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 
-FARTHEST = 1000.0  # rad in a step: beyond, it is no motion but an error that grows
-_SHORT = 2  # steps apart after which flanks stay in contact at any restitution
-_AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
-_NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
-_JOLT = 0.01  # of a driver's speed: what changes it so much within a step is a blow, be it the rest of one before
+FARTHEST = 1000.0  # largest rotation in one step [rad]; beyond it the solution diverges
+_SHORT = 2  # flights of at most this many steps end without rebound, whatever the restitution
+_AGAIN = 4  # maximum number of new evaluations of transmission functions when an impact changes their drivers' speeds
+_NEAR = 1e-9  # tolerance between a driver's angle and the angle at which its function was evaluated [rad]
+_IMPACT_CHANGE = 0.01  # relative change of a driver's speed within a step that counts as an impact, or the rest of one
 
 
 @kernel
 def is_at_rest(before: Floats, after: Floats, still: float) -> bool:
-    """Whether nothing moves, neither before a step nor after it.
+    """Return whether all speeds before and after a step are 0 within a tolerance.
 
-    still   speed that is none (rad/s)
+    still   tolerance of the speeds [rad/s]
     """
     fastest = 0.0
     for d in range(len(after)):
@@ -71,21 +72,21 @@ def is_at_rest(before: Floats, after: Floats, still: float) -> bool:
 
 @kernel
 def find_idle_steps(system: ContactSystem, state: ContactState, rules: StepRules, most: int) -> int:
-    """How many steps, at most so many, a train at rest has before what acts on it changes."""
+    """Return the number of steps, up to `most`, before the loads on a train at rest change."""
     for m in range(len(system.spring_rate)):
         if system.spring_rate[m] != 0.0:
             return 0
     idle = most
     for m in range(len(system.stop_beat)):
         beats = floor((state.clock[0] + rules.step / 2) / system.stop_beat[m])
-        # one step less, whatever rounding does to the moment of the beat
+        # one step less, so that rounding cannot pass the time of the beat
         idle = min(idle, floor((beats + 1) * system.stop_beat[m] / rules.step - state.clock[1] - 1.5))
     return max(idle, 0)
 
 
 @kernel
 def repeat_counts(counts: Floats, before: Floats, times: int) -> None:
-    """Count the last step so many times more, of all contacts.
+    """Add the counts of the last step `times` more, for all contacts.
 
     before   counts before that step
     """
@@ -105,22 +106,25 @@ def run_steps(
     steps: int,
     counted: bool,
 ) -> None:
-    """Go so many steps on; energies, shares and impacts are counted if they are to be, samples always."""
+    """Advance by a number of steps; samples are recorded always, energies, times and impacts only if `counted`."""
     since, done, idle = 0, 0, 0
     still = rules.creep + rules.slack
     before = np.zeros_like(record.counts)
     while done < steps:
         if idle > 1:
             before[:, :] = record.counts
+        # the previous contact state is the first guess
         rounds = solve_step(system, transmissions, state, here, rules)
         if diverges(here.v, rules.step):
             record.numbers[DIVERGED] = 1
             break
         rests = rounds == 1 and is_at_rest(state.speed, here.v, still)
+        # only a step that changed nothing may be repeated
         times = idle if rests and idle > 1 else 1
         if rounds > rules.rounds:
             record.numbers[UNSOLVED] += 1
         for d in range(len(here.v)):
+            # mean speeds make the work of impulses equal to the change of kinetic energy
             here.middle[d] = (state.speed[d] + here.v[d]) / 2
         if counted:
             record.numbers[PIVOTS] += rounds - 1
@@ -138,6 +142,7 @@ def run_steps(
         for d in range(len(here.v)):
             state.speed[d] = here.v[d]
             state.angle[d] += rules.step * here.v[d]
+        # time is counted in steps, so that rounding does not accumulate
         state.clock[1] += times
         state.clock[0] = state.clock[1] * rules.step
         done += times
@@ -155,7 +160,7 @@ def run_steps(
 
 @kernel
 def diverges(speed: Floats, step: float) -> bool:
-    """Whether a link turns so far in one step, or by no number, that nothing is followed any more."""
+    """Return whether a link turns too far in one step, or its speed is not a number."""
     near = True
     for each in speed:
         near = near and abs(each) * step < FARTHEST
@@ -166,7 +171,7 @@ def diverges(speed: Floats, step: float) -> bool:
 def solve_step(
     system: ContactSystem, transmissions: PairTables, state: ContactState, here: StepEquations, rules: StepRules
 ) -> int:
-    """Speeds at the end of a step, and how many guesses they took."""
+    """Solve for the speeds at the end of a step; return the number of guesses."""
     find_loads(system, state, here, rules.step)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]
@@ -189,7 +194,7 @@ def solve_step(
         if again == _AGAIN:
             return rounds
         struck = is_struck(state.touching, here.before, transmissions.jump, system.tables, here.ratio, state.ratio)
-        if find_shift(system, here, 0.0 if struck else _JOLT) * rules.step < _NEAR:
+        if find_shift(system, here, 0.0 if struck else _IMPACT_CHANGE) * rules.step < _NEAR:
             return rounds
         again += 1
         for d in range(len(here.v)):
@@ -201,7 +206,10 @@ def solve_step(
 def add_to_sample(
     forces: Floats, drive: Floats, P: Floats, touching: Ints, kept: Floats, sample: int, times: int
 ) -> None:
-    """Add impulses of so many like steps to those of their sample; few arrays, for calls with many are slow."""
+    """Add the impulses of identical steps to their sample.
+
+    Calls with many arrays are slow, so only a few are passed.
+    """
     for m in range(len(P)):
         forces[sample, m] += times * (P[m] if m >= len(touching) or touching[m] != BACK else -P[m])
     for d in range(len(kept)):
@@ -210,7 +218,7 @@ def add_to_sample(
 
 @kernel
 def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
-    """Write down where the train is, and make means of impulses over the time of the sample (s)."""
+    """Record angles and speeds, and convert impulses to mean torques over the time of the sample [s]."""
     sample = record.numbers[SAMPLES]
     record.angles[sample, :] = state.angle
     record.speeds[sample, :] = state.speed
@@ -221,7 +229,7 @@ def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
 
 @kernel
 def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Momentum, and impulses of torques and springs."""
+    """Compute momentum, and impulses of torques and springs."""
     n = len(here.v)
     for d in range(n):
         here.load[d] = step * system.torque[d] + system.mass[d, d] * state.speed[d]
@@ -230,6 +238,7 @@ def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, 
             here.load[d] += system.mass[d, o] * state.speed[o]
             here.load[o] += system.mass[o, d] * state.speed[d]
     for m in range(len(system.spring_stiffness)):
+        # implicit Euler: the rest angle at the end of the step
         pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + step)
         for x in range(system.spring_at[m], system.spring_at[m + 1]):
             pull -= system.spring_c[x] * state.angle[system.spring_of[x]]
@@ -245,7 +254,9 @@ def find_bounds(
     here: StepEquations,
     step: float,
 ) -> None:
-    """Speed ratios, arms and bounds k of both flanks where the speeds ahead lead, and closing speeds before."""
+    """Compute ratios, arms and bounds k of both flanks at the extrapolated positions, and closing speeds before the
+    step.
+    """
     for m in range(len(system.stiff)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
@@ -254,12 +265,13 @@ def find_bounds(
             q += system.pair_driven[x] * state.angle[o]
             dS += system.pair_driver[x] * state.speed[o]
             dq += system.pair_driven[x] * state.speed[o]
+            # the driver's angle at the end of the step, extrapolated
             on += system.pair_driver[x] * here.ahead[o]
         at = S + step * on
         way = 0 if dS >= 0 else 1
         for side in range(2):
             if state.touching[m] == 2 - side and system.two_sided[m] == 0:
-                # a play away from the flank that touches: nothing of it is asked before that one is left
+                # the opposite flank is a backlash away: it is inactive until the touching one separates
                 here.bound[m, side] = -np.inf
                 here.gap[m, side] = -np.inf
                 continue
@@ -271,8 +283,8 @@ def find_bounds(
             here.closing[m, side] = -rate
             here.ratio[m, side] = ratio
             bounce = -system.restitution[m] * rate
-            # without restitution the position alone counts: a jump of the ratio within the step is no flight. Bounces
-            # follow each other ever faster, and those as short as steps end in contact
+            # without restitution only the position counts: a jump of the ratio within the step is not a flight. Bounces
+            # follow each other ever faster, and those as short as a step end in contact
             bounces = bounce > 0.0 and rate < lack < bounce
             long = state.flown[m] > _SHORT
             if bounces and (long or leaps(transmissions.jump, system.tables, here.ratio, state.ratio, m, side)):
@@ -286,7 +298,7 @@ def find_bounds(
 
 @kernel
 def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
-    """Whether a flank has come to touch in this step, or the ratio of one that touches has jumped since the last."""
+    """Return whether a flank has come into contact in this step, or the ratio of a touching one has jumped."""
     for m in range(len(touching)):
         now = touching[m]
         if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
@@ -296,9 +308,9 @@ def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: F
 
 @kernel
 def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> float:
-    """How far the speeds of drivers are from those for which the laws were read (rad/s).
+    """Return the maximum difference of drivers' speeds from those of the evaluated positions [rad/s].
 
-    minimum   share of its own speed from which that of a driver counts
+    minimum   fraction of its own speed from which a driver's difference counts
     """
     most = 0.0
     for m in range(len(system.stiff)):
@@ -314,7 +326,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """How fast each stopped link may go: to its stop, or back from it."""
+    """Compute the maximum speed of each stopped link: to its stop, or back from it."""
     for m in range(len(system.stop_stiff)):
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[m])
         room = system.stop_first[m] + (1.0 + beats) * system.stop_pitch[m]
@@ -324,14 +336,14 @@ def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquat
             rate += system.stop_c[x] * state.speed[system.stop_of[x]]
         here.stop_bound[m] = room / step
         if state.stopped[m] != 0:
-            # met at its place in the step before, by the speed found there, and left in this one
+            # reached at its position in the previous step with the speed found there, and left in this one
             back = system.stop_restitution[m] * here.stop_closing[m]
             if back > 0.0:
                 here.stop_bound[m] = min(room / step, -back)
             here.stop_closing[m] = 0.0
             state.stop_rate[m, 1] = rate
         else:
-            # an even acceleration gives v0^2 at the stop that was left at v0, in one step without it: in these steps
+            # closing speed v0 under constant acceleration from the stop that was left at v0; with these steps
             # v0^2 = v^2 + a (h v + h v0 + 2 room)
             gain = rate - state.stop_rate[m, 0]
             square = rate * rate + gain * (rate + state.stop_rate[m, 1] + 2.0 * room / step)

@@ -1,10 +1,10 @@
-"""Hertz's contact of two teeth, and Archard's wear: docs/strength.md.
+"""Hertzian contact of two teeth, and Archard's wear: docs/strength.md.
 
-ContactLoad     contact along a line, the load shared among the couples that touch on the path of contact
-LeaningLoad     the same of helical involutes on parallel axes: many thin spur wheels, each turned a little against the
-                next, so that the load lies evenly along all lines of contact
-CrossedWheels   contact at a point: Hertz's ellipse, and the involute helicoids of wheels on crossed axes
-loss_over_friction, deepest_passage   wear V = (K/H) times the integral of force over the way slid
+ContactLoad          line contact, the load shared equally by the tooth pairs in contact on the path of contact
+HelicalContactLoad   line contact of helical involutes on parallel axes: thin spur slices, each rotated against the
+                     next, with the load uniform along all lines of contact
+CrossedWheels        point contact: the contact ellipse, and involute helicoids on crossed axes
+loss_over_friction, deepest_passage   wear V = (K/H) times the integral of force over sliding distance
 """
 
 from __future__ import annotations
@@ -27,25 +27,26 @@ if TYPE_CHECKING:
 
 
 WEAR_RANGE = (1e-7, 1e-3)
-"""Wear coefficients K from greased metal to dry bronze or brass: four powers of ten, all of which one may meet."""
+"""Range of the wear coefficient K, from greased metal to dry bronze or brass: four decades."""
 
 YIELD_AT = 5 / 3
-"""Greatest pressure of a line contact over the yield stress where yielding begins below it.
+"""Maximum pressure of a line contact at first yield, over the yield stress.
 
-The greatest shear stress is 0.300 of that pressure, 0.79 half widths deep; by Tresca metal yields at half the yield
-stress (Johnson, Contact Mechanics, 1985, sections 4.2 and 6.2).
+Yielding begins below the surface. The maximum shear stress is 0.300 of the pressure at a depth of 0.79 half widths; by
+Tresca, metal yields at half the yield stress (Johnson, Contact Mechanics, 1985, sections 4.2 and 6.2).
 """
 
 YIELD_AT_POINT = 1.6
-"""Greatest pressure of a contact at a point over the yield stress where yielding begins below it.
+"""Maximum pressure of a point contact at first yield, over the yield stress.
 
-Of spheres, by Tresca and by von Mises alike (Johnson, Contact Mechanics, 1985, section 6.2); of a long ellipse 5/3.
+The value is that of spheres, by Tresca and by von Mises (Johnson, Contact Mechanics, 1985, section 6.2). A long ellipse
+has 5/3.
 """
 
-_CUSP = 0.1  # pitches about a pitch point where a flank has no radius
+_CUSP = 0.1  # excluded range about a pitch point with infinite curvature [pitches]
 _POSITIONS = 801
 _POINTS = 401
-_SLIGHT = 1e-5  # friction so small that what is lost goes with it
+_SLIGHT = 1e-5  # coefficient of friction so small that the loss is proportional to it
 
 
 # --------------------------------------------------------------------------------------------------------- along a line
@@ -53,14 +54,14 @@ _SLIGHT = 1e-5  # friction so small that what is lost goes with it
 
 @dataclass(frozen=True, slots=True)
 class Elasticity:
-    """Young's modulus (MPa) and Poisson's ratio of a material."""
+    """Young's modulus [MPa] and Poisson's ratio of a material."""
 
     youngs_modulus: float
     poisson: float
 
 
 def elasticity_factor(first: Elasticity, second: Elasticity) -> float:
-    """ZE of two materials [sqrt(MPa)]: docs/strength.md (1).
+    """Return the elasticity factor ZE of two materials [sqrt(MPa)]: docs/strength.md (1).
 
     ZE^2 = 1 / (pi ((1 - nu1^2)/E1 + (1 - nu2^2)/E2))
 
@@ -73,10 +74,10 @@ def elasticity_factor(first: Elasticity, second: Elasticity) -> float:
 
 
 def hertz_pressure(factor: float, force: float, width: float, curvature: float) -> float:
-    """Greatest pressure [MPa] of a line contact: docs/strength.md (2).
+    """Return the maximum pressure of a line contact [MPa]: docs/strength.md (2).
 
-    factor      of elasticity [sqrt(MPa)]
-    force       normal to the flanks [N]; `width` [mm] along which they touch
+    factor      elasticity factor [sqrt(MPa)]
+    force       normal force on the flanks [N]; `width` of contact [mm]
     curvature   1/rho1 + 1/rho2 [1/mm]
     """
     return factor * sqrt(force / width * curvature)
@@ -84,35 +85,37 @@ def hertz_pressure(factor: float, force: float, width: float, curvature: float) 
 
 @dataclass(frozen=True, slots=True)
 class ContactPlace(Result):
-    """Pressure at one place of the path of contact."""
+    """Pressure at one position on the path of contact."""
 
     KEYS = ("where", "position", "tooth_pairs", "force", Key("pressure", to=finite))
 
     where: str
-    """What the place is called."""
+    """Name of the position."""
     position: float
-    """Past the pitch point, along the pitch line [pitch]."""
+    """Displacement past the pitch point along the pitch line [pitch]."""
     tooth_pairs: float
-    """Pairs of teeth that touch then; each carries the same force. For helical teeth, the least mean over the width."""
+    """Number of tooth pairs in contact, each with the same force. For helical teeth, the minimum of the mean over the
+    width.
+    """
     force: float
-    """Normal to the flanks [N]."""
+    """Normal force of one tooth pair [N]."""
     pressure: float
-    """Greatest in the contact [MPa]; infinite where a flank has no radius."""
+    """Maximum pressure in the contact [MPa]; infinite if a flank has no radius of curvature."""
 
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """A loaded pair with a path of contact."""
+    """Loaded pair with a path of contact."""
 
     path: PathOfContact
-    """Of the pair, lengths in modules."""
+    """Path of contact, lengths in modules."""
     module: float
-    """Mm; `width` of the teeth in contact, mm."""
+    """Module [mm]; `width` is that of the teeth in contact [mm]."""
     width: float
     torque: float
-    """On gear 1 [N mm]."""
+    """Torque on gear 1 [N mm]."""
     factor: float
-    """Of elasticity [sqrt(MPa)]."""
+    """Elasticity factor [sqrt(MPa)]."""
 
     @property
     def tangential(self) -> float:
@@ -120,47 +123,56 @@ class ContactLoad:
         return self.torque / (self.path.pitch.R1 * self.module)
 
     def tooth_pairs(self, X: float) -> list[float]:
-        """Displacements of all couples that touch while one touches at X."""
+        """Return the displacements of all tooth pairs in contact while one touches at X."""
         p, (approach, recess) = self.path.pitch.p, self.path.arcs
+        # rounding must not lose a pair at the ends of the path
         slack = 1e-9 * p
         first, last = ceil((-approach - X - slack) / p), floor((recess - X + slack) / p)
         return [X + k * p for k in range(first, last + 1)] or [X]
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Normal force [N] at each displacement, and how many couples share the torque: all carry the same force."""
+        """Return the normal force [N] at each displacement, and the number of tooth pairs that share the torque
+        equally.
+        """
         cosines, counts = [], []
         for each in X.tolist():
             found = self.path.at(np.clip(self.tooth_pairs(each), -self.path.arcs[0], self.path.arcs[1])).cos_psi
+            # equal forces: the torque divides by the sum of the cosines of all pairs in contact
             cosines.append(float(found.sum()))
             counts.append(len(found))
         return self.tangential / np.array(cosines), np.array(counts)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
-        """Pressure [MPa], force [N] and couples at displacements X."""
+        """Return pressure [MPa], force [N] and number of tooth pairs in contact at displacements X."""
         force, counts = self.forces(X)
         curvature = self.path.at(X).kr / self.module
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
-        """The displacements between which one couple bears all; the whole path where two never touch."""
+        """Return the displacements between which one tooth pair carries the whole load.
+
+        If two pairs never touch at once, they are the ends of the path.
+        """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         low, high = recess - p, p - approach
+        # with a contact ratio below 1 one pair carries the load all the time
         return (low, high) if low <= high else (-approach, recess)
 
     @property
     def has_cusp(self) -> bool:
-        """True for flanks without radius at the pitch point, as cycloids have."""
+        """True if the flanks have no radius of curvature at the pitch point, as cycloids do."""
         approach, recess = self.path.arcs
         return -approach <= 0 <= recess and not isfinite(float(self.path.at(np.zeros(1)).kr[0]))
 
     def single_pressure(self) -> float:
-        """The greatest pressure [MPa] while one couple bears all, as ISO 6336-2 has it."""
+        """Return the maximum pressure [MPa] while one tooth pair carries the whole load, as in ISO 6336-2."""
         low, high = self.single()
+        # inside the interval, because the load jumps at its ends
         nudge = min(1e-7 * self.path.pitch.p, (high - low) / 4)
         return float(self.pressures(np.linspace(low + nudge, high - nudge, _POSITIONS))[0].max())
 
     def places(self) -> tuple[ContactPlace, ...]:
-        """Ends of contact and of single contact, the pitch point, and the worst of all places."""
+        """Return the ends of contact and of single contact, the pitch point, and the worst position."""
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         named = {"start of contact": -approach, "end of contact": recess}
         low, high = self.single()
@@ -171,32 +183,34 @@ class ContactLoad:
         X = np.linspace(-approach, recess, _POSITIONS)
         if self.has_cusp:
             X = X[np.abs(X) >= _CUSP * p]
-        # a jump of the sharing lies between two positions: the named ones stand on its side of more load
+        # load sharing jumps between two positions: the named positions are evaluated on the side of the higher load
         X = np.concatenate((X, [each for name, each in named.items() if name != "pitch point"]))
         pressure, force, counts = self.pressures(X)
+        # infinite pressure at a cusp is reported by name, not as the worst position
         worst = int(np.argmax(np.where(np.isfinite(pressure), pressure, -1.0)))
         found = [self._place(name, each) for name, each in sorted(named.items(), key=lambda each: each[1])]
-        far = "worst" if not self.has_cusp else f"worst, but for {_CUSP:g} pitch about the pitch point"
+        far = "worst" if not self.has_cusp else f"worst, excluding {_CUSP:g} pitch about the pitch point"
         last = ContactPlace(far, float(X[worst] / p), counts[worst].item(), float(force[worst]), float(pressure[worst]))
         return (*found, last)
 
     def _place(self, name: str, X: float) -> ContactPlace:
-        nudge = 1e-7 * self.path.pitch.p  # into the stretch where fewer couples bear the load
+        nudge = 1e-7 * self.path.pitch.p  # into the interval where fewer tooth pairs carry the load
         towards = {"inner single contact of gear 1": nudge, "inner single contact of gear 2": -nudge}.get(name, 0.0)
         pressure, force, counts = self.pressures(np.array([X + towards]))
         return ContactPlace(name, X / self.path.pitch.p, counts[0].item(), float(force[0]), float(pressure[0]))
 
 
 def base_helix_angle(helix: float, pressure_angle: float) -> float:
-    """Of the base cylinder (rad), from the helix angle at the pitch circle and the normal pressure angle."""
+    """Return the base helix angle [rad] from the helix angle at the pitch circle and the normal pressure angle."""
     return asin(sin(helix) * cos(pressure_angle))
 
 
 def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
-    """The least number of couples that touch, in the mean over the width: docs/strength.md (20).
+    """Return the minimum number of tooth pairs in contact, as a mean over the width: docs/strength.md (20).
 
-    contact_ratio   in the transverse section; `overlap`, by how many pitches teeth lag over the width
+    contact_ratio   transverse contact ratio; `overlap`, overlap ratio
     """
+    # fractional parts of both ratios: whole pitches do not change the minimum
     first, second = contact_ratio - floor(contact_ratio), overlap - floor(overlap)
     if not overlap:
         return float(floor(contact_ratio))
@@ -205,36 +219,38 @@ def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class LeaningLoad(ContactLoad):
-    """A loaded helical pair; all as of `ContactLoad`, in the transverse section."""
+class HelicalContactLoad(ContactLoad):
+    """Loaded helical pair; quantities are as in `ContactLoad`, in the transverse section."""
 
     base_helix: float = 0.0
-    """Rad."""
+    """Base helix angle [rad]."""
     overlap: float = 0.0
-    """Pitches by which teeth lag over the width."""
+    """Overlap ratio: pitches by which teeth advance over the width."""
 
     @property
     def lines(self) -> float:
-        """Least number of couples in the mean of the width."""
+        """Minimum number of tooth pairs in contact, as a mean over the width."""
         return minimum_tooth_pairs(self.path.contact_ratio, self.overlap)
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Force [N] on one whole tooth across the axes at each displacement, were all alike; and how many share it."""
+        """Return the transverse force [N] on a whole tooth at each displacement, if all were equal, and the number of
+        pairs.
+        """
         force = self.tangential / self.path.at(X).cos_psi / self.lines
         return force, np.full(X.shape, self.lines)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
-        """Pressure [MPa], force [N] and couples at displacements X.
+        """Return pressure [MPa], force [N] and number of tooth pairs in contact at displacements X.
 
-        Lines of contact are longer by 1/cos of the base helix angle, so is the force along them, and flanks are the
-        flatter across them.
+        Lines of contact are longer by 1/cos of the base helix angle, and so is the force normal to the flanks; the
+        curvature across the lines is smaller by the cosine.
         """
         force, counts = self.forces(X)
         curvature = self.path.at(X).kr / self.module * cos(self.base_helix)
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
-        """All of the path: the load never rests on one couple alone."""
+        """Return the ends of the path, because the load is never on only one tooth pair."""
         return -self.path.arcs[0], self.path.arcs[1]
 
 
@@ -242,7 +258,7 @@ class LeaningLoad(ContactLoad):
 
 
 class ContactEllipse(NamedTuple):
-    """What two bodies touch in: greatest pressure [MPa], and the longer and the shorter half axis [mm]."""
+    """Contact ellipse of two bodies: maximum pressure [MPa], semi-major and semi-minor axis [mm]."""
 
     pressure: float
     longer: float
@@ -250,13 +266,13 @@ class ContactEllipse(NamedTuple):
 
 
 def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float], crossing: float) -> ContactEllipse:
-    """Hertz's ellipse of two cylinders that cross: docs/strength.md (25).
+    """Compute Hertz's contact ellipse of two crossed cylinders: docs/strength.md (25).
 
-    force        pressing them together [N]; `factor` of elasticity, ZE [sqrt(MPa)]
-    curvatures   of both [1/mm]
-    crossing     angle between their straight lines (rad), above 0
+    force        normal force [N]; `factor`, elasticity factor ZE [sqrt(MPa)]
+    curvatures   of both cylinders [1/mm]
+    crossing     angle between their generatrices [rad], above 0
 
-    Two rods of 20 mm that cross at a right angle, as a ball of 20 mm on a plane:
+    Two rods of radius 10 mm that cross at a right angle are equivalent to a ball of radius 10 mm on a plane:
 
     >>> round(contact_ellipse(10, 189.81, (0.1, 0.1), pi / 2).pressure, 1)
     628.2
@@ -270,17 +286,24 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
     wanted = (total + apart) / (total - apart)
 
     def ratio(log: float) -> float:
-        k2 = np.exp(2 * log)  # of the half axes, squared
+        k2 = np.exp(2 * log)  # squared ratio of the semi-axes
         K, E = ellipkm1(k2), ellipe(1 - k2)
         return float(np.log((E / k2 - K) / (K - E)) - np.log(wanted))
 
+    # equal curvatures: the ellipse is a circle, where the equation of its axes is singular
     if apart <= 1e-9 * total:
         k = 1.0
     elif ratio(-34.0) < 0:
-        why = f"their lines cross at {crossing:.3g} rad"
-        raise RangeError(Problem("two cylinders touch along a line", why, "take the pressure of a line contact"))
+        why = f"their generatrices cross at only {crossing:.3g} rad"
+        raise RangeError(
+            Problem(
+                "two parallel cylinders touch along a line", why, "use the pressure of a line contact, `hertz_pressure`"
+            )
+        )
     else:
+        # in logarithms, because long ellipses have axis ratios down to 1e-15
         k = float(np.exp(brentq(ratio, -34.0, -1e-7)))
+    # contact modulus E* from ZE
     modulus = pi * factor**2
     pressure = ((total * modulus / float(ellipe(1 - k**2))) ** 2 * 3 * force * k / (2 * pi)) ** (1 / 3)
     longer = sqrt(3 * force / (2 * pi * pressure * k))
@@ -289,28 +312,28 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
 
 @dataclass(frozen=True)
 class CrossedWheels:
-    """Two helical wheels of involute teeth on axes that cross; one of them may be a worm. Lengths in mm."""
+    """Two involute helical wheels on crossed axes; one of them may be a worm. Lengths in mm."""
 
     radii: tuple[float, float]
-    """Of the pitch circles."""
+    """Radii of the pitch circles [mm]."""
     helix: tuple[float, float]
-    """Helix angles (rad), of right hands above 0; they add up to the shaft angle."""
+    """Helix angles [rad], positive for right hands; their sum is the shaft angle."""
     module: float
-    """Across the teeth."""
+    """Normal module [mm]."""
     pressure_angle: float
-    """Across the teeth (rad)."""
+    """Normal pressure angle [rad]."""
     addenda: tuple[float, float] = (1.0, 1.0)
-    """Of both, in modules."""
+    """Addenda of both wheels [module]."""
     widths: tuple[float, float] = (float("inf"), float("inf"))
-    """Of both, infinite where they are not known."""
+    """Widths of both wheels [mm]; infinite if not known."""
 
     @property
     def pitch(self) -> float:
-        """From one couple to the next along the line on which teeth touch."""
+        """Base pitch along the line of action [mm]."""
         return pi * self.module * cos(self.pressure_angle)
 
     def flank_radius(self, at: int) -> float:
-        """Radius of curvature of a flank at the pitch point, across its straight lines."""
+        """Return the radius of curvature of a flank at the pitch point, across its generatrices [mm]."""
         transverse = atan(tan(self.pressure_angle) / cos(self.helix[at]))
         return self.radii[at] * sin(transverse) / cos(self._base_helix(at))
 
@@ -318,63 +341,68 @@ class CrossedWheels:
         return asin(sin(self.helix[at]) * cos(self.pressure_angle))
 
     def normal_count(self, at: int) -> float:
-        """Teeth of the spur wheel whose teeth are those of a wheel seen along them; not whole."""
+        """Return the virtual number of teeth in the normal section, not an integer."""
         return 2 * self.radii[at] / self.module / cos(self._base_helix(at)) ** 2
 
     def tooth_length(self, at: int) -> float:
-        """Of a tooth, along its pitch helix."""
+        """Return the length of a tooth along its pitch helix [mm]."""
         return self.widths[at] / cos(self.helix[at])
 
     @cached_property
     def crossing(self) -> float:
-        """Angle between the straight lines of both flanks where they touch (rad)."""
+        """Angle between the generatrices of both flanks at the point of contact [rad]."""
         normal = cos(self.pressure_angle), 0.0, sin(self.pressure_angle)
         axes = (sin(self.helix[0]), cos(self.helix[0]), 0.0), (-sin(self.helix[1]), cos(self.helix[1]), 0.0)
-        # each lies in the plane of its axis and the normal, at right angles to the normal
+        # each generatrix lies in the plane of its axis and the normal, perpendicular to the normal
         first, second = (unit(minus(axis, scaled(normal, dot(axis, normal)))) for axis in axes)
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """How far past the pitch point, towards the tip of one wheel, each thing lets them touch."""
+        """Return the limits of the path of contact towards the tip of one wheel, past the pitch point, by
+        cause [mm].
+        """
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2
         square, half = sin(alpha) ** 2 + (cos(alpha) * cos(lean)) ** 2, self.radii[at] * sin(alpha)
         reach = (sqrt(half**2 + square * (tip**2 - self.radii[at] ** 2)) - half) / square
-        steps = (cos(alpha) * abs(sin(lean)) for lean in self.helix)  # along each axis
+        steps = (
+            cos(alpha) * abs(sin(lean)) for lean in self.helix
+        )  # displacement along each axis per length of the line of action
         aside = [width / 2 / step for step, width in zip(steps, self.widths, strict=True) if step]
         return {"tip": reach, "base": self.flank_radius(1 - at), "width": min(aside, default=float("inf"))}
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """How far they touch, along the common normal: towards the tip of the second wheel, and of the first."""
+        """Lengths of contact along the line of action: towards the tip of the second wheel, and of the first [mm]."""
         return min(self._bounds(1).values()), min(self._bounds(0).values())
 
     @property
     def bounded_by(self) -> frozenset[str]:
-        """What ends the contact: tip, base or width."""
+        """Causes that end the contact: tip, base or width."""
         return frozenset(min(found, key=found.__getitem__) for found in (self._bounds(0), self._bounds(1)))
 
     @property
     def contact_ratio(self) -> float:
-        """Pitches on which a couple touches."""
+        """Contact ratio: length of contact over the base pitch."""
         return sum(self.ends) / self.pitch
 
     def tooth_pairs(self, place: float) -> int:
-        """How many touch while one does at a place, counted along the normal past the pitch point."""
+        """Return the number of tooth pairs in contact while one touches at a position past the pitch point."""
         back, front = self.ends
         slack = 1e-9 * self.pitch
         return int((place + back + slack) // self.pitch + (front - place + slack) // self.pitch + 1)
 
     def ellipse(self, place: float, force: float, factor: float) -> ContactEllipse:
-        """Where they touch at a place, all couples sharing a normal force [N]."""
+        """Return the contact ellipse at a position, with a normal force [N] shared by all tooth pairs in contact."""
         rho = self.flank_radius(0) + place, self.flank_radius(1) - place
         return contact_ellipse(force / self.tooth_pairs(place), factor, (1 / rho[0], 1 / rho[1]), self.crossing)
 
     def worst(self, force: float, factor: float) -> ContactEllipse:
-        """The greatest pressure of all places where as few couples touch as anywhere."""
+        """Return the ellipse of maximum pressure among all positions with the fewest tooth pairs in contact."""
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
+        # the ends of the path are excluded: a pair carries no load there
         fewest = min(self.tooth_pairs(place) for place in places)
         found = [self.ellipse(place, force, factor) for place in places if self.tooth_pairs(place) == fewest]
         return max(found)
@@ -384,10 +412,11 @@ class CrossedWheels:
 
 
 def loss_over_friction(mesh: GearMesh) -> float | None:
-    """What a pair loses of the power through it, over friction, as friction goes to 0: docs/strength.md (14).
+    """Return the power loss of a pair over its power and its friction, for friction near 0: docs/strength.md (14).
 
-    The energy through the pair times this is the integral of force over the way slid. None for teeth that lock.
+    The energy through the pair times this is the integral of force over sliding distance. None for teeth that lock.
     """
+    # the limit at friction 0, evaluated at a small coefficient
     wheels = replace(mesh.wheels, friction=_SLIGHT, friction_law=None)
     path = mesh.path
     angle = None if path is None or not path.pitch.bevel else path.pitch.R1 + path.pitch.R2
@@ -397,15 +426,16 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
 
 
 def deepest_passage(load: ContactLoad, gear: int) -> float:
-    """Greatest force per width times way slid over one point of a flank while its tooth passes once [N]: (15).
+    """Return the maximum force per width times sliding distance at one point of a flank, for one passage [N]: (15).
 
-    Over the hardness, and times K, it is a depth [N/mm times mm]. A point on which contact stands still is left out.
+    Multiplied by K and divided by the hardness it is a depth. A point at which the contact does not move is left out.
     """
     approach, recess = load.path.arcs
     X = np.linspace(-approach, recess, 801)
     force, _ = load.forces(X)
     found = load.path.at(X)
     own = found.U1 if gear == 1 else found.U2
+    # a point at rest relative to its flank has no sliding path
     with np.errstate(divide="ignore", invalid="ignore"):
         passed = force / load.width * np.abs(found.U1 - found.U2) / np.abs(own)
     return float(passed[np.isfinite(passed)].max(initial=0.0))

@@ -1,9 +1,10 @@
-"""Bending at roots and contact of involute pairs: ISO 6336-2 and -3, and Lewis's cantilever (docs/strength.md).
+"""Contact and root stress of involute pairs by ISO 6336-2 and -3, and root stress by Lewis's formula
+(docs/strength.md).
 
-ISO 6336, method B: every factor by itself, all load factors K 1. Helical pairs as in the editions of 2006: contact in
-the transverse section, roots as of the spur wheel that has the same teeth across them. For teeth as a rack cuts them,
-its corner round with a radius; the root of an exported outline is another one: there Lewis's cantilever tries every
-section of the true outline of a tooth of any form.
+ISO 6336 is applied by method B with all load factors K equal to 1. Helical pairs follow the editions of 2006: contact
+in the transverse section, roots as of the virtual spur wheel in the normal section. The formulas apply to teeth cut by
+a rack with a rounded corner. An exported outline has another root; Lewis's formula evaluates every section of the true
+outline of a tooth of any form.
 """
 
 from __future__ import annotations
@@ -26,10 +27,10 @@ if TYPE_CHECKING:
 
 
 HOB_CORNER = 0.38
-"""Radius of a rack's corner [module], of ISO 53 profile A."""
+"""Tip radius of the rack [module], of ISO 53 profile A."""
 
-_CHORD = 2e-5  # modules
-_STEP = 0.004  # modules from one section to the next
+_CHORD = 2e-5  # tolerance of chords [module]
+_STEP = 0.004  # distance between sections [module]
 
 
 # ------------------------------------------------------------------------------------------------------------- ISO 6336
@@ -37,22 +38,22 @@ _STEP = 0.004  # modules from one section to the next
 
 @dataclass(frozen=True, slots=True)
 class RackWheel:
-    """A wheel that a rack cuts. Lengths in modules."""
+    """Wheel cut by a rack. Lengths in modules."""
 
     z: float
-    """Teeth, also parts of one of the spur wheel that stands for a helical one, and shift of the rack."""
+    """Number of teeth; not an integer for the virtual spur wheel of a helical one."""
     shift: float
-    """Teeth, also parts of one of the spur wheel that stands for a helical one, and shift of the rack."""
+    """Profile shift of the rack [module]."""
     tip: float
-    """Radius of the tip circle."""
+    """Radius of the tip circle [module]."""
     dedendum: float = 1.25
-    """Depth of the rack under its pitch line; `corner`, radius at its tip."""
+    """Depth of the rack below its pitch line [module]; `corner` is its tip radius."""
     corner: float = HOB_CORNER
 
 
 @dataclass(frozen=True, slots=True)
-class ToothLean:
-    """How the teeth of helical wheels lie: helix angles (rad) at the pitch and base circle, and overlap in pitches."""
+class HelixData:
+    """Helix angles [rad] at the pitch and base circle, and overlap ratio, of helical wheels."""
 
     helix: float = 0.0
     base: float = 0.0
@@ -65,43 +66,50 @@ class ToothLean:
 
     @property
     def Ybeta(self) -> float:
-        """Helix angle factor of roots: nothing is gained beyond an overlap of 1, and beyond 30 degrees."""
+        """Helix angle factor of roots. Its reduction is limited to an overlap ratio of 1 and to 30 degrees."""
         return 1 - min(self.overlap, 1.0) * min(degrees(self.helix), 30.0) / 120
 
     def Zeps(self, contact_ratio: float) -> float:
-        """Contact ratio factor."""
+        """Return the contact ratio factor of contact stress."""
         part = min(self.overlap, 1.0)
         return sqrt((4 - contact_ratio) / 3 * (1 - part) + part / contact_ratio)
 
     def single(self, M: float) -> float:
-        """ZB or ZD of a wheel whose M is that of a spur wheel: 1 from an overlap of 1 on, between them in a line."""
+        """Return ZB or ZD from the factor M of a spur wheel.
+
+        It is 1 from an overlap ratio of 1, with linear interpolation below.
+        """
         over = max(M, 1.0)
         return over - min(self.overlap, 1.0) * (over - 1)
 
 
 @dataclass(frozen=True, slots=True)
 class RackPair:
-    """Two such wheels at their distance, helical ones in the transverse section. Angles in rad."""
+    """Pair of rack-cut wheels at its centre distance; helical wheels in the transverse section. Angles in rad."""
 
     first: RackWheel
     second: RackWheel
     angle: float
-    """Pressure angles of the rack, and at work."""
+    """Transverse pressure angle of the rack [rad]."""
     working: float
-    """Pressure angles of the rack, and at work."""
+    """Operating pressure angle [rad]."""
     contact_ratio: float
-    """1 to 2."""
-    lean: ToothLean = ToothLean()
-    """Of helical wheels."""
+    """Transverse contact ratio, 1 to less than 2."""
+    lean: HelixData = HelixData()
+    """Helix data of helical wheels."""
 
     def __post_init__(self) -> None:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
         if not 1 <= self.contact_ratio < 2:
-            what = f"ISO 6336 method B covers contact ratios from 1 to 2, and this one is {self.contact_ratio:.4g}"
-            raise RangeError(Problem(what, "load is shared otherwise", "take the figures by Lewis and Hertz"))
+            what = f"the contact ratio {self.contact_ratio:.4g} is outside of the range of ISO 6336 method B"
+            raise RangeError(
+                Problem(
+                    what, "its load sharing applies to contact ratios from 1 to 2", "use the figures by Lewis and Hertz"
+                )
+            )
 
     def wheel(self, at: int) -> RackWheel:
-        """Wheel 0 or 1."""
+        """Return the first or second wheel by index 0 or 1."""
         return self.second if at else self.first
 
 
@@ -116,39 +124,44 @@ class IsoContact(Result):
     Zeps: float
     """Contact ratio factor."""
     M1: float
-    """ZB and ZD before they are kept from falling below 1, and of spur wheels."""
+    """Factor ZB of spur wheels before its limitation to 1 or more."""
     M2: float
-    """ZB and ZD before they are kept from falling below 1, and of spur wheels."""
+    """Factor ZD of spur wheels before its limitation to 1 or more."""
     nominal: float
-    """sH0, at the pitch point [MPa]."""
+    """Nominal contact stress sH0 at the pitch point [MPa]."""
     stress: tuple[float, float]
-    """At the inner points of single contact of both wheels, ZB and ZD times that [MPa]."""
+    """Contact stresses at the inner points of single contact of both wheels, ZB and ZD times `nominal` [MPa]."""
     Zbeta: float = 1.0
-    """Helix angle factor; 1 of straight teeth."""
+    """Helix angle factor; 1 for spur teeth."""
 
 
 @dataclass(frozen=True, slots=True)
 class IsoRoot(Result):
-    """Root stress of one wheel by ISO 6336-3, the load at the outer point of single contact."""
+    """Root stress of one wheel by ISO 6336-3, with the load at the outer point of single contact."""
 
     chord: float
     """Thickness of the root at its 30 degree tangent [module]."""
     radius: float
     """Radius of the root fillet at its 30 degree tangent [module]."""
     lever: float
-    """Lever of the force about the root at its 30 degree tangent [module]."""
+    """Bending moment arm of the force about the root at its 30 degree tangent [module]."""
     YF: float
     """Form factor."""
     YS: float
     """Stress correction factor."""
     stress: float
-    """sF0 [MPa]."""
+    """Nominal root stress sF0 [MPa]."""
     Ybeta: float = 1.0
-    """Helix angle factor; 1 of straight teeth."""
+    """Helix angle factor; 1 for spur teeth."""
 
 
 def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: float, module: float) -> IsoContact:
-    """Contact stress of an external pair; force in N, lengths in mm: docs/strength.md (7) to (9), (21)."""
+    """Compute the contact stress of an external pair by ISO 6336-2: docs/strength.md (7) to (9), (21).
+
+    elasticity   elasticity factor [sqrt(MPa)]
+    tangential   force at the reference circle [N]
+    width        face width [mm]; `module`, transverse module [mm]
+    """
     a, aw, eps = pair.angle, pair.working, pair.contact_ratio
     z1, z2 = pair.first.z, pair.second.z
     ZH = sqrt(2 * cos(pair.lean.base) * cos(aw) / (cos(a) ** 2 * sin(aw)))
@@ -156,6 +169,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
     far = [sqrt((each.tip / (each.z / 2 * cos(a))) ** 2 - 1) for each in (pair.first, pair.second)]
     M1 = tan(aw) / sqrt((far[0] - 2 * pi / z1) * (far[1] - (eps - 1) * 2 * pi / z2))
     M2 = tan(aw) / sqrt((far[1] - 2 * pi / z2) * (far[0] - (eps - 1) * 2 * pi / z1))
+    # the gear ratio of the standard
     u = z2 / z1
     nominal = ZH * elasticity * Zeps * Zbeta * sqrt(tangential * (u + 1) / (module * z1 * width * u))
     stress = pair.lean.single(M1) * nominal, pair.lean.single(M2) * nominal
@@ -163,7 +177,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
 
 
 def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -> float:
-    """Radius [module] of the outer point at which one couple bears all."""
+    """Return the radius [module] of the outer point at which one tooth pair carries the whole load."""
     base = wheel.z / 2 * cos(angle)
     return sqrt((sqrt(wheel.tip**2 - base**2) - pi * cos(angle) * (contact_ratio - 1)) ** 2 + base**2)
 
@@ -171,14 +185,21 @@ def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -
 def root_stress(
     wheel: RackWheel, angle: float, tangential: float, width: float, module: float, load_radius: float
 ) -> IsoRoot:
-    """Root stress under a force [N] at a radius [module]; width and module in mm: docs/strength.md (10) to (13)."""
+    """Compute the root stress by ISO 6336-3: docs/strength.md (10) to (13).
+
+    angle         pressure angle of the rack [rad]
+    tangential    force [N]; `width` and `module` in mm
+    load_radius   radius of the point of application [module]
+    """
     z, rho, hf = wheel.z, wheel.corner, wheel.dedendum
+    # auxiliary values E, G, H and theta of the standard
     E = pi / 4 - hf * tan(angle) - (1 - sin(angle)) * rho / cos(angle)
     G = rho - hf + wheel.shift
     H = 2 / z * (pi / 2 - E) - pi / 3
     th = _tangent(2 * G / z, H)
     chord = z * sin(pi / 3 - th) + sqrt(3) * (G / cos(th) - rho)
     radius = rho + 2 * G**2 / (cos(th) * (z * cos(th) ** 2 - 2 * G))
+    # pressure angle at the point of load, and its direction at the tooth axis
     ae = acos(z / 2 * cos(angle) / load_radius)
     gamma = (pi / 2 + 2 * wheel.shift * tan(angle)) / z + _inv(angle) - _inv(ae)
     aF = ae - gamma
@@ -193,17 +214,19 @@ def root_stress(
 def helical_root_stress(
     wheel: RackWheel, angle: float, pair: RackPair, tangential: float, width: float, module: float
 ) -> IsoRoot | None:
-    """Of a helical wheel, by the spur wheel with its teeth across them: docs/strength.md (22).
+    """Compute the root stress of a helical wheel by its virtual spur wheel in the normal section: docs/strength.md
+    (22).
 
     wheel, angle   teeth, shift, tip, dedendum and corner in normal modules; normal pressure angle
-    module         the normal one [mm]
+    module         normal module [mm]
 
-    None where as many as two couples of that spur wheel always touch.
+    None if at least two tooth pairs of the virtual spur wheel are always in contact.
     """
     lean = pair.lean
     contact_ratio = pair.contact_ratio / cos(lean.base) ** 2
     if contact_ratio >= 2:
         return None
+    # virtual number of teeth in the normal section
     z = wheel.z / (cos(lean.base) ** 2 * cos(lean.helix))
     stands_in = replace(wheel, z=z, tip=z / 2 + wheel.tip)
     radius = outer_single_contact(stands_in, angle, contact_ratio)
@@ -216,7 +239,7 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """The angle th = slope tan th - H, by Newton's method from pi/6."""
+    """Solve th = slope tan th - H by Newton's method from pi/6."""
     th = pi / 6
     for _ in range(50):
         step = (th - slope * tan(th) + H) / (1 - slope / cos(th) ** 2)
@@ -231,55 +254,59 @@ def _tangent(slope: float, H: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ToothLoad:
-    """Where a force presses on a tooth, in the frame of the tooth: x along its axis from the axle. Lengths in
-    modules."""
+    """Force on a tooth in the frame of the tooth, whose x axis is its axis of symmetry from the wheel's axis. Lengths
+    in modules.
+    """
 
     radius: float
-    """Of the point where it acts; `apex` where its line meets the axis of the tooth."""
+    """Radius of the point of application; `apex` is where the line of action meets the axis of the tooth."""
     apex: float
     angle: float
-    """(rad) between it and the perpendicular of that axis."""
+    """Angle between the force and the normal of the axis of the tooth [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class RootSection:
-    """The section where bending is greatest. Lengths in modules."""
+    """Section of maximum bending stress. Lengths in modules."""
 
     x: float
-    """From the axle; `thickness` of the tooth there."""
+    """Distance from the wheel's axis; `thickness` is that of the tooth there."""
     thickness: float
     factor: float
     """Stress over torque/(width module^2)."""
 
     def stress(self, torque: float, width: float, module: float) -> float:
-        """Bending stress [MPa] under a torque [N mm] that this tooth bears alone; width and module in mm."""
+        """Return the bending stress [MPa] under a torque [N mm] that only this tooth carries; width and
+        module in mm.
+        """
         return self.factor * torque / (width * module**2)
 
     def lewis_factor(self, pitch_radius: float) -> float:
-        """Y = Ft/(b m stress), Ft the tangential force at a radius [module]."""
+        """Return Lewis's form factor Y = Ft/(b m stress), with the tangential force Ft at a radius [module]."""
         return 1 / (self.factor * pitch_radius)
 
 
 @dataclass(frozen=True, slots=True)
 class ToothSide:
-    """Half an outline, from its tip to mid-space: x along the axis of the tooth, y >= 0. Lengths in modules."""
+    """Half of a tooth outline from its tip to mid-space: x along the axis of the tooth, y >= 0. Lengths in modules."""
 
     points: Floats
     outward: int
-    """1, or -1 for a ring, whose tips look to the axle."""
+    """Sign 1, or -1 for a ring, whose teeth point inwards."""
 
     @classmethod
     def of(cls, tooth: Sequence[Vertex], outward: int = 1) -> ToothSide:
-        """From the vertices of one tooth about the x axis, from root to root."""
+        """Build the half outline from the vertices of one tooth about the x axis, from root to root."""
         points = Contour.of((*tooth[:-1], (*tooth[-1][:2], 0.0))).flattened(_CHORD)
         upper = points[points[:, 1] >= -1e-12]
-        # along a tip or a root circle the azimuth grows
+        # along a tip or a root circle the azimuth increases
         radius, azimuth = np.hypot(*upper.T), np.arctan2(upper[:, 1], upper[:, 0])
+        # points ordered from the tip to the root, also along circular arcs
         order = np.lexsort((azimuth, -np.round(radius, 9) * outward))
         return cls(upper[order], outward)
 
     def half(self, radius: float) -> float:
-        """Half the angle (rad) that the tooth fills at a radius."""
+        """Return half the angular thickness of the tooth at a radius [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
         tip = r >= r.max() - 1e-9
@@ -299,13 +326,16 @@ class ToothSide:
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """A force at some radius whose line passes the axle at a distance `arm`: docs/strength.md (4)."""
+        """Return a force at some radius whose line of action passes the wheel's axis at a distance `arm`:
+        docs/strength.md (4).
+        """
+        # rounding may put the point of load inside the base circle
         pressure = acos(min(arm / radius, 1.0))
         angle = pressure - self.outward * self.half(radius)
         return ToothLoad(radius, arm / cos(angle), angle)
 
     def load_at_tip(self) -> ToothLoad:
-        """A force at the end of the flank, normal to its last chord, for teeth without a path of contact."""
+        """Return a force at the end of the flank, normal to its last chord, for teeth without a path of contact."""
         r = np.hypot(*self.points.T)
         flank = self.points[np.abs(r - self.tip) > 1e-9]
         end = np.array([self.tip * cos(half := self.half(self.tip)), self.tip * sin(half)])
@@ -315,14 +345,15 @@ class ToothSide:
         return ToothLoad(float(hypot(*end)), apex, angle)
 
     def weakest_section(self, load: ToothLoad) -> RootSection:
-        """The section with the greatest bending stress under a force, in the lower half of the tooth: (5).
+        """Find the section of maximum bending stress under a force, in the lower half of the tooth: (5).
 
-        Under a force at its very point a pointed tooth has no thickness: there it is crushed, not bent.
+        Sections near the point of a pointed tooth are excluded: they have no thickness, and fail by compression instead
+        of bending.
         """
         x, y = self._sections()
         lever = (load.apex - x) * self.outward
         below = (lever > 0) & ((x - (self.tip + self.root) / 2) * self.outward <= 0)
-        if not below.any():  # the force passes beneath the root, as it may in a ring, and bends nothing
+        if not below.any():  # the force passes below the root, as it may in a ring, and causes no bending
             deepest = int(np.argmin(x * self.outward))
             return RootSection(float(x[deepest]), float(2 * y[deepest]), 0.0)
         x, y, lever = x[below], y[below], lever[below]
@@ -331,18 +362,20 @@ class ToothSide:
         return RootSection(float(x[at]), float(2 * y[at]), float(factors[at]))
 
     def _sections(self) -> tuple[Floats, Floats]:
-        """Half thickness at every height, points set between those of the outline."""
+        """Return half the thickness at every height, with points interpolated between those of the outline."""
         x, y = self.points.T
         steps = np.hypot(np.diff(x), np.diff(y))
         s = np.concatenate(([0.0], np.cumsum(steps)))
+        # sections between the points of the outline, which are sparse on straight flanks
         fine = np.union1d(s, np.linspace(0, s[-1], max(int(s[-1] / _STEP), 2)))
         x, y = np.interp(fine, s, x), np.interp(fine, s, y)
+        # a section at the point of a tooth has no thickness
         keep = y > 1e-9
         return x[keep], y[keep]
 
 
 def pin_stress(force: float, length: float, diameter: float) -> float:
-    """Bending stress [MPa] of a pin held at both ends under a force [N] spread over its length [mm].
+    """Return the bending stress [MPa] of a pin fixed at both ends under a force [N] distributed over its length [mm].
 
     The moment at its ends is F l/12; sigma = 32 M/(pi d^3).
 

@@ -1,4 +1,4 @@
-"""The strength of one gear pair under its torque: what stands in the declaration, put into the formulas of `teeth`."""
+"""Strength of one gear pair under its torque, from its declaration."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from geartrain.simulation.strength.contact_pressure import (
     ContactLoad,
     ContactPlace,
     Elasticity,
-    LeaningLoad,
+    HelicalContactLoad,
     base_helix_angle,
     deepest_passage,
     elasticity_factor,
     loss_over_friction,
 )
 from geartrain.simulation.strength.iso_6336 import (
+    HelixData,
     IsoContact,
     IsoRoot,
     RackPair,
     RackWheel,
     RootSection,
-    ToothLean,
     ToothLoad,
     ToothSide,
     contact_stress,
@@ -53,54 +53,54 @@ _POSITIONS = 401
 
 @dataclass(frozen=True)
 class WheelUnderLoad:
-    """One wheel of a pair."""
+    """Wheel of a loaded pair."""
 
     name: str
     gear: int
-    """1 or 2, as the law of the pair calls it."""
+    """Number of the gear in its transmission function, 1 or 2."""
     z: float
-    """Its teeth, `teeth` as they are cut, in modules; of a bevel those of the spur wheel that stands for it."""
+    """Number of teeth; `teeth` are as cut, in modules. For a bevel, both are those of the virtual spur wheel."""
     teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
     torque: float
-    """That counts [N m]; `turns` it makes as its carrier sees it, None where no time is given."""
+    """Design torque [N m]; `turns` are those relative to its carrier, None if no time is given."""
     turns: float | None
 
     @property
     def elasticity(self) -> Elasticity:
-        """Of its material."""
+        """Elastic constants of its material."""
         return Elasticity(self.material.youngs_modulus.si / _MPA, float(self.material.poisson.value))
 
     @cached_property
     def side(self) -> ToothSide:
-        """Half of a tooth."""
+        """Half outline of a tooth."""
         return ToothSide.of(self.teeth.tooth, -1 if self.teeth.kind == "ring" else 1)
 
 
 @dataclass(frozen=True)
 class PairUnderLoad:
-    """A pair under load. Lengths in mm."""
+    """Gear pair under load. Lengths in mm."""
 
     mesh: GearMesh
-    """Its teeth."""
+    """Teeth of the pair."""
     wheels: tuple[WheelUnderLoad, WheelUnderLoad]
-    """Both, as the pair names them."""
+    """Both wheels in the order of the pair."""
     module: float
-    """Of it; the width is the narrower one."""
+    """Module [mm]."""
     width: float
-    """Of it; the width is the narrower one."""
+    """Width of the narrower wheel [mm]."""
     wear: WearRange
-    """Least and greatest wear coefficient."""
+    """Minimum and maximum wear coefficient."""
     spurs: VirtualSpurs | None = None
-    """Of bevels: the spur pair that stands for them."""
+    """Virtual spur pair of bevels."""
     swing: float = 1.0
-    """The torque that bends and presses over the mean one, which wears."""
+    """Ratio of the design torque for stresses to the mean torque, which determines wear."""
     remarks: tuple[str, ...] = ()
-    """What does not hold of its wheels."""
+    """Restrictions that apply to its wheels."""
 
     def strength(self) -> PairStrength:
-        """All figures."""
+        """Compute all figures of the pair."""
         places = self._places()
         iso, roots = self._iso()
         return PairStrength(
@@ -120,52 +120,55 @@ class PairUnderLoad:
 
     @property
     def factor(self) -> float:
-        """ZE."""
+        """Elasticity factor ZE [sqrt(MPa)]."""
         return elasticity_factor(*(each.elasticity for each in self.wheels))
 
     def _radius(self, at: int) -> float:
-        """Radius at which a wheel rolls on the other [mm]."""
+        """Return the operating pitch radius of a wheel [mm]."""
         path = self.path
         if path is not None:
             return abs(path.pitch.axle_of(self.wheels[at].gear)) * self.module
         size = self.mesh.own_size
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
-    def _flattened(self, at: int) -> float:
-        """Radii about its own axle over those about the axle of the spur wheel that stands for it."""
+    def _cone_factor(self, at: int) -> float:
+        """Return the ratio of radii about a bevel's own axis to those of its virtual spur wheel; 1 for spur wheels."""
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
     def tangential(self) -> float:
-        """Force along the pitch line [N]: of the wheel with more, for friction takes some of it on the way."""
-        arms = (self._radius(at) * self._flattened(at) for at in (0, 1))
+        """Force along the pitch line [N], the larger of both wheels, because friction reduces the other."""
+        arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
+        # friction reduces the torque on one wheel, so the larger force is used for both
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
 
     @property
     def path(self) -> PathOfContact | None:
-        """The path of contact, where there is one."""
+        """Path of contact, if there is one."""
         return self.mesh.path if self.spurs is None else self.spurs.pair.path
 
     @cached_property
     def load(self) -> ContactLoad | None:
-        """The load along that path."""
+        """Load along the path of contact; None if there is none."""
         path = self.path
         if path is None:
             return None
+        # torque on gear 1 that gives this force, also for bevels
         torque = self.tangential * path.pitch.R1 * self.module
         if self.lean.helix:
             lean = self.lean.base, self.lean.overlap
-            return LeaningLoad(path, self.module, self.width, torque, self.factor, *lean)
+            return HelicalContactLoad(path, self.module, self.width, torque, self.factor, *lean)
         return ContactLoad(path, self.module, self.width, torque, self.factor)
 
     @cached_property
-    def lean(self) -> ToothLean:
-        """How helical teeth lie; of involutes on parallel axes."""
+    def lean(self) -> HelixData:
+        """Helix data of involute teeth on parallel axes."""
         helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
         if not helix or not isinstance(form, Involute):
-            return ToothLean()
+            return HelixData()
+        # the declared module is transverse
         normal = self.module * cos(helix)
-        return ToothLean(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
+        return HelixData(helix, base_helix_angle(helix, form.rack_angle), self.width * sin(helix) / (pi * normal))
 
     def _places(self) -> tuple[ContactPlace, ...]:
         return () if self.load is None else self.load.places()
@@ -173,20 +176,20 @@ class PairUnderLoad:
     def _notes(self) -> Iterator[str]:
         yield from self.remarks
         if self.load is None:
-            yield "its form has no path of contact: no pressure by Hertz, and the load acts at the tip"
+            yield "its form has no path of contact: Hertz pressure is not computed, and the load acts at the tip"
         elif self.load.has_cusp:
-            yield "flanks have no radius at the pitch point: Hertz's pressure has no bound there until they wear"
+            yield "flanks have infinite curvature at the pitch point: Hertz pressure is unbounded there until they wear"
         if self.spurs is not None:
             counts = " and ".join(f"{each.z:.4g}" for each in self.wheels)
-            yield f"its bevels are taken for spur wheels of {counts} teeth, with the module in the middle of the width"
+            yield f"its bevels are treated as virtual spur wheels of {counts} teeth, with the module at mid-width"
             if self.spurs.is_wide:
-                yield "its teeth are wider than a third of their cones, more than is usual: they bear unevenly"
+                yield "its teeth are wider than a third of the cone distance, so the load is not uniform"
         elif self.mesh.form == "involute" and self._rack_pair() is None:
-            yield "ISO 6336 is worked out for external involutes with a contact ratio from 1 to 2"
+            yield "ISO 6336 is applied only to external involutes with a contact ratio from 1 to 2"
         if self.lean.helix:
             yield (
-                "its teeth lean: the load lies evenly along the lines of contact where they are shortest, and bending "
-                "at the tip is that of the part of a tooth on which one line lies"
+                "its teeth are helical: the load is uniform along lines of contact of minimum total length; bending "
+                "at the tip is that of the part of a tooth with one line of contact"
             )
 
     # ------------------------------------------------------------------------------------------------------- roots
@@ -194,6 +197,7 @@ class PairUnderLoad:
     def _wheel(self, at: int, roots: tuple[IsoRoot | None, IsoRoot | None] | None) -> WheelStrength:
         own = self.wheels[at]
         torque = self.tangential * self._radius(at)
+        # at a cusp the pressure is infinite, so a safety factor does not exist
         bounded = self.load is not None and not self.load.has_cusp
         pressure = self.load.single_pressure() if bounded and self.load is not None else None
         strength = own.material.strength
@@ -202,12 +206,12 @@ class PairUnderLoad:
             wheel=own.name,
             material=own.material_name,
             torque=own.torque,
-            section=0.0 if tip is None else tip.x * self.module * self._flattened(at),
+            section=0.0 if tip is None else tip.x * self.module * self._cone_factor(at),
             thickness=0.0 if tip is None else tip.thickness * self.module,
             lewis=0.0 if tip is None else tip.lewis_factor(self._radius(at) / self.module),
             tip_stress=self._pin_stress(own)
             if tip is None
-            else tip.stress(torque, self.width, self.module) * self._leaning_part,
+            else tip.stress(torque, self.width, self.module) * self._helical_bending_factor,
             shared_stress=shared,
             pressure=pressure,
             strength=None if strength is None else strength.si / _MPA,
@@ -217,13 +221,14 @@ class PairUnderLoad:
         )
 
     @property
-    def _leaning_part(self) -> float:
-        """Bending of a helical tooth over that of a straight one with its transverse section, all load at one tip.
+    def _helical_bending_factor(self) -> float:
+        """Bending stress of a helical tooth over that of a spur tooth with its transverse section.
 
-        Each width bears its part of the lines of contact; across itself the tooth is thinner and its load the greater.
+        The whole load of the spur tooth is at one tip. Each element of width carries its part of the lines of contact.
+        In the normal section the tooth is thinner and the load is larger.
         """
         load = self.load
-        return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, LeaningLoad) else 1.0
+        return 1 / (load.lines * cos(self.lean.helix) ** 2) if isinstance(load, HelicalContactLoad) else 1.0
 
     def _pin_stress(self, own: WheelUnderLoad) -> float:
         from geartrain.simulation.strength.iso_6336 import pin_stress
@@ -232,7 +237,7 @@ class PairUnderLoad:
         return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)
 
     def _tip_load(self, own: WheelUnderLoad) -> ToothLoad:
-        """The load at the end of the flank."""
+        """Return the load at the end of the flank."""
         path = self.path
         if path is None:
             return own.side.load_at_tip()
@@ -241,25 +246,28 @@ class PairUnderLoad:
         return own.side.load_at(tip, arm)
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
-        """The section that is bent most with all at the tip, and the greatest stress [MPa] of all shared positions."""
+        """Return the section of maximum bending with the whole load at the tip, and the maximum stress [MPa] with
+        shared load.
+        """
         own, load = self.wheels[at], self.load
         if own.teeth.pins is not None:
             return None, None
         tip = own.side.weakest_section(self._tip_load(own))
-        if load is None or isinstance(load, LeaningLoad):
+        if load is None or isinstance(load, HelicalContactLoad):
             return tip, None
         path = load.path
         low, high = load.single()
         outer = high if own.gear == 1 else low
         worst = 0.0
         for X in sorted({*np.linspace(-path.arcs[0], path.arcs[1], _POSITIONS).tolist(), outer}):
-            # at the very border of single contact the stretch where one couple bears all counts
+            # the boundary of single contact is evaluated on the side where one tooth pair carries the whole load
             inside = min(max(X, low + 1e-7), high - 1e-7) if abs(X - outer) < 1e-9 else X
             worst = max(worst, self._stress_at(own, load, inside))
         return tip, worst
 
     def _stress_at(self, own: WheelUnderLoad, load: ContactLoad, X: float) -> float:
         place = np.array([X])
+        # one position of contact at a time
         force = float(load.forces(place)[0][0])
         (radius,), _ = load.path.pitch.polar(own.gear, load.path.flank(own.gear, place))
         arm = abs(load.path.pitch.axle_of(own.gear)) * float(load.path.at(place).cos_psi[0])
@@ -269,12 +277,12 @@ class PairUnderLoad:
     # ------------------------------------------------------------------------------------------------- ISO and wear
 
     def _rack_pair(self) -> RackPair | None:
-        """Both wheels in the transverse section."""
+        """Return both wheels in the transverse section as rack-cut wheels; None if ISO 6336 does not apply."""
         form, load = self.mesh.tooth_form, self.load
         if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
             return None
         path, flat = load.path, cos(self.lean.helix)
-        # as the pair names them; gears 1 and 2 of an external pair are in that order
+        # in the order of the pair, which is that of gears 1 and 2 of an external pair
         wheels = [
             RackWheel(
                 each.z,
@@ -295,7 +303,7 @@ class PairUnderLoad:
         pair = self._rack_pair()
         if pair is None:
             return None, None
-        # the force of the standard is that at the reference circle
+        # the standard uses the force at the reference circle
         force = self.tangential * cos(pair.angle) / cos(pair.working)
         roots = [self._iso_root(pair, at, force) for at in (0, 1)]
         return contact_stress(pair, self.factor, force, self.width, self.module), (roots[0], roots[1])
@@ -318,8 +326,10 @@ class PairUnderLoad:
         loss = loss_over_friction(self.mesh)
         if loss is None:
             return None
+        # wear follows from the mean torque
         slid = abs(own.torque) / self.swing * 2 * pi * own.turns * loss * _MM  # N mm
         per = slid / (hardness / _MPA)  # mm3 for K = 1
+        # total area of the worn flanks, one flank of each tooth
         flank = self.mesh.wheels.counts[at] * self.width * abs(own.teeth.tip - own.teeth.root) * self.module
         deep = None
         if self.load is not None and not self.lean.helix:

@@ -1,4 +1,4 @@
-"""Lobes on their pins and pins in their holes, round pins and their bending: docs/strength.md, section 11."""
+"""Strength of lobes on pins, of pins in holes, and of the pins in bending: docs/strength.md, section 11."""
 
 from __future__ import annotations
 
@@ -18,42 +18,43 @@ if TYPE_CHECKING:
     from geartrain.train import Material
 
 
-_PHASES = 256  # of a pitch
+_PHASES = 256  # positions in a pitch
 _MPA, _MM = 1e6, 1e3
 
 
 @dataclass(frozen=True)
 class PinnedDisc:
-    """A disc and what pins press it with."""
+    """Disc loaded by pins."""
 
     wheel: str
-    """Its name."""
+    """Name of the disc."""
     materials: tuple[tuple[str, Material], tuple[str, Material]]
-    """Names of its own and of the pins', and what they stand for."""
+    """Materials of the disc and of the pins, with their names."""
     width: float
-    """Along which they touch (mm)."""
+    """Width of contact [mm]."""
     torque: float
-    """[N m]."""
+    """Torque on the disc [N m]."""
 
     @property
     def factor(self) -> float:
-        """ZE."""
+        """Elasticity factor ZE [sqrt(MPa)]."""
         both = (Elasticity(each.youngs_modulus.si / _MPA, float(each.poisson.value)) for _, each in self.materials)
         return elasticity_factor(*both)
 
     def lobes(self, pair: str, disc: CycloidalDisc, module: float) -> PinContact:
-        """Its lobes on the pins of a ring, `module` in mm."""
+        """Compute the contact of its lobes with the pins of a ring, `module` in mm."""
         load = lobe_load(disc)
         force = load.force * abs(self.torque) * _MM / (disc.lobes / 2 * module)
         return self._contact(pair, disc.pins, force, load.curvature / module)
 
     def holes(self, coupling: PinsInHoles) -> PinContact | None:
-        """Its holes on pins of a flange; None where sizes are not declared."""
+        """Compute the contact of its holes with the pins of a flange; None if sizes are not declared."""
         if coupling.pin_radius is None or coupling.offset is None or coupling.pin_diameter is None:
             return None
         circle, offset, pin = (
             float(millimetres(each)) for each in (coupling.pin_radius, coupling.offset, coupling.pin_diameter)
         )
+        # the pin with the largest share at the worst phase
         force = hole_share(coupling.pins) * abs(self.torque) * _MM / circle
         bent = held_pin_stress(force, self.width, pin)
         return self._contact(coupling.name, coupling.pins, force, 2 / pin - 2 / (pin + 2 * offset), bent)
@@ -63,6 +64,7 @@ class PinnedDisc:
     ) -> PinContact:
         (own, material), (_, of_pins) = self.materials
         strength = [None if each.strength is None else each.strength.si / _MPA for each in (material, of_pins)]
+        # yielding begins in the weaker material, because both have the same pressure
         weaker = min((each for each in strength if each is not None), default=None)
         pressure = hertz_pressure(self.factor, force, self.width, curvature)
         return PinContact(
@@ -71,16 +73,17 @@ class PinnedDisc:
 
 
 class PinLoad(NamedTuple):
-    """Where pressure is greatest: the force there, and the sum of both curvatures."""
+    """Force at the contact of maximum pressure, and the sum of both curvatures."""
 
     force: float
     curvature: float
 
 
 def lobe_load(disc: CycloidalDisc) -> PinLoad:
-    """The pin that is pressed most: its force over that on the disc's pitch circle, both curvatures over 1/module.
+    """Return the load of the pin with the maximum pressure.
 
-    A lobe is round with the radius of the curve of centres less that of the pin, a hollow with the sum of both (28).
+    The force is relative to that at the disc's pitch circle, the curvature to 1/module. The radius of curvature of a
+    convex lobe is that of the curve of centres less that of the pin; that of a concave one is the sum of both (28).
 
     >>> from geartrain.teeth.cycloidal_disc import CycloidalDisc
     >>> load = lobe_load(CycloidalDisc(11, 25 / 3, 1.0))
@@ -88,29 +91,30 @@ def lobe_load(disc: CycloidalDisc) -> PinLoad:
     (0.326, 1.821)
     """
     phase = np.linspace(0, 2 * pi / disc.pins, _PHASES, endpoint=False)
+    # pressure depends on the product of force and curvature
     force, curvature = disc.loads(phase), 1 / disc.pin + disc.curvature(disc.angles(phase))
     at = np.unravel_index(int((force * curvature).argmax()), force.shape)
     return PinLoad(float(force[at]), float(curvature[at]))
 
 
 def hole_share(pins: int) -> float:
-    """Greatest force on one of some pins in holes, times the radius of their circle, over their torque: (29).
+    """Return the maximum force on one of the pins in holes, times the radius of their circle, over their torque: (29).
 
-    A pin presses along the line from its own middle to that of its hole, the same for all; those on one side bear.
+    All pins press in the same direction, from their centres to those of the holes; those on one side carry the load.
 
     >>> round(hole_share(6), 6), round(hole_share(12), 6)
     (0.666667, 0.333333)
     """
-    # from where the first pin has the longest arm
+    # starting where the first pin has the longest lever arm
     turn = pi / 2 + 2 * pi * np.arange(pins)[:, None] / pins + np.linspace(0, 2 * pi / pins, _PHASES)
     arms = np.maximum(np.sin(turn), 0.0)
     return float((arms / (arms**2).sum(axis=0)).max())
 
 
 def held_pin_stress(force: float, length: float, diameter: float) -> float:
-    """Stress [MPa] of a pin held at one end under a force [N] spread over its length [mm], by v. Mises: (30).
+    """Return the von Mises stress [MPa] of a cantilever pin under a force [N] distributed over its length [mm]: (30).
 
-    At its foot the moment F l/2 bends it, 32 M/(pi d^3), and F shears it, F over its section.
+    At its root the moment F l/2 causes the bending stress 32 M/(pi d^3), and F the mean shear stress over the section.
 
     >>> round(held_pin_stress(100.0, 4.0, 4.0), 3)
     34.687

@@ -1,4 +1,4 @@
-"""Strength of a train, as a page: each figure under the assumption it rests on."""
+"""Report of the strength of a train: each table with the assumptions it is based on."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ if TYPE_CHECKING:
     )
 
 _FORCES = (
-    "At the circles on which wheels roll, as means. Axial above 0 along the direction of the axis; radial towards the "
-    "axis, below 0 outwards. Both wheels of a pair bear the same force: friction reduces the torque on one of them, "
-    "and the greater torque over radius counts, except on crossed axes. Friction counts along teeth that slide along "
-    "each other, not up and down them. The pressure angle is 20 degrees by default."
+    "Mean forces at the operating pitch circles. Axial: positive along the direction of the axis; radial: positive "
+    "towards the axis. Both wheels of a pair have the same force, the larger torque over radius, because friction "
+    "reduces the torque on one of them; crossed axes are an exception. Friction is included for sliding along the "
+    "teeth, not along their profiles. The pressure angle is 20 degrees by default."
 )
 _CONTACT = (
-    "Hertz pressure of smooth flanks under the mean torque; couples that touch at once carry the same force, as rigid "
-    "exact teeth of equal stiffness do. Positions in pitches past the pitch point."
+    "Hertz pressure of smooth flanks under the mean torque. Tooth pairs in contact at the same time carry the same "
+    "force, as exact teeth of equal stiffness do. Positions are in pitches past the pitch point."
 )
 _POINT = (
-    "Teeth of crossed axes touch at a point: Hertz's ellipse, the load shared evenly among the couples that touch at "
-    "once. The pressure is the greatest where fewest touch; safety of a flank is 1.6 times the strength over it. At "
-    "the root one couple bears all at the tip, on teeth as they are seen along them, and bends twice as much of a "
-    "tooth as its lever is long, without the stress concentration of the round."
+    "Teeth on crossed axes touch at a point: Hertz's ellipse, with the load shared equally by the tooth pairs in "
+    "contact. The pressure is the maximum where the fewest touch; flank safety is 1.6 times the strength over it. At "
+    "the root one tooth pair carries the whole load at the tip, in the normal section. It bends a length of the tooth "
+    "of twice the lever arm. The stress concentration of the fillet is not included."
 )
 _WHERE = {
     "root": "at the root of its teeth",
@@ -45,41 +45,41 @@ _WHERE = {
     "pin": "in its pins",
 }
 _PINS = (
-    "Half of the pins bear at once, or fewer with a clearance, and share by their arms; here that with the greatest "
-    "pressure of all phases. Radius: of a cylinder on a plane that presses as much. Safety of a disc is 5/3 of the "
-    "strength of the weaker side over the pressure. Pins in holes stand out of a plate at one end, bent and sheared "
-    "where the disc begins, and are of the train's material, else of steel; those of a ring lie in it."
+    "Half of the pins, or fewer with a clearance, carry the load in proportion to their lever arms; the table has the "
+    "maximum pressure of all phases. Radius: equivalent cylinder on a plane. Safety of a disc is 5/3 of the "
+    "strength of the weaker side over the pressure. Pins in holes are cantilevers with bending and shear at the plane "
+    "of the disc, of the train's material or else of steel; those of a ring are supported by it."
 )
 _ROOT = (
-    "Bending by Lewis on the outline that is cut, without the stress concentration of its round: at the tip one couple "
-    "bears all, as where teeth are not exact to the thousandth; shared, couples carry the same force. Safety is the "
-    "strength of the material over the stress at the tip, and 5/3 of the strength over the pressure where one couple "
-    "bears all, at which yielding begins below the flank (static; pitting by fatigue is not worked out)."
+    "Bending by Lewis on the outline that is cut, without the stress concentration of its fillet. At the tip, one "
+    "tooth pair carries the whole load, as with inexact teeth. Shared: equal forces. Safety of a root is the "
+    "strength of the material over the stress with the load at the tip; safety of a flank is 5/3 of the strength over "
+    "the pressure of single contact, at which yielding begins below the flank (static; pitting is not included)."
 )
 _ISO = (
-    "ISO 6336-2 and -3, method B, all load factors K 1, for wheels as a hob cuts them (corner of the rack 0.38 "
-    "modules, no backlash); the root of an exported outline is another one. Length in modules, stresses in MPa."
+    "ISO 6336-2 and -3, method B, all load factors K 1, for wheels cut by a hob (tip radius of the rack 0.38 "
+    "modules, no backlash); an exported outline has another root. Lengths are in modules, stresses in MPa."
 )
 _WEAR = (
-    "Archard's law with the coefficient K anywhere in its range: depths go with K, and the range is wider than all "
-    "else that is not known. Each flank is worn by its own hardness, evenly along its width; grit, corrosion, changes "
-    "of shape and of load on the way are not in it."
+    "Archard's law with the range of the coefficient K: depths are proportional to K, whose uncertainty exceeds all "
+    "others. Each flank wears by its own hardness, uniformly along its width. Abrasive particles, corrosion, and "
+    "changes of shape and load are not included."
 )
 _ARBOR = (
-    "The forces of all meshes as if they pulled one way, where that bends most between two bearings; with them the "
-    "couples of what pushes along the axis at the radii of the wheels, and the whole on one pivot: where wheels stand "
-    "is not looked at, so that this is an upper bound. Pivots: force over diameter times length; shoulder: the thrust "
-    "on the ring that an arbor has round its pivot."
+    "Upper bound: the forces of all meshes act in one direction, at the worst position between two bearings, together "
+    "with the moments of the axial forces at the radii of the wheels, and the total force is on one pivot. Positions "
+    "of wheels are not used. Pivot pressure: force over diameter times length. Shoulder pressure: the thrust over the "
+    "annulus of the arbor round its pivot."
 )
 
 
 @dataclass(frozen=True)
 class StrengthReport(Result):
-    """Strength of a train in every state that was asked for.
+    """Strength of a train in every requested state.
 
     See Also
     --------
-    describe_strength : Its page.
+    describe_strength : Its document.
     """
 
     PAGE = "simulation.strength.strength_report:describe_strength"
@@ -89,23 +89,23 @@ class StrengthReport(Result):
     title: str
     """Title of the train."""
     states: tuple[TrainStrength, ...]
-    """In the order asked."""
+    """Results in the requested order of states."""
 
 
 def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) -> StrengthReport:
-    """The strength of a train in some states, to be told.
+    """Combine the strength of a train in some states to a report.
 
     Parameters
     ----------
     train : GearTrain
         The train.
     found : sequence of TrainStrength
-        What `train.strength` gave, one for each state.
+        Results of `train.strength`, one for each state.
 
     Returns
     -------
     StrengthReport
-        Its `to_dict` is the answer of `geartrain strength --json`.
+        Report whose `to_dict` is the output of `geartrain strength --json`.
 
     Examples
     --------
@@ -119,17 +119,17 @@ def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) ->
 
 
 def describe_strength(found: StrengthReport) -> Document:
-    """Strength state by state: what is weakest, pressures, stresses, factors of ISO 6336, wear, arbors.
+    """Return a document of the strength by state: weakest part, pressures, stresses, ISO 6336, wear, arbors.
 
     Parameters
     ----------
     found : StrengthReport
-        From `collect_strength_report`.
+        Result of `collect_strength_report`.
 
     Returns
     -------
     Document
-        Forces in N, stresses in MPa, lengths in mm; the assumption of each table stands over it.
+        Document with forces in N, stresses in MPa, lengths in mm; each table follows its assumptions.
 
     Examples
     --------
@@ -144,13 +144,13 @@ def describe_strength(found: StrengthReport) -> Document:
 
 
 def strength_document(found: TrainStrength) -> Document | None:
-    """Return what `geartrain strength` prints for one state; None where the train is not known."""
+    """Return the output of `geartrain strength` for one state; None if the train is not known."""
     declared = found._declaration
     return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
 
 
 def strength_sections(found: TrainStrength) -> Iterator[Section]:
-    """Sections of one state."""
+    """Yield the sections of one state."""
     head = "" if found.state is None else f"State {found.state}: "
     yield Section(_title(head, "Strength"), tuple(_verdict(found)))
     if found.forces:
@@ -164,6 +164,7 @@ def strength_sections(found: TrainStrength) -> Iterator[Section]:
         yield Section(_title(head, "Contact at a point"), (_POINT, *notes), tuple(_points([*found.points.values()])))
     if found.pins:
         yield Section(_title(head, "Pins"), (_PINS,), (_pins([*found.pins.values()]),))
+    # pairs without a path of contact have no pressures
     contacts = [_contact(pair) for pair in pairs if pair.contact]
     if contacts:
         yield Section(_title(head, "Contact pressure"), (_CONTACT,), tuple(contacts))
@@ -186,16 +187,16 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
     if not found.verdict:
         yield f"Verdict: {found.verdict.kind}: {found.verdict.text}."
     if found.over is not None:
-        yield f"Under the greatest torque of each pair over {figure(found.over, 6)} turns of the input; wear by means."
+        yield f"Stresses by the maximum torque in {figure(found.over, 6)} turns of the input; wear by mean torques."
     weakest = found.weakest
     if weakest is not None:
         where = _WHERE[weakest.what]
         yield f"Weakest: '{weakest.part}' {where}, safety {figure(weakest.safety, 3)}."
     for each in found.left_out:
-        swings = "variation within a turn of " if each.what == "variation within a turn" else ""
-        yield f"Left out: {swings}{', '.join(each.where)}: {each.why}."
+        swings = "torque variation within a turn of " if each.what == "variation within a turn" else ""
+        yield f"Not included: {swings}{', '.join(each.where)}: {each.why}."
     if found.verdict and not found.pairs and not found.points and not found.pins and not found.left_out:
-        yield "There is no gear pair."
+        yield "The train has no loaded gear pair."
 
 
 def _contact(pair: PairStrength) -> Table:
@@ -205,17 +206,17 @@ def _contact(pair: PairStrength) -> Table:
             figure(each.position, 3),
             figure(each.tooth_pairs, 4),
             figure(each.force, 4),
-            figure(each.pressure, 4) if each.pressure < float("inf") else "no bound",
+            figure(each.pressure, 4) if each.pressure < float("inf") else "unbounded",
         )
         for each in pair.contact
     ]
-    return Table((pair.pair, "position", "tooth_pairs", "force (N)", "pressure (MPa)"), rows)
+    return Table((pair.pair, "position", "tooth pairs", "force (N)", "pressure (MPa)"), rows)
 
 
 def _points(points: Sequence[PointContact]) -> Iterator[Table]:
     yield result_table(
         points,
-        *("pair", "contact_ratio:4", "force (N)=normal_force:4", "half axes (mm)=longer:3", "=shorter:3", "pressure:4"),
+        *("pair", "contact_ratio:4", "force (N)=normal_force:4", "semi-axes (mm)=longer:3", "=shorter:3", "pressure:4"),
     )
     yield result_table(
         (wheel for each in points for wheel in each.wheels),
@@ -255,6 +256,7 @@ def _strength(wheel: WheelStrength | FlankStrength) -> str:
 
 
 def _iso(pairs: Sequence[PairStrength]) -> Iterator[Table]:
+    # the standard covers external involutes only
     covered = [pair for pair in pairs if pair.iso is not None]
     rows = []
     for pair in covered:
@@ -289,7 +291,7 @@ def _wear(pairs: Sequence[PairStrength]) -> Table:
         for wheel in pair.wheels
         if wheel.wear is not None
     ]
-    return Table(("pair", "wheel", "passages", "volume (mm3)", "mean depth (mm)", "greatest depth (mm)"), rows)
+    return Table(("pair", "wheel", "passages", "volume (mm3)", "mean depth (mm)", "maximum depth (mm)"), rows)
 
 
 def _range(found: WearRange) -> str:

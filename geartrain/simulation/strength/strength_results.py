@@ -1,4 +1,6 @@
-"""Strength of a train in one state: forces (N), pressures and stresses (MPa), safety factors, wear; lengths in mm."""
+"""Results of the strength of a train in one state: forces [N], pressures and stresses [MPa], safety factors, wear;
+lengths in mm.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +16,12 @@ from geartrain.simulation.strength.iso_6336 import IsoContact, IsoRoot
 
 
 class WearRange(NamedTuple):
-    """One figure for the least and the greatest wear coefficient."""
+    """Figure for the minimum and the maximum wear coefficient."""
 
     minimum: float
-    """With the least wear coefficient."""
+    """Value for the minimum wear coefficient."""
     maximum: float
-    """With the greatest wear coefficient."""
+    """Value for the maximum wear coefficient."""
 
 
 NO_WEAR = WearRange(0.0, 0.0)
@@ -31,7 +33,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     See Also
     --------
-    geartrain.GearTrain.strength : Gives it.
+    geartrain.GearTrain.strength : Returns such an object.
 
     Examples
     --------
@@ -66,25 +68,27 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     )
 
     state: str | None
-    """The state; None for a train without states."""
+    """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Whether torques follow from the loads; without them there is nothing else."""
+    """Verdict on the torques. The other fields are empty if torques do not follow from the loads."""
     pairs: Mapping[str, PairStrength] = field(default_factory=dict)
     """Loaded gear pairs by name."""
     arbors: tuple[ArborStrength, ...] = ()
-    """Arbors that are declared."""
+    """Results of the declared arbors."""
     turns: float | None = None
-    """Turns of the input over which wear is counted; None where no time was given."""
+    """Revolutions of the input over which wear accumulates; None if no time is given."""
     wear_coefficients: WearRange = NO_WEAR
-    """K of Archard's law, least and greatest."""
+    """Minimum and maximum coefficient K of Archard's law."""
     left_out: tuple[NeglectedEffect, ...] = ()
-    """Pairs of which nothing is said, and why."""
+    """Pairs without results, with the reasons."""
     forces: tuple[WheelForce, ...] = ()
-    """Of all pairs that carry a torque and whose module is known."""
+    """Forces of all pairs that carry a torque and whose module is known."""
     points: Mapping[str, PointContact] = field(default_factory=dict)
     """Loaded gear pairs whose teeth touch at a point, by name."""
     over: float | None = None
-    """Turns of the input whose greatest torques bend and press; None where means do. Wear goes by means."""
+    """Revolutions of the input whose maximum torques determine the stresses; None for mean torques. Wear always follows
+    from mean torques.
+    """
     pins: Mapping[str, PinContact] = field(default_factory=dict)
     """Lobes on pins, and pins in holes, by pair or coupling."""
 
@@ -95,9 +99,11 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety; None where not known."""
+        """Columns with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety; None if
+        not known.
+        """
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
-        told = (
+        names = (
             "wheel",
             "material",
             "torque",
@@ -107,12 +113,13 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
             "root_safety",
             "contact_safety",
         )
-        own = {each: [getattr(wheel, each) for _, wheel in rows] for each in told}
+        own = {each: [getattr(wheel, each) for _, wheel in rows] for each in names}
         return {"pair": [name for name, _ in rows]} | own
 
     @property
     def weakest(self) -> WeakestPart | None:
-        """What has the least safety; None where no strength is known."""
+        """Part with the minimum safety; None if no strength is known."""
+        # parts without a known strength have no safety factor and are skipped
         found = [
             WeakestPart(wheel.wheel, what, safety)
             for pair in self.pairs.values()
@@ -142,19 +149,19 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
 @dataclass(frozen=True)
 class WeakestPart(Result):
-    """What gives way first.
+    """Part that fails first.
 
     See Also
     --------
-    TrainStrength : holds it
+    TrainStrength : Contains such objects.
     """
 
     part: str
-    """The wheel or link."""
+    """Name of the wheel or link."""
     what: str
-    """By what it gives way."""
+    """Mode of failure: root, contact, arbor or pin."""
     safety: float
-    """Its safety factor."""
+    """Safety factor of the part."""
 
 
 # ----------------------------------------------------------------------------------------------------- parts of a train
@@ -162,11 +169,11 @@ class WeakestPart(Result):
 
 @dataclass(frozen=True)
 class PairStrength(Result):
-    """A gear pair under load.
+    """Strength of a gear pair under load.
 
     See Also
     --------
-    TrainStrength : holds it
+    TrainStrength : Contains such objects.
     """
 
     pair: str
@@ -180,24 +187,25 @@ class PairStrength(Result):
     tangential: float
     """Force along the pitch line [N]."""
     elasticity: float
-    """ZE of both materials [sqrt(MPa)]."""
+    """Elasticity factor ZE of both materials [sqrt(MPa)]."""
     contact: tuple[ContactPlace, ...]
-    """Pressures along the path of contact, the worst last; empty where Hertz's formula gives none."""
+    """Pressures along the path of contact, the worst last; empty for a form without a path of contact."""
     iso: IsoContact | None
-    """Contact stress by ISO 6336-2; None but for external spur involutes."""
+    """Contact stress by ISO 6336-2; None except for external spur and helical involutes."""
     wheels: tuple[WheelStrength, ...]
-    """Both, as the pair names them."""
+    """Both wheels in the order of the pair."""
     notes: tuple[str, ...] = ()
-    """What does not hold here, and why."""
+    """Restrictions that apply, with reasons."""
 
 
 @dataclass(frozen=True)
 class ArborStrength(Result):
-    """An arbor between its two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26).
+    """Strength of an arbor between its two bearings, whatever the positions of its wheels: docs/strength.md (16), (17)
+    and (26).
 
     See Also
     --------
-    TrainStrength : holds it
+    TrainStrength : Contains such objects.
     """
 
     KEYS = (
@@ -206,39 +214,39 @@ class ArborStrength(Result):
     )
 
     link: str
-    """The link."""
+    """Name of the link."""
     material: str
     """Material of its arbor."""
     force: float
-    """Across it, of all its meshes, as if they pulled one way [N]."""
+    """Transverse force of all its meshes, as if they acted in one direction [N]."""
     thrust: float
-    """Along it: what all its meshes together leave for a shoulder [N]."""
+    """Resultant axial force of all its meshes, which a shoulder carries [N]."""
     bending: float
-    """Greatest bending stress [MPa], with the stress of the thrust."""
+    """Maximum bending stress, including the axial stress of the thrust [MPa]."""
     torsion: float
-    """Greatest torsional stress [MPa]."""
+    """Maximum torsional stress [MPa]."""
     stress: float
-    """Both together, by von Mises [MPa]."""
+    """Equivalent stress of bending and torsion by von Mises [MPa]."""
     pivot_pressure: float
-    """The whole force on one pivot, over its diameter times length [MPa]."""
+    """Pressure of the total force on one pivot, over its diameter times length [MPa]."""
     shoulder_pressure: float | None
-    """The thrust on one shoulder [MPa]; None where the pivots are as thick as the arbor."""
+    """Pressure of the thrust on one shoulder [MPa]; None if the pivots are as thick as the arbor."""
     strength: float | None
-    """Of the material [MPa]."""
+    """Strength of the material [MPa]; None if it is not known."""
 
     @property
     def safety(self) -> float | None:
-        """Strength over stress."""
+        """Safety factor: strength over equivalent stress."""
         return None if self.strength is None or not self.stress else self.strength / self.stress
 
 
 @dataclass(frozen=True)
 class WheelStrength(Result):
-    """One wheel of a loaded pair.
+    """Strength of one wheel of a loaded pair.
 
     See Also
     --------
-    PairStrength : holds it
+    PairStrength : Contains such objects.
     """
 
     KEYS = (
@@ -251,56 +259,56 @@ class WheelStrength(Result):
     material: str
     """Name of its material."""
     torque: float
-    """On it [N m]."""
+    """Torque on the wheel [N m]."""
     section: float
-    """Distance from the axle of the section where bending is greatest [mm]."""
+    """Distance of the section of maximum bending from the wheel's axis [mm]."""
     thickness: float
     """Thickness of the tooth at that section [mm]."""
     lewis: float
-    """Y of Lewis's formula, the load at the tip."""
+    """Lewis form factor Y with the load at the tip."""
     tip_stress: float
-    """At the root, one couple bearing all at the tip [MPa]."""
+    """Root stress with the whole load on one tooth pair at the tip [MPa]."""
     shared_stress: float | None
-    """The greatest while couples share the load evenly [MPa]; None without a path of contact."""
+    """Maximum root stress with equal load sharing [MPa]; None without a path of contact."""
     pressure: float | None
-    """Greatest of the contact while one couple bears all [MPa]; None without a path of contact, or a bound."""
+    """Maximum contact pressure in single contact [MPa]; None without a path of contact, or if it is unbounded."""
     strength: float | None
-    """Strength of the material [MPa]; None where it is not known."""
+    """Strength of the material [MPa]; None if it is not known."""
     spread: float | None
-    """Relative uncertainty of the strength; None where it is not known."""
+    """Relative uncertainty of the strength; None if it is not known."""
     iso: IsoRoot | None = None
-    """Root stress by ISO 6336-3 for the wheel as a hob cuts it."""
+    """Root stress by ISO 6336-3 for the wheel as cut by a hob."""
     wear: FlankWear | None = None
-    """None where no time is given, or no hardness."""
+    """Wear of its flanks; None if no time or no hardness is given."""
 
     @property
     def root_safety(self) -> float | None:
-        """Strength over the stress at the root, one couple bearing all at the tip."""
+        """Safety factor of the root: strength over `tip_stress`."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
     @property
     def contact_safety(self) -> float | None:
-        """Pressure at which yielding begins below the flank over `pressure`."""
+        """Safety factor of the flank: pressure at first yield below the surface over `pressure`."""
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
 
 
 @dataclass(frozen=True)
 class FlankWear(Result):
-    """What all flanks of one wheel lose in one mesh: docs/strength.md (14) and (15).
+    """Wear of all flanks of one wheel in one mesh: docs/strength.md (14) and (15).
 
     See Also
     --------
-    WheelStrength : holds it
+    WheelStrength : Contains such an object.
     """
 
     passages: float
-    """How often each tooth passes."""
+    """Number of passages of each tooth."""
     volume: WearRange
-    """Worn off all teeth [mm3]."""
+    """Volume worn off all teeth [mm3]."""
     mean_depth: WearRange
-    """That, spread over their flanks [mm]."""
+    """Mean depth of wear over the flanks [mm]."""
     depth: WearRange | None
-    """At the place that loses most [mm]; None where no path of contact says where that is."""
+    """Maximum depth of wear [mm]; None without a path of contact."""
 
 
 # -------------------------------------------------------------------------------------------------- contacts and forces
@@ -308,37 +316,42 @@ class FlankWear(Result):
 
 @dataclass(frozen=True)
 class WheelForce(Result):
-    """What a wheel bears from its mate at the pitch point: docs/strength.md (18) and (19).
+    """Force on a wheel from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N.
 
     See Also
     --------
-    TrainStrength : holds it
+    TrainStrength : Contains such objects.
     """
 
     pair: str
     """Name of the pair."""
     wheel: str
-    """Which of its wheels."""
+    """Name of the wheel."""
     radius: float
-    """Of the circle that rolls on the mate's, of a bevel in the middle of its declared width [mm]."""
+    """Operating pitch radius; for a bevel, in the middle of its declared width [mm]."""
     tangential: float
-    """Along that circle, of the sign of its torque [N]. On parallel axes and on bevels both wheels of a pair bear the
-    same, that of the wheel with the greater torque over radius: friction takes part of the other's torque."""
+    """Force along the pitch circle, with the sign of its torque [N].
+
+    On parallel axes and on bevels both wheels of a pair have the same force, from the larger torque over radius,
+    because friction reduces the other torque.
+    """
     axial: float
-    """Above 0 along the direction of its axis [N]."""
+    """Axial force, positive along the direction of the wheel's axis [N]."""
     radial: float | None
-    """Towards its axis, below 0 of a ring [N]; None of teeth whose pressure angle at the pitch point is not known."""
+    """Radial force, positive towards the wheel's axis, negative for a ring [N]; None if the pressure angle at the pitch
+    point is not known.
+    """
     torque: float
-    """On it [N m]."""
+    """Torque on the wheel [N m]."""
 
 
 @dataclass(frozen=True)
 class FlankStrength(Result):
-    """A wheel whose teeth touch those of its mate at a point.
+    """Strength of a wheel whose teeth have point contact.
 
     See Also
     --------
-    PointContact : holds it
+    PointContact : Contains such objects.
     """
 
     KEYS = ("wheel", "material", "strength", "spread", "safety", "tip_stress", "root_safety")
@@ -348,47 +361,47 @@ class FlankStrength(Result):
     material: str
     """Name of its material."""
     strength: float | None
-    """Strength of the material [MPa]; None where it is not known."""
+    """Strength of the material [MPa]; None if it is not known."""
     spread: float | None
-    """Relative uncertainty of the strength; None where it is not known."""
+    """Relative uncertainty of the strength; None if it is not known."""
     safety: float | None
-    """Pressure at which yielding begins below the flank over that of the contact."""
+    """Safety factor of the flank: pressure at first yield below the surface over the contact pressure."""
     tip_stress: float | None = None
-    """Bending at the root [MPa], one couple bearing all at the tip of a tooth; None where no such teeth are cut."""
+    """Root stress with the whole load on one tooth pair at the tip [MPa]; None if the virtual teeth cannot be cut."""
 
     @property
     def root_safety(self) -> float | None:
-        """Strength over the stress at the root."""
+        """Safety factor of the root: strength over `tip_stress`."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
 
 @dataclass(frozen=True)
 class PointContact(Result):
-    """Helical wheels on axes that cross, or a worm and its wheel, under load: docs/strength.md (24) and (25).
+    """Helical wheels on crossed axes, or a worm and its wheel, under load: docs/strength.md (24) and (25).
 
     See Also
     --------
-    TrainStrength : holds it
+    TrainStrength : Contains such objects.
     """
 
     pair: str
-    """Its name."""
+    """Name of the pair."""
     contact_ratio: float
-    """Pitches on which a couple touches, of teeth one module high."""
+    """Contact ratio."""
     normal_force: float
-    """Across the flanks, of all couples together [N]."""
+    """Normal force on the flanks, of all tooth pairs together [N]."""
     pitch_pressure: float
-    """At the pitch point [MPa]."""
+    """Contact pressure at the pitch point [MPa]."""
     pressure: float
-    """The greatest where as few couples touch as anywhere [MPa]."""
+    """Maximum pressure with the fewest tooth pairs in contact [MPa]."""
     longer: float
-    """Longer half axis of the contact ellipse [mm]."""
+    """Semi-major axis of the contact ellipse [mm]."""
     shorter: float
-    """Shorter half axis of the contact ellipse [mm]."""
+    """Semi-minor axis of the contact ellipse [mm]."""
     wheels: tuple[FlankStrength, ...]
-    """Both, as the pair names them."""
+    """Both wheels in the order of the pair."""
     notes: tuple[str, ...] = ()
-    """What does not hold here, and why."""
+    """Restrictions that apply, with reasons."""
 
 
 @dataclass(frozen=True)
@@ -397,7 +410,7 @@ class PinContact(Result):
 
     See Also
     --------
-    TrainStrength : holds it
+    TrainStrength : Contains such objects.
     """
 
     KEYS = (
@@ -406,34 +419,34 @@ class PinContact(Result):
     )
 
     name: str
-    """Of the pair, or of the coupling."""
+    """Name of the pair or of the coupling."""
     disc: str
-    """The wheel with the lobes or holes."""
+    """Wheel with the lobes or holes."""
     material: str
     """Material of that wheel."""
     pins: int
-    """How many there are."""
+    """Number of pins."""
     width: float
-    """Along which they touch [mm]."""
+    """Width of contact [mm]."""
     force: float
-    """On the pin where pressure is greatest, at any time [N]."""
+    """Force on the pin with the maximum pressure, over all phases [N]."""
     radius: float
-    """Of a cylinder on a plane that presses as much [mm]."""
+    """Radius of the equivalent cylinder on a plane [mm]."""
     pressure: float
-    """The greatest [MPa]."""
+    """Maximum contact pressure [MPa]."""
     strength: float | None
-    """Of the weaker of both materials [MPa]."""
+    """Strength of the weaker of both materials [MPa]; None if it is not known."""
     pin_stress: float | None = None
-    """At the foot of a pin that is held at one end [MPa]; None of pins that lie in their ring."""
+    """Equivalent stress at the root of a cantilever pin [MPa]; None for pins supported by their ring."""
     pin_strength: float | None = None
-    """Of the material of pins [MPa]."""
+    """Strength of the material of the pins [MPa]; None if it is not known."""
 
     @property
     def contact_safety(self) -> float | None:
-        """Pressure at which yielding begins below the surface over `pressure`."""
+        """Safety factor of the contact: pressure at first yield below the surface over `pressure`."""
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property
     def pin_safety(self) -> float | None:
-        """Strength of pins over their stress."""
+        """Safety factor of the pins: strength over `pin_stress`."""
         return None if self.pin_strength is None or not self.pin_stress else self.pin_strength / self.pin_stress

@@ -1,4 +1,4 @@
-"""Forces at the pitch points of a train under load: along the pitch circles, along the axes, and between them.
+"""Forces at the pitch points of a train under load: tangential, axial and radial.
 
 Equations (18) and (19) of docs/strength.md.
 """
@@ -34,29 +34,31 @@ WheelParts = tuple[float, float, float | None]
 
 @dataclass(frozen=True)
 class ToothForces:
-    """The forces of one case."""
+    """Tooth forces of one load case."""
 
     setting: LoadCase
     modules: Mapping[str, float]
-    """Transverse modules (m) by wheel; pairs without one are passed over."""
+    """Transverse modules by wheel [m]; pairs without a module are omitted."""
     pairs: Mapping[str, PairTorque]
     """Torques by pair."""
     meshes: Mapping[str, GearMesh]
     """Pairs with real teeth."""
     swings: Mapping[str, float] = field(default_factory=dict)
-    """By pair: the torque that counts over the mean one."""
+    """Ratio of the design torque to the mean torque, by pair."""
 
     def find(self) -> Iterator[WheelForce]:
-        """Of both wheels of every pair that carries a torque, as the pair names them."""
+        """Yield the forces on both wheels of every pair that carries a torque, in the order of the pair."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear":
                 continue
             torque = self.pairs[circuit.id]
+            # an undetermined torque has no force
             if torque.multiplier and not torque.loose and all(wheel in self.modules for wheel in circuit.wheels):
                 yield from self._of_pair(circuit, torque)
 
     def _of_pair(self, circuit: Circuit, torque: PairTorque) -> Iterator[WheelForce]:
         wheels = [self.setting.train.wheels[name][1] for name in circuit.wheels]
+        # the pitch point of a contrate wheel varies along its face
         if any(wheel.kind == "contrate" for wheel in wheels):
             return
         loads = [float(each) * _MM * self.swings.get(circuit.id, 1.0) for each in torque.torques[:2]]
@@ -80,19 +82,19 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
-        """Radii with forces along them: the greater one on both wheels, for friction takes some of a torque only."""
+        """Return radii with tangential forces: the larger force on both wheels, because friction reduces one torque."""
         pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
         maximum = max(map(abs, pushes))
         return [(radius, copysign(maximum, push)) for radius, push in zip(radii, pushes, strict=True)]
 
     def is_crossed(self, circuit: Circuit) -> bool:
-        """True of helical wheels, or a worm and its wheel, on axes that neither meet nor are parallel."""
+        """Return whether a pair has helical wheels, or a worm and its wheel, on crossed axes."""
         if any(self._wheel(circuit, at).kind not in ("spur", "worm") for at in (0, 1)):
             return False
         return not self._is_parallel(circuit) and _shaft_angle(self.setting, circuit) is None
 
     def crossed_wheels(self, circuit: Circuit) -> CrossedWheels:
-        """Of wheels on crossed axes whose helix angles and modules are known."""
+        """Return the geometry of wheels on crossed axes whose helix angles and modules are known."""
         wheels = [self._wheel(circuit, at) for at in (0, 1)]
         widths = [face_width(self.setting.train, wheel) for wheel in wheels]
         first, second = (float("inf") if width is None else _MM * width.si for width in widths)
@@ -106,7 +108,7 @@ class ToothForces:
         )
 
     def involute_of(self, circuit: Circuit) -> Involute:
-        """The teeth of wheels on crossed axes: as declared, else standard ones."""
+        """Return the tooth form of wheels on crossed axes: as declared, otherwise standard involutes."""
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return form if isinstance(form, Involute) else Involute(form="involute")
 
@@ -121,18 +123,18 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Of the pitch circle [mm]: m z/2, over the cosine of the helix angle."""
+        """Return the pitch radius [mm]: m z/2 over the cosine of the helix angle."""
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
 
     def _angle(self, circuit: Circuit) -> float:
-        """Pressure angle across the teeth where no path of contact gives it."""
+        """Return the normal pressure angle [rad] for teeth without a path of contact."""
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
 
     def _rolling_radius(self, circuit: Circuit, at: int) -> float:
-        """Of the circle that rolls on the mate's [mm], which shifted involutes have elsewhere than standard ones."""
+        """Return the operating pitch radius [mm], which differs from the pitch radius for shifted involutes."""
         radius, mesh = self._radius(circuit, at), self.meshes.get(circuit.id)
         if mesh is None:
             return radius
@@ -143,34 +145,37 @@ class ToothForces:
 
     def _parallel(self, circuit: Circuit, at: int, push: float) -> WheelParts:
         wheel, mesh = self._wheel(circuit, at), self.meshes.get(circuit.id)
+        # a ring is pushed outwards
         outwards = -1 if wheel.internal else 1
         if mesh is None:
             force = helical_force(push, wheel.helix, self._angle(circuit))
             return force.tangential, force.axial, outwards * force.radial
-        # one lead at all radii: teeth lean the more the farther out
+        # the lead is the same at all radii, so the helix angle increases with the radius
         lean = tan(wheel.helix) * self._rolling_radius(circuit, at) / self._radius(circuit, at)
         apart = mesh.separation
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """With the friction of teeth that slide along each other."""
+        """Return the radius and forces of a wheel on crossed axes, with friction of sliding along the teeth."""
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
         sliding = 0.0 if friction is None or friction.sliding is None else friction.sliding
+        # friction opposes sliding, whose sense depends on both helix angles
         sense = (1 if tan(helix[0]) + tan(helix[1]) >= 0 else -1) * (-1 if drives else 1)
         return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
     def _middle(self, circuit: Circuit, at: int, crossing: float) -> ConeMiddle:
-        """The middle of the teeth where a width is known, else the outer pitch circle."""
+        """Return the middle of the teeth of a bevel, or its outer pitch circle if the width is not known."""
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
         widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
+        # angles of the pitch cones depend only on the tooth numbers and the shaft angle
         cones = PitchSurfaces.cones(own.count or 1, mate.count or 1, crossing)
         return ConeMiddle(cones, _MM * self.modules[circuit.wheels[at]], min(widths, default=0.0))
 
 
 def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
-    """Of axes that meet; None of others."""
+    """Return the shaft angle of intersecting axes [rad]; None for others."""
     try:
         return shaft_angle(setting.train, setting.tree, circuit)
     except RangeError:
@@ -181,35 +186,35 @@ def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
 
 
 class PitchForce(NamedTuple):
-    """What a wheel bears from its mate at the pitch point, in the unit of the tangential force."""
+    """Force on a wheel from its mate at the pitch point, in the unit of the tangential force."""
 
     tangential: float
-    """Of the torque: that of a torque above 0 is above 0."""
+    """Tangential force, with the sign of the torque."""
     axial: float
-    """Above 0 along the direction of the wheel's axis."""
+    """Axial force, positive along the direction of the wheel's axis."""
     radial: float
-    """Towards its axis; below 0 of a ring, which is pushed outwards."""
+    """Radial force, positive towards the wheel's axis; negative for a ring, which is pushed outwards."""
 
 
 def helical_force(tangential: float, helix: float, pressure_angle: float, friction_angle: float = 0.0) -> PitchForce:
-    """Of a wheel with a helix angle, 0 of spur wheels: docs/strength.md (18).
+    """Return the force on a wheel with a helix angle, 0 for spur wheels: docs/strength.md (18).
 
     Parameters
     ----------
     tangential : float
-        Torque over pitch radius.
+        Torque over pitch radius, in any unit of force.
     helix : float
-        Helix angle (rad), of a right hand above 0; of a worm near a quarter turn.
+        Helix angle [rad], positive for a right hand; near pi/2 for a worm.
     pressure_angle : float
-        Across the teeth (rad).
+        Normal pressure angle [rad].
     friction_angle : float
-        Of the friction along the teeth (rad), atan(mu / cos(pressure angle)); below 0 of the driver, above 0 of the
-        driven wheel, the other way round where the helix angles make the teeth slide so. 0 on parallel axes.
+        Friction angle along the teeth [rad], atan(mu / cos(pressure angle)); negative for the driver, positive for the
+        driven wheel, or reversed if the helix angles reverse the sliding. 0 on parallel axes.
 
     Examples
     --------
-    A driver of a right hand with 10 N along its pitch circle, turning about its axis, so that the torque is against it:
-    the thrust is along the axis, as the thumb of the right hand shows.
+    A right-hand driver with 10 N along its pitch circle turns positively about its axis, against the mate's torque;
+    the thrust is along the axis:
 
     >>> from math import radians
     >>> force = helical_force(-10.0, radians(30), radians(20))
@@ -217,21 +222,21 @@ def helical_force(tangential: float, helix: float, pressure_angle: float, fricti
     (5.7735, 4.2028)
     """
     lean = helix + friction_angle
-    # N cos(alpha), the part of the force across the teeth that lies in the pitch plane, over the tangential one
+    # component N cos(alpha) of the normal force in the pitch plane, over the tangential force
     across = cos(friction_angle) / cos(lean)
     return PitchForce(tangential, 0.0 - tangential * tan(lean), abs(tangential * across) * tan(pressure_angle))
 
 
 def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: int = 1) -> PitchForce:
-    """Of a straight bevel with a half-angle of its pitch cone (rad): docs/strength.md (19).
+    """Return the force on a straight bevel with a half-angle of its pitch cone [rad]: docs/strength.md (19).
 
-    `facing` is 1 where the wheel lies from the apex along its axis' direction, -1 against it: it is pushed away from
-    the apex.
+    `facing` is 1 if the wheel lies from the apex along the direction of its axis, and -1 otherwise. The axial force
+    acts away from the apex.
     """
     apart = abs(tangential) * tan(pressure_angle)
     return PitchForce(tangential, facing * apart * sin(cone), apart * cos(cone))
 
 
 def friction_angle(friction: float, pressure_angle: float) -> float:
-    """Of friction along teeth (rad): atan(mu / cos(pressure angle))."""
+    """Return the friction angle along teeth [rad]: atan(mu / cos(pressure angle))."""
     return atan(friction / cos(pressure_angle))

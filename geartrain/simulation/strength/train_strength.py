@@ -1,4 +1,4 @@
-"""The strength of every gear pair of a train under its torque, and of its arbors."""
+"""Strength of every gear pair of a train under its torque, and of its arbors."""
 
 from __future__ import annotations
 
@@ -43,21 +43,23 @@ if TYPE_CHECKING:
 
 
 _YEAR = 365.25 * 86400  # s
-_PINS = "steel"  # what pins of couplings are made of, where the train declares no material
+_PINS = "steel"  # material of the pins of couplings if the train declares none
 
 
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Pressures, root stresses, safety factors and wear under the loads of one state: see `GearTrain.strength`."""
+    """Compute pressures, root stresses, safety factors and wear under the loads of one state; see
+    `GearTrain.strength`.
+    """
     check_numbers(over=over)
     own, train = service.checked(), train.unfolded
     found, loads = solve(train, state), train.load_case(state)
     if not found.verdict or loads is None:
         return TrainStrength(found.state, found.verdict)
     if not has_torque_units(train.declaration, found.state):
-        what = "stresses need torques with a unit"
-        raise QuestionError(Problem(what, "the loads are plain numbers", "write for example `-0.5 N m`"))
+        what = "stresses require torques with a unit"
+        raise QuestionError(Problem(what, "the declared loads are plain numbers", "write for example `-0.5 N m`"))
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
     question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
@@ -68,57 +70,72 @@ def solve_strength(
     cycle = solve_over_turns(train, state, over)
     if not cycle.parts:
         return TrainStrength(found.state, cycle.verdict)
+    # wear still uses the mean torques of the first solution
     maximum = {name: part.maximum for name, part in cycle.parts.items()}
     return replace(question, over=over, maximum=maximum).answer()
 
 
 @dataclass(frozen=True)
 class Service:
-    """How long a train runs, and what is assumed of its wear."""
+    """Service life of a train, and its range of wear coefficients."""
 
     turns: float | None = None
-    """Of the input, or of time; None where wear is not requested, and never both."""
+    """Revolutions of the input; None if wear is not requested, or `years` is given."""
     years: float | None = None
-    """Of the input, or of time; None where wear is not requested, and never both."""
+    """Years of operation; None if wear is not requested, or `turns` is given."""
     wear: tuple[float, float] | None = None
-    """Least and greatest wear coefficient; None for those of `WEAR_RANGE`."""
+    """Minimum and maximum wear coefficient; None for `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
-        """The wear coefficients. Raises `QuestionError` where they are not a range, or a time is not a number."""
+        """Return the wear coefficients; raise `QuestionError` if they are not a range, or a time is not a number."""
         check_numbers(turns=self.turns, years=self.years)
         own = WearRange(*(self.wear or WEAR_RANGE))
         if not 0 < own.minimum <= own.maximum < inf:
-            what = f"{own.minimum:g} to {own.maximum:g} is no range of wear coefficients"
-            raise QuestionError(Problem(what, "K is above 0, the lesser first", "give for example 1e-7 1e-3"))
+            what = f"{own.minimum:g} to {own.maximum:g} is not a range of wear coefficients"
+            raise QuestionError(
+                Problem(what, "K must be positive, with the minimum first", "give for example --wear 1e-7 1e-3")
+            )
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Turns, in all the time, of a link whose speed is 1; None where no time is given."""
+        """Return the total revolutions of a link whose speed is 1; None if no time is given."""
         turns, years = self.turns, self.years
         if turns is None and years is None:
             return None
         if turns is not None and years is not None:
-            raise QuestionError(Problem("a time is given twice", "by turns and by years", "leave one of them out"))
+            raise QuestionError(
+                Problem("both turns and years are given", "the service life is given once", "omit one of them")
+            )
         for name, value in (("turns", turns), ("years", years)):
             if value is not None and not 0 < value < inf:
-                raise QuestionError(Problem(f"{value:g} {name} wear nothing", "", "give a number above 0"))
+                raise QuestionError(
+                    Problem(
+                        f"a service life of {value:g} {name}", "it must be positive and finite", "give a number above 0"
+                    )
+                )
         speed, declared = _input_speed(train, state), train.declaration
         if not speed:
-            raise QuestionError(Problem(f"'{declared.name}' does not move", "no input turns", "drive it from an input"))
+            raise QuestionError(
+                Problem(f"'{declared.name}' does not move", "all its inputs have speed 0", "give an input a speed")
+            )
         if turns is not None:
             return turns / speed
         case, unit = train.kinematics.case(state), declared.unit_speed
         assert years is not None
+        # a declared rate takes precedence over the unit of speeds
         if case.rate is not None and case.rate.unit is not None:
             return years * _YEAR * float(case.rate.base) / speed
         if unit is None:
-            what, why = "years tell no number of turns here", "speeds are plain numbers"
+            what, why = (
+                "years cannot be converted to turns",
+                "the speeds of this train are plain numbers without a unit",
+            )
             raise QuestionError(Problem(what, why, "give --turns, or declare `unit` or `rate`"))
         return years * _YEAR * float(unit)
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Speed of the input that is counted: the crank's, else that of the first that turns."""
+    """Return the speed of the reference input: the crank, otherwise the first input that turns."""
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):
@@ -131,38 +148,38 @@ def _input_speed(train: TrainMechanics, state: str | None) -> float:
 
 @dataclass(frozen=True)
 class StrengthQuestion:
-    """What is asked of a loaded train."""
+    """Request for the strength of a loaded train."""
 
     train: TrainMechanics
-    """As it answers; `setting`, its case; `torques`, what was found there."""
+    """Train; `setting` is its load case, and `torques` the solution for it."""
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
-    """Pairs with real teeth as they are driven in this case."""
+    """Pairs with real teeth, with their drivers in this case."""
     scale: float | None
-    """Turns of all the time for a speed of 1; None where wear is not asked for; `turns`, those of the input."""
+    """Total revolutions for a speed of 1; None if wear is not requested. `turns` are the revolutions of the input."""
     turns: float | None
     wear: WearRange
-    """Least and greatest wear coefficient."""
+    """Minimum and maximum wear coefficient."""
     over: float | None = None
-    """Turns of the input whose greatest torques bend and press; None where means do."""
+    """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
     maximum: Mapping[str, float] = field(default_factory=dict)
-    """By pair: the greatest torque on its driven side in them [N m]."""
+    """Maximum torque on the driven side of each pair in these revolutions [N m]."""
     left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
     def declared(self) -> Train:
-        """The declaration."""
+        """Declaration of the train."""
         return self.train.declaration
 
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Modules (m) by wheel."""
+        """Modules by wheel [m]."""
         return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Teeth by wheel, as they are cut for all mates."""
+        """Teeth by wheel, as cut for all mates."""
         return self._cut.wheels
 
     @cached_property
@@ -171,32 +188,34 @@ class StrengthQuestion:
 
     @cached_property
     def swings(self) -> Mapping[str, float]:
-        """By pair: the greatest torque over the turns that are asked for, over the mean one."""
+        """Ratio of the maximum torque over the requested revolutions to the mean torque, by pair."""
         found = {}
         for circuit in self.setting.circuits:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
             if pair is None or maximum is None or circuit.kind != "gear" or pair.driver not in circuit.wheels:
                 continue
+            # both refer to the torque on the driven wheel
             mean = abs(float(pair.torques[1 - circuit.wheels.index(pair.driver)]))
             found[circuit.id] = max(maximum / mean, 1.0) if mean else 1.0
         return found
 
     def answer(self) -> TrainStrength:
-        """All pairs and arbors."""
+        """Compute the strength of all pairs and arbors."""
         meshes = {mesh.name: mesh for mesh in self.meshes}
         forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes, self.swings)
-        told = tuple(forces.find())
-        points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, told)}
+        wheel_forces = tuple(forces.find())
+        points = {pair.forces[0].pair: pair.contact() for pair in self._skew_pairs(forces, wheel_forces)}
         found: dict[str, PairStrength] = {}
         pins = dict(self._pins(meshes))
         for gear in self.declared.gears:
             mesh = meshes.get(gear.name)
+            # discs and crossed wheels are treated separately
             if gear.name in self.left_out or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
                 continue
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
                 found[gear.name] = pair.strength()
-        arbors = tuple(self._arbors(told, found))
+        arbors = tuple(self._arbors(wheel_forces, found))
         return TrainStrength(
             self.torques.state,
             self.torques.verdict,
@@ -205,17 +224,17 @@ class StrengthQuestion:
             self.turns,
             self.wear,
             self._all_left_out(),
-            told,
+            wheel_forces,
             points,
             self.over,
             pins,
         )
 
     def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
-        """Pairs in the order of the declaration, then arbors, then what swings."""
+        """Return omitted pairs in the order of the declaration, then arbors, then varying torques."""
         swinging = [each for each in self.torques.left_out if each.what == "variation within a turn"]
         if self.over is None:
-            why = "stresses are those of mean torques; `--over` takes the greatest of some turns"
+            why = "stresses are those of mean torques; `--over` uses the maximum over some turns"
             for each in swinging:
                 self.left_out[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
         order = {gear.name: at for at, gear in enumerate(self.declared.gears)}
@@ -223,27 +242,27 @@ class StrengthQuestion:
             self.left_out[name] for name in sorted(self.left_out, key=lambda name: order.get(name, len(order)))
         )
 
-    def _skew_pairs(self, forces: ToothForces, told: Sequence[WheelForce]) -> Iterator[SkewPair]:
-        """Pairs on crossed axes, but for those that lack something."""
+    def _skew_pairs(self, forces: ToothForces, wheel_forces: Sequence[WheelForce]) -> Iterator[SkewPair]:
+        """Yield the pairs on crossed axes with complete data."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear" or not forces.is_crossed(circuit):
                 continue
             wheels = {name: self.declared.wheels[name][1] for name in circuit.wheels}
             names = [self._material_name(wheel) for wheel in wheels.values()]
             if lacking := [
-                *self._lacking_of_skew(wheels),
-                *self._lacking_of_all(wheels, self.torques.pairs[circuit.id]),
+                *self._missing_helix_angles(wheels),
+                *self._missing_for_any(wheels, self.torques.pairs[circuit.id]),
             ]:
                 self._leave_out(circuit.id, "; ".join(lacking))
                 continue
             first, second = ((name, material_named(self.declared, name)) for name in names)
-            both = [each for each in told if each.pair == circuit.id]
+            both = [each for each in wheel_forces if each.pair == circuit.id]
             is_worm = any(wheel.kind == "worm" for wheel in wheels.values())
             wheels_there = forces.crossed_wheels(circuit)
             yield SkewPair(wheels_there, (both[0], both[1]), (first, second), is_worm, forces.involute_of(circuit))
 
     @staticmethod
-    def _lacking_of_skew(wheels: Mapping[str, Wheel]) -> Iterator[str]:
+    def _missing_helix_angles(wheels: Mapping[str, Wheel]) -> Iterator[str]:
         for name, wheel in wheels.items():
             if wheel.helix_angle is None:
                 yield f"'{name}' has no `helix_angle`"
@@ -251,13 +270,13 @@ class StrengthQuestion:
     # -------------------------------------------------------------------------------------------------------- pins
 
     def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
-        """Lobes among pins, and pins in holes of wheels of a declared width and material."""
+        """Yield contacts of lobes among pins, and of pins in holes of wheels with a declared width and material."""
         for gear in self.declared.gears:
             mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
             if not isinstance(mesh, DiscMesh):
                 continue
             wheels = {name: self.declared.wheels[name][1] for name in mesh.gears}
-            if lacking := list(self._lacking(mesh, wheels, torque)):
+            if lacking := list(self._missing_data(mesh, wheels, torque)):
                 self._leave_out(gear.name, "; ".join(lacking))
                 continue
             disc, ring = wheels.values()
@@ -295,7 +314,7 @@ class StrengthQuestion:
 
     def _pair(self, gear: GearPair, mesh: GearMesh | None, torque: PairTorque) -> PairUnderLoad | None:
         wheels = {name: self.declared.wheels[name][1] for name in gear.pair}
-        lacking = list(self._lacking(mesh, wheels, torque))
+        lacking = list(self._missing_data(mesh, wheels, torque))
         if lacking or mesh is None:
             self._leave_out(gear.name, "; ".join(lacking))
             return None
@@ -322,43 +341,47 @@ class StrengthQuestion:
             for at, ((name, wheel), cut) in enumerate(zip(wheels.items(), teeth, strict=True))
             if cut is not None
         ]
+        # bevels are calculated at mid-width
         middle = module if spurs is None else module * spurs.middle.shrunk
         swing = self.swings.get(gear.name, 1.0)
         notes = tuple(
-            f"teeth of '{name}' are those that this pair requires, for the teeth of pair '{other}' do not turn"
+            f"teeth of '{name}' are cut for this pair only, because the teeth of pair '{other}' cannot turn"
             for name in gear.pair
-            if (other := self._spoilt_elsewhere(mesh, name))
+            if (other := self._pair_with_faults(mesh, name))
         )
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Teeth of a wheel as cut for all mates; where faults of another pair prevent that, as this pair requires."""
-        if (cut := self.teeth.get(name)) is not None or not self._spoilt_elsewhere(mesh, name):
+        """Return the teeth of a wheel as cut for all mates, or as this pair requires if faults of another pair prevent
+        that.
+        """
+        if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:
             return mesh.requirement(name, 1.0 if mesh.own_size is None else mesh.own_size.scale, CHORD).cut()
         except GearTrainError:
             return None
 
-    def _spoilt_elsewhere(self, mesh: GearMesh, name: str) -> str | None:
-        """Another pair of a wheel that is not cut for all mates, whose teeth do not turn."""
+    def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
+        """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates."""
+        # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
 
     def _leave_out(self, pair: str, why: str) -> None:
         self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
 
-    def _lacking(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """What is not known of a pair, or is not worked out for it."""
+    def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
+        """Yield what is not known for a pair, or not supported."""
         if mesh is None:
-            yield "it declares no tooth form: give it `tooth_form`"
+            yield "it has no tooth form: declare `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
             yield "its axes are not parallel, and it has no path of contact"
         elif any(wheel.is_helical for wheel in wheels.values()) and mesh.form != "involute":
-            yield "its teeth lean, and of such only involutes are worked out"
+            yield "its teeth are helical but not involute, which is not supported"
         elif faults := mesh.faults:
-            yield f"its teeth do not turn: {faults[0].what}"
-        yield from self._lacking_of_all(wheels, torque)
+            yield f"its teeth cannot turn: {faults[0].what}"
+        yield from self._missing_for_any(wheels, torque)
         if not torque.multiplier and not torque.loose:
             return
         for name, wheel in wheels.items():
@@ -366,15 +389,15 @@ class StrengthQuestion:
                 yield f"'{name}' has no `face_width`"
             if mesh is not None and mesh.own_size is not None and self._teeth_in(mesh, name) is None:
                 why = "; ".join(str(problem.what) for problem in self._cut.problems.get(name, ()))
-                yield f"'{name}' has no flat outline" + (f": {why}" if why else "")
+                yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
-    def _lacking_of_all(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """What any pair needs."""
+    def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
+        """Yield what is missing for a pair of any kind."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
         if torque.loose:
-            yield "how it shares its torque with others is not declared: give `share`"
+            yield "its share of the torque of parallel paths is not known: declare `share`"
         for name, wheel in wheels.items():
             if not self._material_name(wheel):
                 yield f"'{name}' has no `material`"
@@ -382,7 +405,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no `module`"
 
     def _width(self, wheel: Wheel) -> float:
-        """Width of its teeth (m), 0 where nothing says it."""
+        """Return the width of a wheel's teeth [m], 0 if it is not known."""
         found = face_width(self.declared, wheel)
         return 0.0 if found is None else found.si
 
@@ -390,7 +413,7 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Turns of one wheel as the carrier sees it, over the time that was given."""
+        """Return the revolutions of one wheel relative to the carrier over the given time."""
         if self.scale is None:
             return None
         relative = self.setting.relative(torque.links[at], torque.links[2])
@@ -399,7 +422,8 @@ class StrengthQuestion:
     # ------------------------------------------------------------------------------------------------------ arbors
 
     def _arbors(self, forces: Sequence[WheelForce], pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
-        """Arbors all of whose forces are known."""
+        """Yield the strength of arbors with known forces."""
+        # the normal force in single contact exceeds the mean force only for spur teeth
         straight = {each.pair for each in forces if not each.axial}
         steepest = {
             name: max((each.force for each in pair.contact if each.tooth_pairs == 1), default=0.0)
@@ -410,7 +434,9 @@ class StrengthQuestion:
             if part.arbor is None:
                 continue
             if unknown := self._without_force(part.wheels, forces):
-                why = f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate"
+                why = (
+                    f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate wheel"
+                )
                 self.left_out[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
@@ -418,14 +444,14 @@ class StrengthQuestion:
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Pairs of some wheels that carry a torque and whose forces are not told."""
-        told = {each.pair for each in forces}
+        """Return pairs of some wheels that carry a torque and whose forces are not known."""
+        known = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs
         return [
             gear.name
             for gear in loaded
-            if gear.name not in told and (torques[gear.name].multiplier or torques[gear.name].loose)
+            if gear.name not in known and (torques[gear.name].multiplier or torques[gear.name].loose)
         ]
 
 
@@ -434,27 +460,28 @@ class StrengthQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ArborLoad:
-    """What the wheels of an arbor bear, as bounds: as if all that pulls across pulled one way."""
+    """Bounds of the load on an arbor by its wheels, as if all transverse forces acted in one direction."""
 
     across: float
-    """All forces across it [N]."""
+    """Sum of the transverse forces [N]."""
     along: float
-    """Most of what pushes one way along it [N]; `thrust`, what is left for its shoulders."""
+    """Maximum sum of axial forces of one sign [N]; `thrust` is the resultant on its shoulders."""
     thrust: float
     couple: float
-    """Of the forces along, at their radii [N mm]; `torque` [N mm]."""
+    """Moment of the axial forces at their radii [N mm]; `torque` in N mm."""
     torque: float
 
     @classmethod
     def of(cls, forces: Iterable[WheelForce], steepest: Mapping[str, float]) -> ArborLoad:
-        """Of wheels on one arbor.
+        """Return the load by the wheels on one arbor.
 
-        steepest   by pair: the force of one couple that bears all, where that is known [N]
+        steepest   force of one tooth pair in single contact, by pair where it is known [N]
         """
         own = list(forces)
         axial = [each.axial for each in own]
         return cls(
             sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in own),
+            # the arbor carries the larger sum of axial forces, its shoulders the resultant
             max(sum(part for part in axial if part > 0), -sum(part for part in axial if part < 0)),
             abs(sum(axial)),
             sum(abs(each.axial) * each.radius for each in own),
@@ -463,11 +490,15 @@ class ArborLoad:
 
 
 def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
-    """Of an arbor between two bearings, wherever its wheels stand: docs/strength.md (16), (17) and (26)."""
+    """Compute the strength of an arbor between two bearings for any positions of its wheels: docs/strength.md (16),
+    (17) and (26).
+    """
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3
+    # a pivot without a declared length is as long as its diameter
     length = pivot if arbor.pivot_length is None else arbor.pivot_length.si * 1e3
     bending = bending_stress(maximum_moment(load.across, load.couple, span), diameter)
+    # axial stress adds to the bending stress
     bending += 4 * load.along / (pi * diameter**2)
     torsion = torsional_stress(load.torque, diameter)
     strength = None if material.strength is None else material.strength.si / 1e6
@@ -487,23 +518,24 @@ def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: Arbor
 
 
 def bending_stress(moment: float, diameter: float) -> float:
-    """Of a round bar [MPa]: 32 M/(pi d^3), M in N mm and d in mm."""
+    """Return the bending stress of a round bar [MPa]: 32 M/(pi d^3), M in N mm and d in mm."""
     return 32 * moment / (pi * diameter**3)
 
 
 def torsional_stress(torque: float, diameter: float) -> float:
-    """Of a round bar [MPa]: 16 T/(pi d^3)."""
+    """Return the torsional stress of a round bar [MPa]: 16 T/(pi d^3), T in N mm and d in mm."""
     return 16 * torque / (pi * diameter**3)
 
 
 def maximum_moment(force: float, couple: float, span: float) -> float:
-    """Of a bar between two bearings [N mm] under forces and couples, wherever they stand: docs/strength.md (26).
+    """Return the maximum bending moment of a bar between two bearings [N mm], for any positions of its loads: (26).
 
-    A force across at x L bends by F L x (1 - x) there, a couple by at most M max(x, 1 - x).
+    A transverse force at x L causes F L x (1 - x) there, and a moment at most M max(x, 1 - x).
 
     >>> maximum_moment(10.0, 0.0, 40.0), maximum_moment(0.0, 50.0, 40.0)
     (100.0, 50.0)
     """
+    # the maximum is then at a bearing, otherwise between them
     if couple >= force * span:
         return couple
     return (force * span + couple) ** 2 / (4 * force * span)

@@ -1,4 +1,4 @@
-"""`geartrain strength`: contact pressure, root stress, safety, arbors and wear."""
+"""The command `geartrain strength`: contact pressure, root stress, safety, arbors and wear."""
 
 from __future__ import annotations
 
@@ -13,22 +13,29 @@ def run(
     file: File,
     state: StateName = None,
     json: Json = False,
-    turns: Annotated[float | None, typer.Option("--turns", min=0, help="Wear over so many turns of the input.")] = None,
+    turns: Annotated[
+        float | None, typer.Option("--turns", min=0, help="Compute wear over this number of turns of the input.")
+    ] = None,
     years: Annotated[
-        float | None, typer.Option("--years", min=0, help="Wear over so many years of running, by `unit` or `rate`.")
+        float | None,
+        typer.Option("--years", min=0, help="Compute wear over this number of years, by `unit` or `rate`."),
     ] = None,
     wear: Annotated[
         tuple[float, float] | None,
-        typer.Option("--wear", help="Least and greatest wear coefficient K of Archard's law; default 1e-7 1e-3."),
+        typer.Option("--wear", help="Minimum and maximum coefficient K of Archard's wear law; default 1e-7 1e-3."),
     ] = None,
     over: Annotated[
         float | None,
-        typer.Option("--over", min=0, help="Stresses of the greatest torques over so many turns; default of means."),
+        typer.Option(
+            "--over",
+            min=0,
+            help="Use the maximum torques over this number of turns for stresses; default: mean torques.",
+        ),
     ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Contact pressure, root stress and safety of every pair under the declared loads, arbors, and wear."""
+    """Compute contact pressure, root stress and safety of every pair under the declared loads, arbors, and wear."""
     from geartrain.analysis.gear_train import load
     from geartrain.simulation.strength.strength_report import collect_strength_report, describe_strength
 

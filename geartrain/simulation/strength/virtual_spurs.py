@@ -1,7 +1,7 @@
-"""Spur wheels that stand for others, and the contact of crossed wheels at a point.
+"""Virtual spur wheels, and the point contact of wheels on crossed axes.
 
-Tredgold's spur wheels stand for straight bevels; those across the teeth for helical wheels on crossed axes and worms,
-whose teeth touch at a point.
+Straight bevels are replaced by Tredgold's virtual spur wheels. Helical wheels on crossed axes and worms, whose teeth
+have point contact, are replaced by the virtual spur wheels of their normal sections.
 """
 
 from __future__ import annotations
@@ -36,55 +36,57 @@ if TYPE_CHECKING:
 
 
 _MM = 1e3
-_FLATTEST = 0.01  # cosine of a cone that still rolls on a spur wheel, not on a rack
-_WIDEST = 1 / 3  # of the cone's length: what makers allow
-_SPREAD = 2.0  # of its lever: how wide a force at a point is spread where it bends
+_FLATTEST = 0.01  # minimum cosine of a cone half-angle; below, the virtual spur wheel is nearly a rack
+_WIDEST = 1 / 3  # usual maximum width over the cone distance
+_SPREAD = 2.0  # width over which a point force is distributed at the root, over its lever arm
 _MPA = 1e6
 _WORDS = {
-    "base": "a tip reaches below the base of the mate, where there is no flank: give the smaller wheel more teeth",
-    "width": "a wheel is so narrow that contact leaves it at the side",
+    "base": "a tip reaches below the mate's base cylinder, where the flank ends: give the smaller wheel more teeth",
+    "width": "the width of a wheel limits the path of contact",
 }
 
 
 @dataclass(frozen=True)
 class ConeMiddle:
-    """Pitch cones of a pair, seen in the middle of its teeth: docs/strength.md (23). Lengths in one unit."""
+    """Pitch cones of a pair at mid-width of its teeth: docs/strength.md (23). Lengths in one unit."""
 
     cones: PitchSurfaces
-    """Of gears 1 and 2."""
+    """Pitch cones of gears 1 and 2."""
     module: float
-    """At the large ends; `width` of the teeth, from there towards the apex."""
+    """Module at the large ends; `width` of the teeth, from there towards the apex."""
     width: float
 
     @property
     def reach(self) -> float:
-        """Length of both cones, from the apex to the large ends."""
+        """Cone distance: length of both cones from the apex to the large ends."""
         return self.module * self.cones.z1 / 2 / sin(self.cones.R1)
 
     @property
     def shrunk(self) -> float:
-        """Lengths in the middle over those at the large ends."""
+        """Ratio of lengths at mid-width to those at the large ends."""
         return 1 - self.width / 2 / self.reach
 
     def cone(self, gear: int) -> float:
-        """Half-angle of one of them (rad)."""
+        """Return the half-angle of one of the cones [rad]."""
         return abs(self.cones.axle_of(gear))
 
     def radius(self, gear: int) -> float:
-        """Of the pitch circle in the middle."""
+        """Return the pitch radius at mid-width."""
         return self.shrunk * self.module * self.cones.teeth_of(gear) / 2
 
 
 @dataclass(frozen=True)
 class VirtualSpurs:
-    """The spur pair whose teeth are those of a bevel pair in the middle of their width; modules are those there."""
+    """Virtual spur pair of a bevel pair at mid-width, with the module there."""
 
     middle: ConeMiddle
     form: ConjugateToothForm
 
     @classmethod
     def of(cls, mesh: GearMesh, module: float, width: float) -> VirtualSpurs | None:
-        """Of a pair with this module at the large ends, and this width; None of axes that do not meet."""
+        """Build the virtual pair from the module at the large ends and the width; None for axes that do not
+        intersect.
+        """
         form = mesh.tooth_form
         if mesh.path is None or not mesh.path.pitch.bevel or not isinstance(form, ConjugateToothForm):
             return None
@@ -92,34 +94,35 @@ class VirtualSpurs:
 
     @property
     def why_not(self) -> str:
-        """Why there is none, or nothing."""
+        """Reason why the virtual pair does not exist; "" if it exists."""
         if self.middle.shrunk <= 1 / 2:
-            return "its teeth are wider than its cones are long"
+            return "the width of its teeth exceeds the cone distance"
+        # the virtual number of teeth goes to infinity for a crown wheel
         if min(cos(self.middle.cone(gear)) for gear in (1, 2)) < _FLATTEST:
-            return "the cone of one wheel is flat or hollow, and no spur wheel stands for that"
+            return "the cone of one wheel is flat or internal, so its virtual spur wheel does not exist"
         return ""
 
     @property
     def is_wide(self) -> bool:
-        """Wider than makers make them."""
+        """True if the width exceeds the usual limit of a third of the cone distance."""
         return self.middle.width > _WIDEST * self.middle.reach
 
     def count(self, gear: int) -> float:
-        """Teeth of one of them, which need not be whole."""
+        """Return the virtual number of teeth, not an integer."""
         return self.middle.cones.teeth_of(gear) / cos(self.middle.cone(gear))
 
     @cached_property
     def wheels(self) -> WheelPair:
-        """Both, at the large end, where lengths are declared."""
+        """Both virtual wheels at the large end, where lengths are declared."""
         return WheelPair(self.count(1), self.count(2), module=self.middle.module)
 
     @cached_property
     def pair(self) -> ConjugatePair:
-        """With its path of contact. Raises `GearTrainError` where the form gives none."""
+        """Conjugate pair with its path of contact. Raises `GearTrainError` if the form has none."""
         return self.form.pair(self.wheels)
 
     def teeth(self, gear: int) -> CutTooth:
-        """Of one of them."""
+        """Return the cut teeth of one virtual wheel."""
         free = self.form.bottom_clearance(self.wheels, gear)
         clearance = CLEARANCE if free is None else max(free, 0.0)
         return ToothRequirement(self.pair, gear, CHORD, clearance, self.form.lantern_pins(self.wheels)).cut([])
@@ -127,7 +130,7 @@ class VirtualSpurs:
 
 @dataclass(frozen=True)
 class NormalSpurs:
-    """The spur pair whose teeth are those of crossed helical wheels seen along them: docs/strength.md (27)."""
+    """Virtual spur pair of crossed helical wheels in their normal sections: docs/strength.md (27)."""
 
     crossed: CrossedWheels
     form: Involute
@@ -141,13 +144,15 @@ class NormalSpurs:
             return None
 
     def root_stress(self, at: int, force: float) -> float | None:
-        """Bending at the root of a tooth [MPa] that bears a force [N] across itself at its tip; None without teeth.
+        """Return the root stress [MPa] of a tooth under a normal force [N] at its tip; None if the virtual teeth cannot
+        be cut.
 
-        The force spreads over twice its lever, but no farther than the tooth is long.
+        The force is distributed over twice its lever arm, limited by the length of the tooth.
         """
         if self._pair is None:
             return None
         form, module = self.form, self.crossed.module
+        # bottom clearance of the form, or the default one
         free = form.bottom_clearance(WheelPair(self._pair.path.pitch.z1, self._pair.path.pitch.z2), at + 1)
         clearance = CLEARANCE if free is None else max(free, 0.0)
         try:
@@ -155,30 +160,32 @@ class NormalSpurs:
         except GearTrainError:
             return None
         side = ToothSide.of(tooth.tooth)
+        # base radius of the virtual wheel in modules
         arm = self.crossed.normal_count(at) / 2 * cos(self.crossed.pressure_angle)
         load = side.load_at(tooth.tip, arm)
         section = side.weakest_section(load)
+        # the load spreads at 45 degrees to both sides of the point of contact
         width = min(self.crossed.tooth_length(at), _SPREAD * (load.apex - section.x) * module)
         return section.stress(force * arm * module, width, module)
 
 
 @dataclass(frozen=True)
 class SkewPair:
-    """A pair with the forces on both wheels, as the pair names them."""
+    """Pair on crossed axes with the forces on both wheels, in the order of the pair."""
 
     wheels: CrossedWheels
-    """Their shapes; `forces`, what they bear from each other."""
+    """Geometry of both wheels; `forces` are those on each wheel."""
     forces: tuple[WheelForce, WheelForce]
     materials: tuple[tuple[str, Material], tuple[str, Material]]
-    """Names, and what they stand for."""
+    """Materials with their names."""
     is_worm: bool
-    """One is a worm."""
+    """True if one wheel is a worm."""
     form: Involute
-    """Of their teeth, seen along them."""
+    """Tooth form in the normal section."""
 
     def contact(self) -> PointContact:
-        """All figures."""
-        # what pushes the wheels apart is a part of the force across their flanks, whatever the friction
+        """Compute the contact of the pair."""
+        # the separating force is a fixed fraction of the normal force, whatever the friction
         normal = max(abs(each.radial or 0.0) for each in self.forces) / sin(self.wheels.pressure_angle)
         elasticities = (
             Elasticity(each.youngs_modulus.si / _MPA, float(each.poisson.value)) for _, each in self.materials
@@ -201,6 +208,7 @@ class SkewPair:
         bent = self._spurs.root_stress(at, normal)
         if strength is None:
             return FlankStrength(wheel, name, None, None, None, bent)
+        # yield stress of the material
         bears = strength.si / _MPA
         return FlankStrength(wheel, name, bears, float(material.spread.value), YIELD_AT_POINT * bears / pressure, bent)
 
@@ -210,9 +218,9 @@ class SkewPair:
 
     def _notes(self) -> Iterator[str]:
         if self.is_worm:
-            yield "its wheel is taken for a helical one, not hollowed out for the worm, which touches along a line"
+            yield "its wheel is treated as helical with point contact, not as a throated one with line contact"
         if self.wheels.contact_ratio < 1:
-            yield "its contact ratio is below 1: one couple leaves before the next has come"
+            yield "its contact ratio is below 1: a tooth pair separates before the next one touches"
         if any(self._spurs.root_stress(at, 1.0) is None for at in (0, 1)):
-            yield "no spur wheels of as many teeth as stand across its teeth can be cut, and their bending is left out"
+            yield "its virtual spur wheels cannot be cut, so bending is not computed"
         yield from (_WORDS[why] for why in sorted(self.wheels.bounded_by) if why in _WORDS)

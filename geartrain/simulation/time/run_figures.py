@@ -1,4 +1,4 @@
-"""One run of a train read as figures: shares, energies, outputs, spectra, and what two runs say beside each other."""
+"""Figures of a run: times in contact, energies, outputs, spectra, and the comparison of two time steps."""
 
 from __future__ import annotations
 
@@ -50,71 +50,72 @@ if TYPE_CHECKING:
 
 
 FEWEST = 5
-"""Batches from which on an interval is given."""
+"""Minimum number of batches for a confidence interval."""
 
 _CONFIDENCE = 0.95
-_CORRELATED = 0.9  # lag-1 correlation that is counted at most: beyond it the batches are too short for any interval
-_MOST = 12  # lines
-_HARMONICS = 24  # of each pair
-_NARROW = 1.0  # bins by which a line may miss a harmonic
-_AGREE = {"mean": 0.05, "extreme": 0.01}  # of a figure
-_SHARE, _ANGLE = 0.005, 1e-6  # of a share of time; rad
+_CORRELATED = 0.9  # maximum lag-1 correlation: beyond it the batches are too short for an interval
+_MOST = 12  # maximum number of lines
+_HARMONICS = 24  # harmonics of each pair
+_NARROW = 1.0  # tolerance between a line and a harmonic [bins]
+_AGREE = {"mean": 0.05, "extreme": 0.01}  # relative tolerance of the convergence of a figure
+_SHARE, _ANGLE = 0.005, 1e-6  # absolute tolerances of a fraction of time, and of an angle [rad]
 _Figure = tuple[str, str, float, Literal["mean", "extreme"]]
 
 
 @dataclass(frozen=True)
 class RunFigures:
-    """One run as figures of the train, and of these outputs of it."""
+    """Figures of one run of a train, with some outputs."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
     run: SimulatedRun
     static_peaks: Sequence[float | None]
-    """Greatest torque of each pair in balance at every moment (N m), where teeth yield."""
+    """Maximum quasi-static torque of each pair [N m], for compliant teeth."""
 
     @property
     def plan(self) -> StepPlan:
-        """How it was stepped."""
+        """Time steps of the run."""
         return self.run.plan
 
     @cached_property
     def duration(self) -> float:
-        """Of what is counted (s)."""
+        """Duration of the counted part [s]."""
         return self.plan.step * self.plan.steps
 
     @cached_property
     def first(self) -> int:
-        """The first sample of what is counted."""
+        """Index of the first sample of the counted part."""
         return self.plan.skip // self.plan.stride
 
     @cached_property
     def time(self) -> Floats:
-        """Of the samples (s)."""
+        """Times of the samples [s]."""
         return np.asarray(self.plan.step * self.plan.stride * np.arange(1, len(self.run.angles) + 1), dtype=np.float64)
 
     @cached_property
     def turned(self) -> Floats:
-        """Angles of all links since the start (rad), (links, samples)."""
+        """Angles of all links since the start [rad]. Shape (links, samples)."""
+        # angles of links are the same linear forms of the coordinates as speeds
         found: Floats = self.of.speeds @ self.run.angles.T
         return found
 
     def turns_of(self, link: str) -> Floats:
-        """Turns of a link since the start."""
+        """Return the revolutions of a link since the start."""
         return np.asarray(self.turned[self.of.index[link]] / tau, dtype=np.float64)
 
     @cached_property
     def turns(self) -> Floats:
-        """Turns of the lead, in the sense in which it turns."""
+        """Revolutions of the driving link, positive in its sense of rotation."""
         return np.asarray(self.of.problem.way * self.turns_of(self.of.problem.driving_link), dtype=np.float64)
 
     @cached_property
     def names(self) -> list[str]:
-        """Pairs and pins, and links with an escapement."""
+        """Names of pairs and pins, and of links with an escapement."""
         return [pair.name for pair in self.of.model.pairs] + [stop.name for stop in self.of.model.stops]
 
     @cached_property
     def contacts(self) -> tuple[ContactInTime, ...]:
-        """What each of them did."""
+        """Figures of each contact."""
         steps, time = self.plan.steps, self.duration
         return tuple(
             ContactInTime(
@@ -135,14 +136,14 @@ class RunFigures:
         )
 
     def _peaks_of_contacts(self) -> Iterator[tuple[float | None, float | None]]:
-        """Greatest torque of each contact, and that in balance; None for what is rigid."""
+        """Return the maximum torque of each contact, and the quasi-static one; None for rigid contacts."""
         if self.run.peaks is None:
             return repeat((None, None), len(self.names))
         return zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
 
     @cached_property
     def energy(self) -> EnergyAccount:
-        """Where energy came from and went."""
+        """Energy balance of the counted part."""
         energy = self.run.energy
         return EnergyAccount(
             drive=float(energy[WORK_DRIVE]),
@@ -160,9 +161,10 @@ class RunFigures:
 
     @cached_property
     def drive(self) -> Floats:
-        """Torque where power enters, the way its link turns."""
+        """Torque at the power input [N m], positive in the sense of rotation of its link."""
         source = self.of.case.drive
         way = -1.0 if self.of.typical(source.link) < 0 else 1.0
+        # a prescribed speed needs the constraint torque of the run
         if source.kind == "rate":
             return np.asarray(way * self.run.drive[:, self.of.coordinates.index(source.link)])
         if source.kind == "torque":
@@ -172,20 +174,24 @@ class RunFigures:
 
     @cached_property
     def torque(self) -> float:
-        """Mean torque where power enters (N m)."""
+        """Mean torque at the power input [N m]."""
         source, energy = self.of.case.drive, self.energy
         if source.kind == "torque":
             return float(abs(source.torque))
         angle = abs(float(self.of.speeds[self.of.index[source.link]] @ self.run.turned))
+        # other prescribed links do work, too
         work = energy.drive - self._other_work if source.kind == "rate" else energy.springs
         return float(work / angle) if angle else 0.0
 
     @property
     def _other_work(self) -> float:
-        """What other links put in whose speeds are kept (J): their mean torques over the samples, by their angles."""
+        """Work of the other links with prescribed speeds [J]: their mean torques over the samples, times
+        their angles.
+        """
         others = {
             link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
         }
+        # samples inside the counted part
         begin, end = (self.plan.step * each for each in (self.plan.skip, self.plan.skip + self.plan.steps))
         counted = self.run.drive[(self.time > begin) & (self.time < end + self.plan.step / 2)]
         if not others or not len(counted):
@@ -197,7 +203,7 @@ class RunFigures:
 
     @cached_property
     def differences(self) -> dict[str, Floats]:
-        """By how much each output is ahead of the motion in which all drive flanks touch (rad)."""
+        """Angle by which each output is ahead of the motion in which all drive flanks touch [rad]."""
         motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
         names = list(motion.outputs)
         at = motion.at(np.append(turns, 0.0)).error if motion._forward.used else np.zeros((len(names), len(turns) + 1))
@@ -210,13 +216,14 @@ class RunFigures:
                 touching = mean + at[row, :-1] - at[row, -1]
                 parts.append(self.turned[self.of.index[each]] - forwards * touching)
             sense = self.of.sense(link, base)
+            # positive in the output's own sense of rotation
             way = -1.0 if self.of.typical(link) - sense * self.of.typical(base) < 0 else 1.0
             found[name] = way * (parts[0] - sense * parts[1])
         return found
 
     @cached_property
     def deviations(self) -> tuple[OutputDeviation, ...]:
-        """How far outputs are ahead and behind."""
+        """Maximum and rms deviations of the outputs."""
         counted = {name: each[self.first :] for name, each in self.differences.items()}
         return tuple(
             OutputDeviation(
@@ -229,20 +236,20 @@ class RunFigures:
         )
 
     def means(self) -> Iterator[_Figure]:
-        """Means over the run."""
+        """Yield the means over the run."""
         yield "torque of the drive", "N m", self.torque, "mean"
-        yield "power of blows", "W", self.energy.impact_loss / self.duration, "mean"
+        yield "impact power", "W", self.energy.impact_loss / self.duration, "mean"
         for each in self.contacts:
             yield f"{each.name} apart", "", each.apart, "mean"
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
 
     def intervals(self) -> list[float | None]:
-        """Half the 95 % interval of each mean; None of runs of few turns."""
+        """Return half the 95 % confidence interval of each mean; None for short runs."""
         blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
     def extremes(self) -> Iterator[_Figure]:
-        """Greatest values of the run."""
+        """Yield the maximum values of the run."""
         for each in self.contacts:
             if each.impact_rate:
                 yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
@@ -254,7 +261,7 @@ class RunFigures:
 
     @cached_property
     def gaps(self) -> tuple[Floats, Floats]:
-        """By how much each driven side is off its drive flank, and off its coast flank (rad), (pairs, samples)."""
+        """Gaps of each driven side to its drive flank, and to its coast flank [rad]. Shape (pairs, samples)."""
         angles, found = self.run.angles, np.zeros((2, len(self.of.model.pairs), len(self.time)))
         for row, pair in enumerate(self.of.model.pairs):
             S, q = (
@@ -265,8 +272,8 @@ class RunFigures:
             found[1, row] = pair.back(S) - q
         return found[0], found[1]
 
-    def told(self, coarse: RunFigures | None) -> TimeRun:
-        """The result, this run being the finer one; None for a coarse one without a finer."""
+    def result(self, coarse: RunFigures | None) -> TimeRun:
+        """Return the result of this run, compared with a coarser one; None if only one run is available."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]
@@ -307,7 +314,8 @@ class RunFigures:
         )
 
     def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
-        """Every figure beside that of a run of longer steps."""
+        """Yield every figure together with its value at the longer time step."""
+        # a contact may have impacts in only one of the runs
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
         rows += [(coarse_extremes.get(each[0], (*each[:2], 0.0, each[3])), each, None) for each in self.extremes()]
@@ -321,7 +329,7 @@ class RunFigures:
         return ImpactList(self.run.numbers[IMPACTS], names, time, speed, energy, impulse)
 
     def angle_of(self, name: str) -> Floats:
-        """The angle through which an output has turned (rad)."""
+        """Return the angle through which an output has turned [rad]."""
         link, base = next(each[1:] for each in self.outputs if each[0] == name)
         found: Floats = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
         return found
@@ -329,6 +337,7 @@ class RunFigures:
     def _peaks(self, name: str) -> Iterator[SpectrumPeak]:
         angle = self.angle_of(name)
         cycles = {source.id: float(source.cycles) for source in self.of.sources.values()}
+        # time of one revolution of the driving link
         turn = tau / abs(self.of.case.rate)
         cycles |= {f"beat of {link}": turn / beat for link, (_, beat) in self.of.case.escapements.items()}
         return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
@@ -336,6 +345,7 @@ class RunFigures:
 
 def _converged(one: _Figure, other: _Figure, interval: float | None) -> bool:
     _, unit, value, kind = one
+    # fractions of time have an absolute tolerance
     share = _AGREE[kind] * max(abs(value), abs(other[2])) if unit else _SHARE
     near = max(share, _ANGLE if unit == "rad" else 0.0)
     return bool(max(abs(value - other[2]), interval or 0.0) <= near)
@@ -351,15 +361,16 @@ def _frozen(values: Floats) -> Floats:
 
 
 def batch_half_width(means: Floats) -> float | None:
-    """Half the 95 % interval of a mean, from means over equal consecutive batches; None of too few batches.
+    """Return half the 95 % confidence interval of a mean from equal consecutive batches; None for too few batches.
 
-    Student's t with n - 1 degrees of freedom, widened by sqrt((1 + r)/(1 - r)) for the lag-1 correlation r of the
-    batches, whose estimate is 1/n too low on average (Law and Kelton, Simulation Modeling and Analysis, section 9.5).
+    The interval is Student's t with n - 1 degrees of freedom, widened by sqrt((1 + r)/(1 - r)) for the lag-1
+    correlation r of the batches, whose estimate is 1/n too low on average (Law and Kelton, Simulation Modeling and
+    Analysis, section 9.5).
 
     Parameters
     ----------
     means : array of float, (n,)
-        One mean a batch.
+        Mean of each batch.
     """
     from scipy.special import stdtrit
 
@@ -370,6 +381,7 @@ def batch_half_width(means: Floats) -> float | None:
     squares = float(off @ off)
     if not squares:
         return 0.0
+    # 1/n corrects the bias of the estimated correlation
     lag = min(max(float(off[1:] @ off[:-1]) / squares + 1 / n, 0.0), _CORRELATED)
     wide = float(stdtrit(n - 1, (1 + _CONFIDENCE) / 2)) * sqrt(squares / (n - 1) / n)
     return wide * sqrt((1 + lag) / (1 - lag))
@@ -379,11 +391,11 @@ def batch_half_width(means: Floats) -> float | None:
 
 
 def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, float]) -> list[SpectrumPeak]:
-    """The strongest lines, under a Hann window.
+    """Find the strongest lines of a spectrum under a Hann window.
 
-    time     evenly spaced (s); `angle` (rad), whose mean motion is taken off
-    rate     turns of the lead a second
-    cycles   periods of each pair in a turn of the lead
+    time     evenly spaced [s]; `angle` [rad], whose mean motion is removed
+    rate     revolutions of the driving link per second
+    cycles   periods of each pair per revolution of the driving link
     """
     frequencies, size = find_amplitudes(time, angle)
     if not len(size):
@@ -393,7 +405,7 @@ def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, fl
     strongest = top[np.argsort(-size[top])][:_MOST]
     found = []
     for at in strongest:
-        # a parabola through the logarithms of three bins: where between them the line is
+        # a parabola through the logarithms of three bins locates the line between them
         left, middle, right = np.log(size[at - 1 : at + 2] + 1e-300)
         shift = (left - right) / 2 / (left - 2 * middle + right)
         frequency = float((at + shift) * bin_width)
@@ -403,17 +415,22 @@ def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, fl
 
 
 def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
-    """Frequencies (Hz) and amplitudes (rad) under a Hann window, mean motion taken off; empty for too few samples."""
+    """Compute frequencies [Hz] and amplitudes [rad] under a Hann window after removing the mean motion.
+
+    Both are empty if there are too few samples.
+    """
     if len(time) < 16:
         return np.zeros(0), np.zeros(0)
+    # a linear fit removes the mean motion, whose leakage would hide the lines
     swing = angle - np.polyval(np.polyfit(time - time[0], angle, 1), time - time[0])
     window = np.hanning(len(swing))
+    # amplitude: both halves of the spectrum, over the gain of the window
     size = np.abs(np.fft.rfft(swing * window)) * 2 / window.sum()
     return np.arange(len(size)) / (len(swing) * (time[1] - time[0])), size
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """The lowest harmonic within reach."""
+    """Return the lowest harmonic of a pair within the resolution, with its name."""
     near = [
         (harmonic, name)
         for name, own in cycles.items()

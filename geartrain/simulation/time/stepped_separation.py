@@ -1,10 +1,10 @@
-"""The rate of the input at which teeth first part, sought by stepping: a check of the closed condition for it.
+"""Rate of the input at which teeth first separate, found by time stepping: a check of the closed-form condition.
 
-Places at which teeth may part are stepped once more by ever shorter steps, each from shortly before it. While all
-flanks touch, angles do not depend on the rate, and what a pair carries at an angle is quadratic in it. So two runs of
-equal steps of angle, at two rates, tell where and from what rate on a pair would carry nothing. Steps of one length see
-a flight only if it lasts for some of them: where the torque is least just after a corner of a law and rises soon, the
-rate found is too high by as much as steps are long, and falls with them.
+Positions at which teeth may separate are simulated again with ever shorter time steps, each from shortly before it.
+While all flanks touch, angles do not depend on the rate, and the torque that a pair carries at an angle is quadratic in
+it. Two runs with equal angular steps at two rates therefore give the rate at which the torque would vanish. A flight is
+detected only if it lasts several steps. Where the torque is minimal just after a kink and increases soon, the rate
+found is too high by an amount that decreases with the time step.
 """
 
 from __future__ import annotations
@@ -27,74 +27,84 @@ if TYPE_CHECKING:
 
 
 FLIGHT = 4
-"""Steps for which a flank carries nothing when it parts: a blow within a step may leave flanks apart for one or two."""
-FINER = 8
-"""From one length of steps to the next."""
+"""Number of consecutive steps without torque that counts as a separation.
 
-_BEFORE, _AFTER = 24, 12  # of the longer steps, that are stepped by the shorter
+An impact within a step may open flanks for one or two.
+"""
+FINER = 8
+"""Ratio of successive time steps."""
+
+_BEFORE, _AFTER = 24, 12  # longer steps before and after a position that are repeated with shorter ones
 STEPS = (_BEFORE + _AFTER) * FINER
-"""Steps of one run about a place."""
-_SETTLE = 8  # steps after a start that are not looked at
-_SURE = 1e-5  # of a rate: how near it is bracketed
+"""Steps of one run about a position."""
+_SETTLE = 8  # steps after a start that are ignored
+_SURE = 1e-5  # relative width of the bracket of a rate
 _PLACE_TRIES = 40
 FINE_TABLES = 1e-14
-"""Driven pitches: laws are read so finely here, for over short steps an error of a speed counts as a jolt."""
-_RUNS = 8  # about so many of a place with each length of steps
-_MOST = 200_000  # stretches that are kept
-_BELOW = 0.95  # of the rate by the condition: where the search begins
-_SLOWER = 0.8  # from rate to rate until one is found at which all flanks touch
+"""Tolerance of the tables of transmission functions [driven pitches].
+
+In short time steps an error of a speed would count as an impact.
+"""
+_RUNS = 8  # estimated number of runs about a position with each time step
+_MOST = 200_000  # maximum number of samples
+_BELOW = 0.95  # the search begins at this fraction of the predicted rate
+_SLOWER = 0.8  # factor between tried rates until one is found at which all flanks touch
 _TRIES = 12
-_NEARER = 0.2  # of the change from one length of steps to the next: at the first order an eighth
-_KEPT = 16, 6, 3  # places that are stepped by shorter steps, each time a few of those before
+_NEARER = 0.2  # maximum ratio of successive changes while the rate converges; at first order it is 1/8
+_KEPT = 16, 6, 3  # numbers of positions that are refined with each shorter time step
 
 
-class PartingPlace(NamedTuple):
-    """Where a pair may part, and from what rate on."""
+class SeparationPosition(NamedTuple):
+    """Position at which a pair may separate, with bounds of the rate."""
 
     pair: int
-    """Its number."""
+    """Index of the pair."""
     angle: Floats
-    """Of the coordinates shortly before (rad; rad/s at the rate of the model)."""
+    """Angles of the coordinates shortly before [rad]."""
     speed: Floats
-    """Of the coordinates shortly before (rad; rad/s at the rate of the model)."""
+    """Speeds of the coordinates shortly before, at the rate of the model [rad/s]."""
     turns: float
-    """Of the input at the place."""
+    """Position of the input [revolutions]."""
     holds: float
-    """Rates over that of the model at which it touches, and at which it parts."""
+    """Rate at which the pair touches, over that of the model."""
     parts: float
-    """Rates over that of the model at which it touches, and at which it parts."""
+    """Rate at which the pair separates, over that of the model."""
 
 
 @dataclass(frozen=True)
-class PartingSearch:
-    """Steps of a train about single places."""
+class SeparationSearch:
+    """Simulation of a train about single positions."""
 
     model: ContactModel
-    """At one rate of the input, whose turn takes `turn` (s)."""
+    """Model at one rate of the input; `turn` is the time of one revolution [s]."""
     turn: float
     fast: bool
     advance: Callable[[int], object]
-    """Called with the steps of each run; where it returns True the search ends with `StoppedSearchError`."""
+    """Function called with the steps of each run; the search ends with `StoppedSearchError` if it returns True."""
 
     @property
     def loose(self) -> list[int]:
-        """Numbers of the pairs that can part."""
+        """Indices of the pairs that can separate."""
         return [m for m, pair in enumerate(self.model.pairs) if not pair.two_sided]
 
     def run(
         self, share: float, plan: StepPlan, angle: Floats | None = None, speed: Floats | None = None
     ) -> SimulatedRun:
-        """Steps at a share of the model's rate; from the start, or from elsewhere."""
+        """Simulate at a fraction of the model's rate, from the start or from another state."""
 
         def on_done(steps: int) -> None:
             if self.advance(steps) is True:
                 raise StoppedSearchError
 
-        model = self.model.elsewhere(share, angle, speed)
+        model = self.model.restarted(share, angle, speed)
         return simulate(model, plan._replace(step=plan.step / share), self.fast, on_done)
 
-    def suspects(self, plan: StepPlan, share: float, most: int) -> list[PartingPlace]:
-        """Where pairs part first in a whole run, by two rates up to a share of the model's; the first ones first."""
+    def candidates(self, plan: StepPlan, share: float, most: int) -> list[SeparationPosition]:
+        """Return the positions at which pairs separate first in a whole run, in ascending order of the rate.
+
+        The rates are extrapolated from two runs, at `share` of the model's rate and slightly below.
+        """
+        # two rates determine D and A of the quadratic
         low = 0.9 * share
         slow, quick = self.run(low, plan), self.run(share, plan)
         found = []
@@ -105,21 +115,23 @@ class PartingSearch:
         found.sort()
         places = []
         for rate, m, at in found[:most]:
+            # samples are before the position, so that the refined run includes it
             before = max(at - max(1, -(-_BEFORE // plan.stride)), 0)
             turns = plan.step * plan.stride * (at + 1) / self.turn
-            places.append(PartingPlace(m, quick.angles[before], quick.speeds[before] / share, turns, share, rate))
+            places.append(SeparationPosition(m, quick.angles[before], quick.speeds[before] / share, turns, share, rate))
         return places
 
-    def finer(self, place: PartingPlace, step: float) -> PartingPlace:
-        """The place by steps of a length (s at the model's rate), after it was found by longer ones.
+    def finer(self, place: SeparationPosition, step: float) -> SeparationPosition:
+        """Refine a position with a shorter time step [s at the model's rate].
 
-        Rates are those at which its pair carries nothing for some steps, bracketed.
+        The rates bracket the one at which its pair carries no torque for several steps.
         """
         plan = StepPlan(step, 0, STEPS, 1)
         known: list[tuple[float, float]] = []
         low, high = 0.0, inf
         guess = min(place.parts, 4 * place.holds)
         run, at = None, 0
+        # two rates below the guess, at which the pair still touches
         tries = iter((0.9 * guess, 0.98 * guess))
         for _ in range(_PLACE_TRIES):
             share = next(tries, None) or _next(known, low, high)
@@ -139,21 +151,22 @@ class PartingSearch:
             return place._replace(holds=0.0, parts=inf)
         before = max(at - _BEFORE, 0)
         turns = place.turns + (at - _BEFORE * FINER) * step / self.turn
-        return PartingPlace(place.pair, *self._state(place, run, before, low), turns, low, high)
+        return SeparationPosition(place.pair, *self._state(place, run, before, low), turns, low, high)
 
-    def _state(self, place: PartingPlace, run: SimulatedRun, at: int, share: float) -> tuple[Floats, Floats]:
+    def _state(self, place: SeparationPosition, run: SimulatedRun, at: int, share: float) -> tuple[Floats, Floats]:
         return place.angle + run.angles[at], run.speeds[at] / share
 
 
 class StoppedSearchError(Exception):
-    """Raised where whoever looks on wants no more."""
+    """Exception raised if the caller stops the search."""
 
 
 def _next(known: Sequence[tuple[float, float]], low: float, high: float) -> float | None:
-    """The next rate to try: where the last two known torques say that there is none left; else the middle."""
+    """Return the next rate to try: where the last two torques extrapolate to 0, otherwise by bisection."""
     if len(known) > 1:
         (one, first), (other, second) = sorted(known)[-2:]
         found = float(_vanishing(np.array([first]), one, np.array([second]), other)[0])
+        # slightly to both sides of the extrapolated root, to bracket it
         for near in (found * (1 - _SURE / 3), found * (1 + _SURE / 3)):
             if low < near < high and near < 4 * low:
                 return near
@@ -163,22 +176,24 @@ def _next(known: Sequence[tuple[float, float]], low: float, high: float) -> floa
 
 
 def _vanishing(first: Floats, slow: float, second: Floats, quick: float) -> Floats:
-    """The rate at which a torque vanishes that is D + A w^2, from two; infinite where it does at none."""
+    """Return the rate at which a torque D + A w^2 vanishes, from two values; infinite if it never does."""
     fall = first - second
     with np.errstate(divide="ignore", invalid="ignore"):
+        # root of D + A w^2 from its values at two rates
         square = (first * quick**2 - second * slow**2) / fall
     return np.where((fall > 0) & (square > 0), np.sqrt(np.maximum(square, 0.0)), inf)
 
 
 def _minimum(forces: Floats) -> tuple[float, int]:
-    """The least torque that a pair carries for some steps on end, and the step in the middle of those."""
+    """Return the minimum torque that a pair carries during consecutive steps, and the middle step."""
+    # a separation lasts several steps, so the maximum over consecutive steps must vanish
     spans = np.lib.stride_tricks.sliding_window_view(forces, FLIGHT).max(axis=1)[_SETTLE:]
     at = int(spans.argmin())
     return float(spans[at]), at + _SETTLE + FLIGHT // 2
 
 
 def _lowest(rates: Floats, most: int) -> Iterator[int]:
-    """Places with the least rates, none beside another."""
+    """Yield the positions of the lowest rates that are local minima."""
     inner = rates.copy()
     inner[:3] = inf
     for at in np.argsort(inner, kind="stable")[: 8 * most]:
@@ -190,57 +205,58 @@ def _lowest(rates: Floats, most: int) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class SteppedSeparation(Result):
-    """At which rate of the input stepping first parts teeth, without restitution.
+    """Rate of the input at which teeth first separate by time stepping, without restitution.
 
     See Also
     --------
-    geartrain.simulation.step_to_separation : gives it.
+    geartrain.simulation.step_to_separation : Returns such an object.
     """
 
     input: str
-    """The link whose rate it is."""
+    """Link whose rate it is."""
     turns: float
-    """Turns of it from the start that were stepped."""
+    """Simulated range of the input from the start [turn]."""
     predicted: float
-    """By the condition, in as many turns [turn/s]."""
+    """Rate by the closed-form condition, over the same range [turn/s]."""
     rate: float | None
-    """By steps ever shorter [turn/s]; None where none was found nearby."""
+    """Rate by ever shorter time steps [turn/s]; None if none was found nearby."""
     error: float | None
-    """By how much it may be wrong, because steps are not shorter still [turn/s]."""
+    """Error bound due to the time step [turn/s]."""
     pair: str | None
-    """The pair that parts."""
+    """Pair that separates."""
     at: float | None
-    """Turns of the input at which it does."""
+    """Position of the input at which it separates [turn]."""
     holds: float | None
-    """Greatest rate tried at which all flanks touch, by the shortest steps [turn/s]."""
+    """Maximum tried rate at which all flanks touch, with the shortest time step [turn/s]."""
     parts: float | None
-    """Least rate tried at which some flanks part, by the shortest steps [turn/s]."""
+    """Minimum tried rate at which some flanks separate, with the shortest time step [turn/s]."""
     flight: float
-    """Turns of the input for which flanks must be apart to be noticed for certain."""
+    """Minimum duration of a flight that is certainly detected [turn of the input]."""
     complete: bool = True
-    """False where the search was stopped."""
+    """False if the search was stopped."""
 
 
 def find_stepped_separation(
     study: TimeStudy, predicted: float | None, on_done: Callable[[float], object]
 ) -> SteppedSeparation:
-    """Step the whole run at two rates that hold, then the places where least is carried by ever shorter steps.
+    """Simulate the whole run at two rates without separation, then refine the positions with the minimum torque.
 
-    study       what is asked, at the rate that is predicted
-    predicted   by the condition (turn/s)
-    on_done     called with the share of the work that is done; where it returns True, what is known is given back
+    study       the train and its range, at the predicted rate
+    predicted   rate by the closed-form condition [turn/s]
+    on_done     called with the fraction of the work that is done; the search stops if it returns True
     """
     if not predicted:
-        raise _unsought(predicted)
+        raise _search_error(predicted)
     plan = study.plan(1)
     plan = plan._replace(stride=max(FLIGHT, -(-plan.steps // _MOST)), skip=0)
     whole = 2 * plan.steps + _RUNS * sum(_KEPT) * STEPS
-    search = PartingSearch(study.of.model, 1 / predicted, study.is_fast, lambda steps: on_done(steps / whole))
+    search = SeparationSearch(study.of.model, 1 / predicted, study.is_fast, lambda steps: on_done(steps / whole))
+    # a flight between two samples must contain a whole sample
     flight = (2 * plan.stride - 1) / study.per_turn
     none = (None,) * 6
     known = SteppedSeparation(study.of.problem.driving_link, study.turns, predicted, *none, flight)
     try:
-        share, places = _suspects(search, plan)
+        share, places = _candidates(search, plan)
         known = replace(known, holds=share * predicted)
         step, levels = plan.step, [places[0].parts] if places else []
         for kept in _KEPT:
@@ -251,23 +267,24 @@ def find_stepped_separation(
             levels.append(places[0].parts)
             if _is_noise(levels):
                 break
-            known = _told(known, search, places[0], step, levels[-2])
+            known = _refined(known, search, places[0], step, levels[-2])
     except StoppedSearchError:
         return replace(known, complete=False)
     return known
 
 
-def _unsought(predicted: float | None) -> QuestionError:
-    what = "no rate is there to be found by stepping"
-    why = f"by the condition for it teeth part at {'no' if predicted is None else 'any'} rate"
-    return QuestionError(Problem(what, why, "ask without --find-rate"))
+def _search_error(predicted: float | None) -> QuestionError:
+    what = "the separation rate cannot be found by time stepping"
+    why = f"the closed-form condition predicts separation at {'no' if predicted is None else 'any'} rate"
+    return QuestionError(Problem(what, why, "omit --find-rate"))
 
 
-def _suspects(search: PartingSearch, plan: StepPlan) -> tuple[float, Sequence[PartingPlace]]:
-    """A share of the rate at which nothing parts by long steps, and where something may beyond it."""
+def _candidates(search: SeparationSearch, plan: StepPlan) -> tuple[float, Sequence[SeparationPosition]]:
+    """Return a fraction of the rate without separation at the long time step, and the positions to refine."""
+    # below the prediction, because the stepped rate may be lower
     share = _BELOW
     for _ in range(_TRIES):
-        places = search.suspects(plan, share, _KEPT[0])
+        places = search.candidates(plan, share, _KEPT[0])
         if not places or places[0].parts > share:
             break
         share *= _SLOWER
@@ -275,23 +292,25 @@ def _suspects(search: PartingSearch, plan: StepPlan) -> tuple[float, Sequence[Pa
 
 
 def _is_noise(levels: Sequence[float]) -> bool:
-    """Whether rates by ever shorter steps no longer settle: rounding, which grows as steps shorten."""
+    """Return whether rates with ever shorter time steps no longer converge, because rounding grows."""
+    # the convergence needs three changes
     if len(levels) < 4:
         return False
     before, last = (abs(one - other) for one, other in zip(levels[-3:], levels[-2:], strict=False))
     return last > _NEARER * before
 
 
-def _told(
-    known: SteppedSeparation, search: PartingSearch, place: PartingPlace, step: float, before: float
+def _refined(
+    known: SteppedSeparation, search: SeparationSearch, place: SeparationPosition, step: float, before: float
 ) -> SteppedSeparation:
-    """What is known with the steps of a length (s).
+    """Return the result with a time step [s].
 
-    The rate falls with the step to the first power or a higher one, so that it lies between what these steps say and
-    what a line through both says.
+    The rate converges with the step to the first order or higher. It therefore lies between the value at this step and
+    the linear extrapolation from both.
 
-    before   the least rate at which teeth part by longer steps, over the one predicted
+    before   minimum rate of separation with the longer time step, over the predicted one
     """
+    # Richardson's estimate for a first-order error
     error = abs(before - place.parts) / (FINER - 1)
     return replace(
         known,

@@ -1,4 +1,4 @@
-"""A train in time that goes on as far as it is asked to, and whose drive and loads may change on the way."""
+"""Simulation of a train that is advanced on request, and whose drive and loads may change meanwhile."""
 
 from __future__ import annotations
 
@@ -26,41 +26,41 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.contacts.train_model import TrainModel
 
-_EARLY = 1e-6  # of a step: a time that is so little before the end of one counts as that
+_EARLY = 1e-6  # relative to a step: a time this little before the end of a step counts as its end
 
 
 class Simulation(Shown):
-    """A train that moves in time while others look on, and act on it.
+    """Simulation of a train that is coupled to other programs, with a drive and loads that may change.
 
-    Steps have one length throughout, whatever times are asked for: between two of them angles go on evenly, so that the
-    course does not depend on where it is looked at.
+    The time step is constant whatever times are requested. Between two steps angles are extrapolated linearly, so that
+    the motion does not depend on when it is observed.
 
     Attributes
     ----------
     time : float
-        How far it has come [s].
+        Simulated time [s].
     step : float
-        Length of a step [s].
+        Time step [s].
     drive_link, drive_kind : str
-        Where power enters, and how: "rate", "torque", "spring" or "hand".
+        Link at which power enters, and kind of the drive: "rate", "torque", "spring" or "hand".
     drive : float
-        What drives: the speed of that link, or of the hand [rad/s]; the torque [N m].
+        Value of the drive: the speed of that link, or of the hand [rad/s]; the torque [N m].
     loads : dict of str to float
-        Torques on links that are declared or were given [N m].
+        Torques on links, declared or set [N m].
     restitution : dict of str to float
-        By pair, pin and escapement.
+        Coefficient of restitution of each pair, pin and escapement.
     torque : float
-        Of the drive, the way its link turns; mean of the last advance [N m].
+        Mean torque of the drive over the last advance, positive in the sense of rotation of its link [N m].
     torques, apart, impact_energy : dict of str to float
-        By pair, pin and escapement, over the last advance: mean torque on the driven side [N m], share of time in which
-        no flank touches, energy that blows took [J].
+        Figures of each pair, pin and escapement over the last advance: mean torque on the driven side [N m], fraction
+        of the time in which no flank touches, energy lost in impacts [J].
     unsolved : int
-        Steps in which no consistent set of contacts was found.
+        Number of steps without a consistent set of contacts.
 
     See Also
     --------
-    geartrain.GearTrain.simulation : makes it.
-    geartrain.GearTrain.dynamics : a whole run, with its account.
+    geartrain.GearTrain.simulation : Returns such an object.
+    geartrain.GearTrain.dynamics : Simulates a whole run, with its energy balance.
 
     Examples
     --------
@@ -123,28 +123,30 @@ class Simulation(Shown):
         drive: float | None = None,
         loads: Mapping[str, float] | None = None,
     ) -> Simulation:
-        """The same train at time 0 once more.
+        """Return a simulation of the same train from time 0.
 
         Parameters
         ----------
         step, restitution, drive, loads
-            As the attributes; by default those it has now. A speed that drives is one from the start.
+            New values of the attributes; by default the present ones. A driving speed applies from the start.
 
         Returns
         -------
         Simulation
-            Another one, that shares what was found about teeth.
+            Another simulation that shares the tables of teeth.
 
         Raises
         ------
         QuestionError
-            If a step is no length, or a restitution none.
+            If the time step is not positive, or a restitution is not 0 to 1.
         """
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
         if not 0 < step < inf or not all(0 <= each <= 1 for each in bounces.values()):
-            what = f"steps of {step:g} s, restitution {', '.join(f'{each:g}' for each in set(bounces.values()))}"
-            raise QuestionError(Problem(what, "", "give a length above 0, and restitution from 0 to 1"))
+            values = ", ".join(f"{each:g}" for each in set(bounces.values()))
+            what = f"invalid time step or restitution: {step:g} s, {values}"
+            why = "the time step must be positive and finite, and restitution 0 to 1"
+            raise QuestionError(Problem(what, why, "give for example step=1e-4 and restitution 0.3"))
         drive = self.drive if drive is None else drive
         given = self.loads if loads is None else loads
         return Simulation(self._of, self._outputs, step, self._fast, bounces, drive, given)
@@ -157,35 +159,35 @@ class Simulation(Shown):
 
     @property
     def angles(self) -> dict[str, float]:
-        """Angles of outputs [rad], by name; those of the train's start among them."""
+        """Angles of outputs by name [rad], including their initial angles."""
         late = self.time - float(self._state.clock[1]) * self.step
         turned = self._of.speeds @ (self._state.angle + late * self._state.speed)[self._place]
         start = self._of.problem.angles
-        return self._seen(turned + np.array([start.get(link, 0.0) for link in self._of.index]))
+        return self._by_output(turned + np.array([start.get(link, 0.0) for link in self._of.index]))
 
     @property
     def speeds(self) -> dict[str, float]:
-        """Speeds of outputs [rad/s], by name."""
-        return self._seen(self._of.speeds @ self._state.speed[self._place])
+        """Speeds of outputs by name [rad/s]."""
+        return self._by_output(self._of.speeds @ self._state.speed[self._place])
 
     @property
     def angle(self) -> float:
-        """Angle of the link where power enters, since the start [rad]."""
+        """Angle of the link at the power input since the start [rad]."""
         late = self.time - float(self._state.clock[1]) * self.step
         row = self._of.speeds[self._of.index[self.drive_link]]
         return float(row @ (self._state.angle + late * self._state.speed)[self._place])
 
     @property
     def speed(self) -> float:
-        """Speed of the link where power enters [rad/s]."""
+        """Speed of the link at the power input [rad/s]."""
         return float(self._of.speeds[self._of.index[self.drive_link]] @ self._state.speed[self._place])
 
     @property
     def output_links(self) -> tuple[str, ...]:
-        """The links whose angles the outputs are."""
+        """Links of the outputs."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
-    def _seen(self, links: Floats) -> dict[str, float]:
+    def _by_output(self, links: Floats) -> dict[str, float]:
         index = self._of.index
         return {
             name: float(links[index[link]] - self._of.sense(link, base) * links[index[base]])
@@ -193,7 +195,7 @@ class Simulation(Shown):
         }
 
     def set_drive(self, value: float) -> None:
-        """Drive otherwise from now on.
+        """Set the value of the drive from now on.
 
         Parameters
         ----------
@@ -203,36 +205,41 @@ class Simulation(Shown):
         Raises
         ------
         QuestionError
-            If a spring drives: it gives what it has.
+            If a spring drives the train.
         """
         if value == self.drive:
             return
         if self.drive_kind == "spring":
-            raise QuestionError(Problem("a spring is not steered", "it gives what it has", "declare another drive"))
+            raise QuestionError(
+                Problem("the drive is a spring", "the torque of a spring cannot be set", "declare another `drive`")
+            )
         before, self.drive = self.drive, value
         if self.drive_kind == "hand":
             self._system.spring_rate[0] = value
+            # the rest angle of the hand must be continuous in time
             self._system.spring_rest[0] += (before - value) * self._state.clock[0]
         elif self.drive_kind == "torque":
             self._set_torques()
 
     def set_load(self, link: str, torque: float) -> None:
-        """Load a link otherwise from now on.
+        """Set the load of a link from now on.
 
         Parameters
         ----------
         link : str
-            A link.
+            Name of the link.
         torque : float
-            On it, in the sense of its positive speed [N m].
+            Torque on the link, positive in the sense of its positive speed [N m].
 
         Raises
         ------
         QuestionError
-            If there is no such link.
+            If the link does not exist.
         """
         if link not in self._of.index:
-            raise QuestionError(Problem(f"there is no link '{link}'", "", suggest(link, self._of.index)))
+            raise QuestionError(
+                Problem(f"unknown link '{link}'", "a load acts on a declared link", suggest(link, self._of.index))
+            )
         if torque != self.loads.get(link, 0.0):
             self.loads[link] = torque
             self._set_torques()
@@ -243,34 +250,40 @@ class Simulation(Shown):
         self._system.torque[:] = self._torque
 
     def advance(self, seconds: float) -> None:
-        """Go on.
+        """Advance the simulation by some time.
 
         Parameters
         ----------
         seconds : float
-            For so long, 0 or more; steps that end within are done [s].
+            Duration, 0 or more [s]; the steps that end within it are done.
 
         Raises
         ------
         QuestionError
-            If time would go back.
+            If the duration is negative or not finite.
         """
         if not 0 <= seconds < inf:
-            raise QuestionError(Problem(f"{seconds:g} s to go on", "time goes on", "give 0 or more"))
+            raise QuestionError(
+                Problem(f"cannot advance by {seconds:g} s", "time must not decrease", "give a duration of 0 or more")
+            )
         self.time += seconds
+        # the number of steps depends only on the time, not on the calls
         steps = floor(self.time / self.step + _EARLY) - int(self._state.clock[1])
         if steps <= 0:
             return
         record = empty_record(len(self._torque), len(self._names), samples=1, impacts=0)
-        first = self._jolt()
+        first = self._apply_new_speed()
         if first:
-            self._go(record, 1, steps)
+            self._run_steps(record, 1, steps)
             self._system.torque[:] = self._torque
-        self._go(record, steps - first, steps)
+        self._run_steps(record, steps - first, steps)
         self._read(record, steps)
 
-    def _jolt(self) -> int:
-        """Bring prescribed coordinates to a new speed: 1 if so, and then momentum of the first step is mended."""
+    def _apply_new_speed(self) -> int:
+        """Set prescribed coordinates to a new speed; return 1 if it changes.
+
+        A change requires a correction of the momentum in the first step.
+        """
         if self.drive_kind != "rate":
             return 0
         jump = np.zeros(len(self._torque))
@@ -279,13 +292,14 @@ class Simulation(Shown):
         if not jump.any():
             return 0
         self._state.speed[:] += jump
-        # the kernel takes the speeds it finds for those before the step, which had less momentum
+        # the kernel takes the new speeds as those before the step; the torque compensates the difference of momentum
         self._system.torque[:] = self._torque - self._system.mass @ jump / self.step
         return 1
 
-    def _go(self, record: RunRecord, steps: int, stride: int) -> None:
-        """Some steps; a sample that is never full keeps the sums of all impulses."""
+    def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
+        """Advance some steps; one sample that is never complete accumulates all impulses."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
+        # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)
         self._run(self._system, self._model.transmissions, self._state, self._room, record, rules, steps, True)
         check_convergence(self._state, record, self.step)
@@ -304,5 +318,6 @@ class Simulation(Shown):
             self.torque = way * self.drive
         else:
             case, rate = self._of.case.drive, float(self._system.spring_rate[0])
+            # rest angle of the spring at the present time
             rest = float(self._system.spring_rest[0]) + rate * float(self._state.clock[0])
             self.torque = way * case.stiffness * (rest - self.angle)

@@ -1,4 +1,4 @@
-"""Motion in time: figures for JSON, and the page that is told from them."""
+"""Report of a motion in time, and its data for JSON."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ if TYPE_CHECKING:
     from geartrain.simulation.time.time_run import ContactInTime, ConvergedFigure, TimeRun
 
 
-_SURE = 1e-9  # an account that closes to less says nothing more
+_SURE = 1e-9  # tolerance of the relative error of the energy balance; a smaller error is rounding
 _STILL = 1e-9  # rad: rounding of angles
-_CLOSE = 0.01  # error of steps that is asked for
+_CLOSE = 0.01  # target of the relative discretisation error
 
 
 @dataclass(frozen=True)
 class TimeReport(Result):
-    """A train in time, with the rates at which its teeth were to part.
+    """Motion of a train in time, with the predicted separation rates of its teeth.
 
     See Also
     --------
-    collect_time_report : Gives it.
+    collect_time_report : Returns such an object.
     """
 
     PAGE = "simulation.time.time_report:describe_time_run"
@@ -39,37 +39,39 @@ class TimeReport(Result):
     KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
 
     title: str
-    """One line for a reader."""
+    """Title in one line."""
     separation: SeparationRates | None
-    """At what rate teeth first part, by pair, from the condition for it; None where no torques or inertia are known."""
+    """Rates at which teeth first separate, by pair, from the closed-form condition; None without inertias or units of
+    torques.
+    """
     inertias: tuple[LinkInertia, ...]
-    """What moves is as heavy as this."""
+    """Moments of inertia of the moving links."""
     run: TimeRun
-    """The run."""
+    """Run in time."""
     stepped: SteppedSeparation | None = None
-    """The same by stepping, where it was asked for."""
+    """Separation rate by time stepping, if requested."""
 
 
 def collect_time_report(
     train: GearTrain, run: TimeRun, without: tuple[str, ...] = (), stepped: SteppedSeparation | None = None
 ) -> TimeReport:
-    """A run with the rates at which teeth first part.
+    """Combine a run with the rates at which teeth first separate.
 
     Parameters
     ----------
     train : GearTrain
         The train.
     run : TimeRun
-        What its `dynamics` gave.
+        Result of `GearTrain.dynamics`.
     without : tuple of str
-        Pairs that were left out.
+        Names of pairs that were left out.
     stepped : SteppedSeparation, optional
-        What `step_to_separation` gave.
+        Result of `step_to_separation`.
 
     Returns
     -------
     TimeReport
-        Its `to_dict` is the answer of `geartrain dynamics --json`.
+        Report whose `to_dict` is the output of `geartrain dynamics --json`.
 
     Examples
     --------
@@ -89,17 +91,18 @@ def collect_time_report(
 
 
 def describe_time_run(found: TimeReport) -> Document:
-    """Up to which rate all teeth touch, then what a train did in time: contacts, drive, outputs, energy, spectra.
+    """Return a report of a run: separation rate, contacts, drive, outputs, energy, spectra, convergence and
+    inertias.
 
     Parameters
     ----------
     found : TimeReport
-        From `collect_time_report`.
+        Result of `collect_time_report`.
 
     Returns
     -------
     Document
-        Angles in degrees, torques in N mm; what differs between steps of length h and h/2 is marked.
+        Report with angles in degrees and torques in N mm. Figures that differ between time steps are marked.
 
     Examples
     --------
@@ -107,13 +110,13 @@ def describe_time_run(found: TimeReport) -> Document:
     >>> train = geartrain.load("moon-triangular-inertia")
     >>> run = train.dynamics("1 turn/s", turns=0.01, skip=0, steps=2000)
     >>> [section.title for section in describe_time_run(collect_time_report(train, run)).sections[:3]]
-    ['Up to which rate it holds', 'Contacts', 'Drive and outputs']
+    ['Separation rate', 'Contacts', 'Drive and outputs']
     """
     return Document(f"Motion in time of {found.run.train}", list(_summary(found.run)), list(_sections(found)))
 
 
 def time_document(run: TimeRun) -> Document | None:
-    """Return what `geartrain dynamics` prints for a run; None where the train is not known."""
+    """Return the output of `geartrain dynamics` for a run; None if the train is not known."""
     from geartrain.analysis.gear_train import GearTrain
 
     if run._declaration is None:
@@ -127,9 +130,9 @@ def _sections(found: TimeReport) -> Iterator[Section]:
         from geartrain.simulation.contacts.separation_rate import separation_section
 
         section = separation_section(found.separation)
-        yield replace(section, paragraphs=(*section.paragraphs, *_unlike(run)))
+        yield replace(section, paragraphs=(*section.paragraphs, *_validity_notes(run)))
     if found.stepped is not None:
-        yield Section("The same by stepping", (_stepped(found.stepped),))
+        yield Section("Separation rate by time stepping", (_stepped(found.stepped),))
     if run.contacts:
         yield _contacts(run)
     yield _outputs(run)
@@ -141,9 +144,10 @@ def _sections(found: TimeReport) -> Iterator[Section]:
                 for peak in peaks
             ]
             header = (f"per turn of {run.driving_link}", "Hz", "amplitude (deg)", "pair and harmonic")
+            # a Hann window resolves two bins
             apart = figure(2 * tau / (abs(run.rate) * run.duration), 2)
             text = (
-                "The strongest lines of its angle about its mean motion, under a Hann window, which tells orders apart "
+                "The strongest lines of its angle about the mean motion, under a Hann window, which resolves orders "
                 f"that differ by {apart} or more."
             )
             yield Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
@@ -153,75 +157,77 @@ def _sections(found: TimeReport) -> Iterator[Section]:
         yield _inertia(found.inertias)
 
 
-def _unlike(run: TimeRun) -> Iterator[str]:
-    """Why teeth of this run may part at lesser rates than those at which they first part."""
+def _validity_notes(run: TimeRun) -> Iterator[str]:
+    """Yield reasons why teeth of this run may separate at rates below the predicted ones."""
     if run.driven != "rate":
-        yield "These rates are of an input that turns evenly; this one need not."
+        yield "These rates assume an input of constant speed; the speed of this input may vary."
     if run.model == "compliant":
-        yield "These rates are of rigid teeth: such as yield swing where their speed ratio jumps, and may part before."
+        yield "These rates assume rigid teeth; compliant teeth vibrate at jumps of the ratio and may separate earlier."
     elif run.restitution:
-        yield "These rates are without restitution: with one, teeth bounce wherever their speed ratio jumps."
+        yield "These rates assume no restitution; with restitution, teeth bounce wherever their speed ratio jumps."
 
 
 def _summary(run: TimeRun) -> Iterator[str]:
     ways = {
-        "rate": f"the speed of '{run.link}' is kept",
-        "torque": f"a steady torque, such as a weight's, drives '{run.link}'",
+        "rate": f"the speed of '{run.link}' is prescribed",
+        "torque": f"a constant torque, for example of a weight, drives '{run.link}'",
         "spring": f"a spring drives '{run.link}'",
-        "hand": f"a hand that yields drives '{run.link}'",
+        "hand": f"a compliant hand drives '{run.link}'",
     }
     state = "" if run.state is None else f", in state {run.state}"
+    # rounding of the duration must not show
     turns = round(abs(run.rate) * run.duration / tau, 6)
     if run.driven == "torque" and not turns:
-        yield f"'{run.driving_link}' STANDS STILL: what drives '{run.link}' does not overcome what resists it."
+        yield f"'{run.driving_link}' DOES NOT MOVE: the drive at '{run.link}' does not overcome the resistance."
     yield (
-        f"While '{run.driving_link}' makes {turns_text(turns)} at {figure(abs(run.rate) / tau, 6)} "
+        f"'{run.driving_link}' makes {turns_text(turns)} at {figure(abs(run.rate) / tau, 6)} "
         f"turn/s{state}, after "
-        f"{figure(run.skip, 4)} s that are not counted; {ways[run.driven]}. Steps of {figure(run.step, 4)} s."
+        f"{figure(run.skip, 4)} s that are not evaluated; {ways[run.driven]}. Time step {figure(run.step, 4)} s."
         + (f" Restitution {figure(run.restitution, 4)}." if run.restitution else "")
     )
     if not run.complete:
-        yield "PARTIAL: stopped; the figures are of what was done, and were not compared with those of shorter steps."
+        yield "PARTIAL: the run was stopped; the figures are not compared with those of a shorter time step."
     if run.unsolved:
         yield (
-            f"NOT SOLVED in {run.unsolved} steps: no contacts agree with their forces there, as where friction locks "
-            "the train (`geartrain torques --turns` says where). A guess was taken: do not rely on these figures."
+            f"NOT SOLVED in {run.unsolved} steps: no consistent contacts were found, for example if friction locks "
+            "the train (`geartrain torques --turns` shows where). Do not rely on these figures."
         )
-    yield from (f"Left out: {note}." for note in run.notes)
+    yield from (f"Not included: {note}." for note in run.notes)
     yield from (f"Assumed: {each}." for each in run.assumed)
 
 
 def _stepped(found: SteppedSeparation) -> str:
-    text = "" if found.complete else "PARTIAL: stopped. "
-    text += f"Stepped without restitution over {turns_text(found.turns)} of '{found.input}'"
+    text = "" if found.complete else "PARTIAL: the search was stopped. "
+    text += f"In a simulation without restitution over {turns_text(found.turns)} of '{found.input}'"
     if found.rate is not None and found.error is not None and found.at is not None:
-        text += f", flanks of {found.pair} part from {figure(found.rate, 6)} ± {figure(found.error, 2)} turn/s on"
+        text += f", flanks of {found.pair} separate above {figure(found.rate, 6)} ± {figure(found.error, 2)} turn/s"
         text += f", after {figure(found.at, 6)} turns"
     elif found.holds is not None:
         text += f", all flanks touch at {figure(found.holds, 5)} turn/s"
     else:
-        text += ", nothing is known yet"
+        text += ", no rate has been found yet"
     return (
-        f"{text}; by the condition they part from {figure(found.predicted, 6)} turn/s on in these turns. "
-        f"Flights of less than {figure(found.flight, 3)} turns may be overlooked."
+        f"{text}; the closed-form condition predicts {figure(found.predicted, 6)} turn/s in these turns. "
+        f"Flights of less than {figure(found.flight, 3)} turns may be missed."
     )
 
 
 def _contacts(run: TimeRun) -> Section:
     rows = [_contact(run, each) for each in run.contacts]
     header = (
-        *("contact", "apart (%)", "coast (%)", "impacts a turn", "each (µJ)", "all (mW)"),
+        *("contact", "apart (%)", "coast (%)", "impacts per turn", "each (µJ)", "all (mW)"),
         *("hardest (rad/s)", "gap (deg)", "torque (N mm)", "friction (mW)", "peak (N mm)", "dynamic factor"),
     )
     text = [
-        f"Shares of time apart and on the coast flank; impacts in a turn of '{run.driving_link}', the "
-        f"energy of each and the "
-        "power of all, the closing speed of the hardest; the greatest angle between the driven side and its nearer "
-        "flank; the mean torque on the driven side.",
-        "Teeth are rigid here: an impact is an impulse, whose force has no peak, and so there is no dynamic factor."
+        "Percentage of time without contact (apart) and on the coast flank; impacts per turn of "
+        f"'{run.driving_link}', "
+        "their mean energy and total "
+        "power, and the maximum closing speed (hardest); the maximum angle between the driven side and its nearer "
+        "flank (gap); the mean torque on the driven side.",
+        "Teeth are rigid: an impact is an impulse without a peak force, so the dynamic factor is undefined."
         if run.model == "rigid"
-        else "Teeth yield: peaks are the greatest torques on the driven side, and the dynamic factor is such a peak "
-        "over that of a train in balance at every moment.",
+        else "Teeth are compliant: the peak is the maximum torque on the driven side; the dynamic factor is its ratio "
+        "to the maximum quasi-static torque.",
     ]
     return Section("Contacts", text, (filled_table(header, cut(rows), 3),))
 
@@ -245,19 +251,20 @@ def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
 
 
 def _outputs(run: TimeRun) -> Section:
+    # only a prescribed speed has its power in `drive`
     power = (run.energy.drive if run.driven == "rate" else run.energy.put_in) / run.duration
-    word = "given back" if power < 0 else "put in"
+    word = "power returned" if power < 0 else "input power"
     text = [
-        f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; {word}: {watts_text(abs(power))}.",
-        "Outputs against the motion in which all drive flanks touch, which is that of `geartrain motion`.",
+        f"Mean torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm; {word}: {watts_text(abs(power))}.",
+        "Deviations of outputs from the motion in which all drive flanks touch (`geartrain motion`).",
     ]
     off = [each for each in run.deviations if max(each.ahead, each.behind) > _STILL]
     if not off:
-        text.append("None is ahead or behind.")
+        text.append("No output deviates.")
     rows = [
         (summary.output, *(_angle(each) for each in (summary.ahead, summary.behind, summary.rms))) for summary in off
     ]
-    header = ("output", "ahead, at most (deg)", "behind, at most (deg)", "rms (deg)")
+    header = ("output", "maximum ahead (deg)", "maximum behind (deg)", "rms (deg)")
     return Section("Drive and outputs", text, (Table(header, cut(rows)),) if rows else ())
 
 
@@ -267,70 +274,68 @@ def _angle(angle: float) -> str:
 
 def _energy(run: TimeRun) -> Section:
     energy = run.energy
+    # percentages refer to the total input
     whole = sum(max(each, 0.0) for each in (energy.drive, energy.loads, energy.springs))
     amounts = {
-        "put in by the drive": energy.drive,
-        "put in by loads and steady drives": energy.loads,
-        "put in by springs": energy.springs,
+        "input by the drive": energy.drive,
+        "input by loads and constant torques": energy.loads,
+        "input by springs": energy.springs,
         "lost in bearings": energy.bearings,
         "lost to viscous drag": energy.drag,
         "lost by friction of teeth and pins": energy.friction,
-        "lost in impacts" if run.model == "rigid" else "lost in teeth that yield": energy.impact_loss,
-        "taken by the length of steps": energy.steps,
-        "more kinetic energy than at first": energy.kinetic,
-        "more in teeth that yield": energy.elastic,
+        "lost in impacts" if run.model == "rigid" else "lost by damping of teeth": energy.impact_loss,
+        "numerical dissipation": energy.steps,
+        "increase of kinetic energy": energy.kinetic,
+        "increase of elastic energy of teeth": energy.elastic,
     }
     table = energy_table("J", amounts, whole, 6)
     closure = max(energy.closure, 1e-15)
     if not table.rows:
         return Section(
-            "Energy", ("None is put in, lost or kept: nothing loads the train, and nothing heavy gets faster.",)
+            "Energy", ("No energy is supplied, lost or stored: the train has no load, and no inertia is accelerated.",)
         )
-    claim = (
-        f"the account claims {_SURE:.0e}" if closure <= _SURE else f"which is less well than the {_SURE:.0e} claimed"
-    )
-    text = f"What is put in, lost and kept agrees to {closure:.0e} of it; {claim}."
+    claim = f"the tolerance is {_SURE:.0e}" if closure <= _SURE else f"this exceeds the tolerance of {_SURE:.0e}"
+    text = f"The energy balance closes to a relative error of {closure:.0e}; {claim}."
     return Section("Energy", (text,), (table,))
 
 
 def _converged(run: TimeRun) -> Section:
     means = [each for each in run.figures if each.kind == "mean"]
-    text = ["Each figure by steps of length h, and of h/2, which is used elsewhere."]
+    text = ["Figures with time steps h and h/2; the values at h/2 are used elsewhere."]
     if any(each.interval is not None for each in means):
-        text.append(
-            "The mean of a longer run lies within ± of that of h/2 with a confidence of 95 %, by blocks of whole turns."
-        )
+        text.append("± is half the 95 % confidence interval of a mean at h/2, from batch means over whole turns.")
     else:
-        text.append("How far means of a longer run differ is not known: that takes 5 turns or more.")
-    text += _unsettled(run)
+        text.append("Confidence intervals of means require 5 turns or more.")
+    text += _unconverged_notes(run)
     if any(each.apart for each in run.contacts):
         text.append(
-            "Robust are means over many turns: shares of time apart, torque, power. Chaotic are single flights and "
-            "blows, and so extremes, angles at one moment, and which teeth part when: another start gives others."
+            "Means over many turns (percentages of time, torque, power) are robust. Single flights and impacts are "
+            "chaotic, and so are extremes and angles at one moment: another start gives other values."
         )
     rows = [_compared(each) for each in (*means, *(each for each in run.figures if each.kind == "extreme"))]
     header = ("figure", "unit", "h", "h/2", "±", "kind", "converged")
-    return Section("What settled", text, (filled_table(header, cut([row for row in rows if row is not None]), 2),))
+    return Section("Convergence", text, (filled_table(header, cut([row for row in rows if row is not None]), 2),))
 
 
-def _unsettled(run: TimeRun) -> Iterator[str]:
-    """Figures that depend on the length of steps or of the run, by how much, and what to ask for instead."""
+def _unconverged_notes(run: TimeRun) -> Iterator[str]:
+    """Yield the figures that have not converged, their errors, and the options to improve them."""
     loose = [each for each in run.figures if not each.converged]
     if not loose:
-        yield "All agree."
+        yield "All figures converged."
         return
-    yield f"NOT SETTLED: {', '.join(each.name for each in loose)}."
+    yield f"NOT CONVERGED: {', '.join(each.name for each in loose)}."
     sizes = {each.name: abs(each.fine - each.coarse) / abs(each.fine) for each in loose if each.unit and each.fine}
     name = max(sizes, key=lambda each: sizes[each], default=None)
     if name is not None and sizes[name] > _CLOSE:
+        # the error is of the first order in the time step
         steps = tau / abs(run.rate) / run.step / 2 * sizes[name] / _CLOSE
         yield (
-            f"The error of their steps is estimated by h against h/2, at most {percent_text(sizes[name])} ({name}): "
-            f"`--steps {float(f'{steps:.2g}'):.0f}` brings it to {percent_text(_CLOSE)}, unless the motion is chaotic, "
-            "where extremes need not settle."
+            f"The discretisation error, estimated from h and h/2, is at most {percent_text(sizes[name])} ({name}): "
+            f"`--steps {float(f'{steps:.2g}'):.0f}` reduces it to {percent_text(_CLOSE)}, unless the motion is chaotic "
+            "and extremes do not converge."
         )
     if any((each.interval or 0.0) > abs(each.fine - each.coarse) for each in loose):
-        yield "Where ± is the greater, ask for more `--turns`: four times as many halve it."
+        yield "If ± exceeds the difference of h and h/2, increase `--turns`: four times as many halve ±."
 
 
 def _compared(each: ConvergedFigure) -> tuple[str, ...] | None:
@@ -359,5 +364,5 @@ def _inertia(found: Sequence[LinkInertia]) -> Section:
         )
         for each in found
     ]
-    header = ("link", "kg m2", "from", "of it by planets", "not known")
+    header = ("link", "kg m2", "source", "by planets (kg m2)", "missing")
     return Section("Inertia", (), (filled_table(header, cut(rows), 3),))

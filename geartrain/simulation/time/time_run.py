@@ -1,4 +1,4 @@
-"""What a train did in time: angles, speeds, torques, shares of time apart, impacts, and the account of its energy."""
+"""Results of a motion in time: angles, speeds, torques, times in contact, impacts, and the energy balance."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeRun(Tabular, Pictured, TrainResult):
-    """A train in time, by steps of one length; everything is of the run with the shorter steps.
+    """Motion of a train in time with a constant time step; all data are of the run with the shorter step.
 
     See Also
     --------
-    geartrain.GearTrain.dynamics : gives these.
+    geartrain.GearTrain.dynamics : Returns such an object.
 
     Examples
     --------
@@ -75,70 +75,73 @@ class TimeRun(Tabular, Pictured, TrainResult):
     )
 
     train: str
-    """Its name."""
+    """Name of the train."""
     state: str | None
-    """The declared state."""
+    """Name of the declared state."""
     driving_link: str
-    """The input that sets the scale."""
+    """Input that sets the time scale."""
     rate: float
-    """Its mean speed in the counted part of the run [rad/s], below 0 where it turns backwards."""
+    """Mean speed of the driving link in the counted part of the run [rad/s], negative if it turns backwards."""
     link: str
-    """Where power enters."""
+    """Link at which power enters."""
     driven: Literal["rate", "torque", "spring", "hand"]
-    """By what: a speed that is kept; a torque, also of a weight; a spring; a hand that yields."""
+    """Kind of the drive: a prescribed speed; a torque, also of a weight; a spring; a compliant hand."""
     step: float
-    """Length of a step [s]."""
+    """Time step [s]."""
     skip: float
-    """Time before what is counted [s]."""
+    """Duration before the counted part [s]."""
     duration: float
-    """Time that is counted [s]."""
+    """Duration of the counted part [s]."""
     time: Floats
     """Times of the samples [s]. Shape (n,)."""
     turns: Floats
-    """Turns of the lead at the samples, positive in its declared sense. Shape (n,)."""
+    """Revolutions of the driving link at the samples, positive in its declared sense. Shape (n,)."""
     angles: LabelledArray
     """Angles of all links [rad]. Shape (link, time)."""
     speeds: LabelledArray
     """Speeds of all links [rad/s]. Shape (link, time)."""
     torques: LabelledArray
-    """Means between samples, of torques on the driven sides [N m]. Shape (contact, time)."""
+    """Torques on the driven sides, means between samples [N m]. Shape (contact, time)."""
     gaps: LabelledArray
-    """Distance of the driven side from its drive flank [rad]. Drive flanks push while the lead turns as declared.
-    Shape (pair, time)."""
+    """Gap between the driven side and its drive flank [rad]. Drive flanks push while the driving link turns as
+    declared. Shape (pair, time).
+    """
     coast_gaps: LabelledArray
-    """Distance of the driven side from its coast flank [rad]. Shape (pair, time)."""
+    """Gap between the driven side and its coast flank [rad]. Shape (pair, time)."""
     outputs: LabelledArray
     """Angles through which outputs have turned [rad]. Shape (output, time)."""
     ahead: LabelledArray
     """Angles by which outputs are ahead of `motion` [rad]. Shape (output, time)."""
     drive: Floats
-    """Torque where power enters, mean between samples [N m], the way the train turns. Shape (n,)."""
+    """Torque at the power input, mean between samples [N m], positive in the sense of rotation. Shape (n,)."""
     torque: float
-    """Mean of that over what is counted: its work over the angle [N m]."""
+    """Mean torque at the power input in the counted part: its work over the angle [N m]."""
     contacts: tuple[ContactInTime, ...]
-    """By pair, pin and escapement."""
+    """Figures by pair, pin and escapement."""
     impacts: ImpactList
-    """Those of the counted part."""
+    """Impacts of the counted part."""
     energy: EnergyAccount
-    """Of the counted part."""
+    """Energy balance of the counted part."""
     deviations: tuple[OutputDeviation, ...]
-    """Outputs against `motion`."""
+    """Deviations of outputs from `motion`."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
-    """By output, strongest first."""
+    """Spectral lines by output, strongest first."""
     figures: tuple[ConvergedFigure, ...]
-    """What steps of h and h/2 say."""
+    """Figures with time steps h and h/2."""
     unsolved: int
-    """Steps in which no consistent set of contacts was found; their last guess was taken."""
+    """Number of steps without a consistent set of contacts; the last guess was used."""
     notes: tuple[str, ...]
-    """What is left out."""
+    """Effects that are not included."""
     complete: bool = True
-    """False if it was stopped: then all is of the run with the longer steps, as far as that came, and not compared."""
+    """False if the run was stopped. All data are then of the completed part of the run with the longer step, without a
+    comparison.
+    """
     model: Literal["rigid", "compliant"] = "rigid"
-    """Whether teeth yield."""
+    """Model of the teeth."""
     assumed: tuple[str, ...] = ()
-    """What nothing declares and was estimated."""
+    """Estimates that replace missing declarations."""
     restitution: float = 0.0
-    """The greatest of those of the contacts."""
+    """Maximum coefficient of restitution of the contacts."""
     _without: tuple[str, ...] = field(default=(), kw_only=True, repr=False, compare=False)
 
     def _summary(self) -> str:
@@ -150,7 +153,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
         return f"{self.train}{state}: {rate}, {', '.join(figures)}" + ("" if self.complete else ", incomplete")
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
-        """The angles of a link [rad], or the course of a pair."""
+        """Return the angles of a link [rad], or the figures of a contact."""
         for each in self.contacts:
             if each.name == name:
                 return each
@@ -159,7 +162,9 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """All samples: time, turns, angles and speeds of links, torques of contacts and drive, gaps, deviations."""
+        """All samples by column: time, turns, angles and speeds of links, torques of contacts and drive, gaps,
+        deviations.
+        """
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
             (self.angles, "angle (rad)"),
@@ -175,12 +180,12 @@ class TimeRun(Tabular, Pictured, TrainResult):
         return {name: column.tolist() for name, column in made.items()}
 
     def to_csv(self) -> str:
-        """All samples as a table, as `columns` has them.
+        """Return all samples as a table, with the columns of `columns`.
 
         Returns
         -------
         str
-            Comma-separated, with a head that names units.
+            Comma-separated values with a header that names the units.
         """
         columns = self.columns
         return csv_text([*columns], zip(*columns.values(), strict=True))
@@ -191,71 +196,71 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
 @dataclass(frozen=True)
 class ContactInTime(Result):
-    """What one pair, pin or escapement did during a run.
+    """Figures of one pair, pin or escapement over a run.
 
     See Also
     --------
-    TimeRun.contacts : where these stand.
+    TimeRun.contacts : Contains such objects.
     """
 
     name: str
-    """The pair or coupling; of an escapement its link."""
+    """Name of the pair or coupling; for an escapement, of its link."""
     apart: float
-    """Share of time in which no flank touches."""
+    """Fraction of the time in which no flank touches."""
     coast: float
-    """Share of time on the coast flank, or nearer to it."""
+    """Fraction of the time on the coast flank, or nearer to it."""
     impact_rate: float
-    """Impacts a second [1/s]."""
+    """Number of impacts per second [1/s]."""
     power: float
-    """What they take [W]."""
+    """Power lost in impacts [W]."""
     hardest: float
-    """Greatest closing speed of one, of the driven side [rad/s]."""
+    """Maximum closing speed of an impact, of the driven side [rad/s]."""
     torque: float
-    """Mean torque on the driven side, forwards positive [N m]."""
+    """Mean torque on the driven side, positive forwards [N m]."""
     rubbed: float
-    """What friction takes [W]."""
+    """Power lost by friction [W]."""
     gap: float
-    """Greatest gap, to the nearer flank [rad]."""
+    """Maximum gap to the nearer flank [rad]."""
     changes: float
-    """Changes from one flank to the other without time apart [1/s]."""
+    """Changes from one flank to the other without separation [1/s]."""
     peak: float | None = None
-    """Greatest torque on the driven side of teeth that yield [N m]; None of rigid ones, which give blows."""
+    """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts are impulses."""
     dynamic_factor: float | None = None
-    """That over the greatest torque in balance at every moment; None where no speed is prescribed."""
+    """Ratio of `peak` to the maximum quasi-static torque; None if no speed is prescribed."""
 
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """Impacts one after another, as far as they were kept.
+    """List of impacts in order of time, up to the storage limit.
 
     See Also
     --------
-    TimeRun.impacts : where it stands.
+    TimeRun.impacts : Such an object.
     """
 
     KEYS = ("total",)
 
     total: int
-    """How many there were."""
+    """Total number of impacts."""
     contact: tuple[str, ...]
-    """The pair, pin or escapement of each that was kept."""
+    """Pair, pin or escapement of each stored impact."""
     time: Floats
-    """Time of each impact [s]. Shape (kept,)."""
+    """Time of each impact [s]. Shape (stored,)."""
     speed: Floats
-    """Closing speed [rad/s]. Shape (kept,)."""
+    """Closing speed [rad/s]. Shape (stored,)."""
     energy: Floats
-    """Energy dissipated [J]. Shape (kept,)."""
+    """Energy dissipated [J]. Shape (stored,)."""
     impulse: Floats
-    """Impulse on the driven side [N m s]. Shape (kept,)."""
+    """Impulse on the driven side [N m s]. Shape (stored,)."""
 
 
 @dataclass(frozen=True)
 class EnergyAccount(Result):
-    """Where energy came from and went [J]: what is put in is what is taken and what kinetic energy has grown by.
+    """Energy balance [J]: the work put in equals the losses plus the increase of stored energy.
 
     See Also
     --------
-    TimeRun.energy : where it stands.
+    TimeRun.energy : Such an object.
     """
 
     KEYS = (
@@ -274,7 +279,7 @@ class EnergyAccount(Result):
     )
 
     drive: float
-    """Work of what keeps a speed [J]."""
+    """Work of the drive at a prescribed speed [J]."""
     loads: float
     """Work of constant torques [J]."""
     springs: float
@@ -286,89 +291,97 @@ class EnergyAccount(Result):
     friction: float
     """Energy lost by friction of teeth and pins [J]."""
     impact_loss: float
-    """Taken by impacts; of teeth that yield, by their damping."""
+    """Energy lost in impacts [J]; with compliant teeth, by their damping."""
     steps: float
-    """Taken, or given, by contact that lasts: an error of the steps' length, that falls with it."""
+    """Numerical dissipation in lasting contacts [J], of either sign; it decreases with the time step."""
     kinetic: float
-    """Growth of kinetic energy."""
+    """Increase of kinetic energy [J]."""
     stored: float
-    """Kinetic energy at the end."""
+    """Kinetic energy at the end [J]."""
     elastic: float = 0.0
-    """Growth of the energy stored in teeth that yield."""
+    """Increase of the elastic energy of compliant teeth [J]."""
 
     @property
     def put_in(self) -> float:
-        """Work of drive, loads and springs."""
+        """Work of drive, loads and springs [J]."""
         return self.drive + self.loads + self.springs
 
     @property
     def closure(self) -> float:
-        """By how much the account does not close, over all that passed through it and what is stored."""
+        """Relative error of the balance, over the sum of all its terms and the stored energy."""
+        # the balance is closed by the numerical dissipation `steps`
         taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
+        # the scale includes stored energy: a free motion has neither input nor losses
         scale = sum(abs(each) for each in (self.put_in, taken, kept, self.stored))
         return abs(self.put_in - taken - kept) / scale if scale else 0.0
 
 
 @dataclass(frozen=True)
 class OutputDeviation(Result):
-    """How far an output runs ahead of the motion in which all drive flanks touch, and behind it.
+    """Deviation of an output from the motion in which all drive flanks touch.
 
     See Also
     --------
-    TimeRun.deviations : where these stand.
+    TimeRun.deviations : Contains such objects.
     """
 
     output: str
-    """Its name."""
+    """Name of the output."""
     ahead: float
-    """Greatest angle ahead of `motion`, 0 or more [rad]."""
+    """Maximum angle ahead of `motion`, 0 or more [rad]."""
     behind: float
-    """Greatest angle behind `motion`, 0 or more [rad]."""
+    """Maximum angle behind `motion`, 0 or more [rad]."""
     rms: float
-    """Root mean square of the difference [rad]."""
+    """Root mean square of the deviation [rad]."""
 
 
 @dataclass(frozen=True)
 class ConvergedFigure(Result):
-    """A figure by steps of length h and h/2, with what the length of the run leaves open.
+    """Figure with time steps h and h/2, and its confidence interval.
 
     See Also
     --------
-    TimeRun.figures : where these stand.
+    TimeRun.figures : Contains such objects.
     """
 
     name: str
-    """What it is of."""
+    """Name of the figure."""
     unit: str
-    """Its unit."""
+    """Unit; empty for a fraction."""
     coarse: float
-    """Value by steps of length h."""
+    """Value with the time step h."""
     fine: float
-    """Value by steps of length h/2."""
+    """Value with the time step h/2."""
     kind: Literal["mean", "extreme"]
-    """A mean over the run holds if steps are short; an extreme depends on single flights, which are chaotic."""
+    """Kind of figure. A mean over the run converges with the time step; an extreme depends on single flights, which are
+    chaotic.
+    """
     converged: bool
-    """Whether both agree: a mean to 5 %, an extreme to 1 %, a share of time to 0.005, an angle to 1e-6 rad if that
-    is more; and whether the interval of a mean is as narrow."""
+    """True if both values agree, and the confidence interval of a mean is as narrow.
+
+    The tolerance is 5 % of a mean, 1 % of an extreme, 0.005 for a fraction of time, and at least 1e-6 rad for an angle.
+    """
     interval: float | None = None
-    """Half the 95 % interval of a mean, from blocks of whole turns; None of an extreme, and of fewer than 5 turns."""
+    """Half the 95 % confidence interval of a mean, from batches of whole turns; None for an extreme, and for fewer than
+    5 turns.
+    """
 
 
 @dataclass(frozen=True)
 class SpectrumPeak(Result):
-    """A line of the spectrum of an output's angle about its mean motion.
+    """Line of the spectrum of an output's angle about its mean motion.
 
     See Also
     --------
-    TimeRun.spectra : where these stand.
+    TimeRun.spectra : Contains such objects.
     """
 
     order: float
-    """Periods in a turn of the lead."""
+    """Periods per revolution of the driving link."""
     frequency: float
-    """The same a second [Hz]."""
+    """Frequency [Hz]."""
     amplitude: float
-    """Of the angle [rad]."""
+    """Amplitude of the angle [rad]."""
     source: str
-    """The pair (or beat) and harmonic that fall on it, such as `c2~d1 x1`; empty for none."""
+    """Pair (or beat) and harmonic at this frequency, such as `c2~d1 x1`; empty if there is none."""

@@ -1,4 +1,4 @@
-"""Motion in time: gaps of teeth with their impacts, outputs ahead of what touching teeth do, and their spectrum."""
+"""Plot of a motion in time: gaps of teeth with impacts, deviations of outputs, and their spectrum."""
 
 from __future__ import annotations
 
@@ -33,63 +33,63 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.simulation.time.time_run import SpectrumPeak, TimeRun
 
-_PAIRS = 6  # whose gaps are drawn: those most apart
-_STRETCH = 720  # samples of the stretch in which gaps are drawn, some sixty teeth of the fastest pair
-_MOST = 4000  # points drawn of a course: of each stretch the first, its least and its greatest
+_PAIRS = 6  # maximum number of pairs whose gaps are drawn
+_STRETCH = 720  # samples of the interval in which gaps are drawn, about 60 teeth of the fastest pair
+_MOST = 4000  # maximum number of points of a curve: first, minimum and maximum of each interval
 _OUTPUTS = 4
-"""Outputs drawn; others are left out of the picture, the least moved first."""
-_OPEN = 1e-7  # rad: less is contact
-_SEEN = 1e-8  # rad: less is no motion of an output
-_SMALL = 0.1  # of the play: lesser gaps are drawn larger
-_FLAT = 1e-3  # deg: outputs that are less ahead are not drawn
-_NAMES = 8  # lines of a spectrum that are named
-_DEEPEST = 3e-5  # of the greatest swing: less is not drawn
-_DECADES = 40.0  # ratio of the ends of an axis up to which there are numbers between powers of ten
-_CLEAR = 1.09  # least ratio of two frequencies that are both named
+"""Maximum number of outputs in the plot; those with the smallest deviations are omitted."""
+_OPEN = 1e-7  # smaller gaps count as contact [rad]
+_SEEN = 1e-8  # smaller deviations count as 0 [rad]
+_SMALL = 0.1  # fraction of the backlash below which gaps get a larger scale
+_FLAT = 1e-3  # outputs with smaller deviations are not drawn [deg]
+_NAMES = 8  # maximum number of labelled lines of a spectrum
+_DEEPEST = 3e-5  # lower limit of the axis, relative to the maximum amplitude
+_DECADES = 40.0  # maximum ratio of the limits of an axis with labels between powers of ten
+_CLEAR = 1.09  # minimum ratio of two labelled frequencies
 _name = partial(name_axes, size=SMALL, parse_math=False)
 
 
 def time_run_figure(run: TimeRun, title: str = "") -> Figure:
-    """Gaps by pair with impacts marked in a stretch of the run, outputs over all of it, and their spectrum.
+    """Plot gaps by pair with impacts in an interval of the run, deviations of outputs over the whole run, and their
+    spectrum.
 
     Parameters
     ----------
     run : TimeRun
-        From `GearTrain.dynamics`.
+        Result of `GearTrain.dynamics`.
     title : str
-        What stands above the picture.
+        Title of the figure.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Of each pair with play how far its driven side is off the drive flank, up to the coast flank [deg], about the
-        greatest gap; of an escapement the speed of its link [rad/s]; by how much outputs are ahead [deg]; amplitudes
-        of their swing about their mean motion [deg].
+        Gap of each pair with backlash from the drive flank to the coast flank [deg], about the maximum gap; for an
+        escapement the speed of its link [rad/s]; angles by which outputs are ahead [deg]; amplitudes of their
+        vibration about the mean motion [deg].
 
     Raises
     ------
     QuestionError
-        If nothing has play or swings.
+        If no pair has backlash and no output vibrates.
 
     Examples
     --------
     >>> import geartrain
     >>> run = geartrain.load("moon-triangular-inertia").dynamics("1 turn/s", turns=0.02, skip=0, steps=2000)
     >>> [axes.get_title("left").split(":")[0] for axes in time_run_figure(run).axes]
-    ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'outputs', 'spectrum; lines of moon are named']
+    ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'outputs', 'spectrum; lines of moon are labelled']
     """
+    # contacts that are not pairs are escapements
     pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
     moving = _moving(run)
     leading = [each.output for each in run.deviations if degrees(max(each.ahead, each.behind)) > _FLAT]
     tall = [1.25] * (len(pairs) + len(stops)) + [1.875] * bool(leading) + [2.5] * bool(moving)
     if not tall:
         what, why = (
-            f"'{run.train}' has no motion in time to draw",
-            "no pair has play, and no output leaves its mean motion",
+            f"the plot of '{run.train}' would be empty",
+            "no pair has backlash, and no output deviates from its mean motion",
         )
-        raise QuestionError(
-            Problem(what, why, "declare tooth forms with play, or an escapement, or draw another train")
-        )
+        raise QuestionError(Problem(what, why, "declare tooth forms with backlash, or an escapement"))
     figure, panels = curve_panels(tall, 0.9, share=False)
     if moving:
         _spectrum(panels.pop(), run, moving)
@@ -109,7 +109,7 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
 
 
 def _key(panel: Axes, gaps: bool) -> None:
-    """What marks stand for."""
+    """Add a legend of the markers."""
     panel.scatter([], [], s=24, c=RED, marker="^", label="impact")
     if gaps:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
@@ -117,7 +117,7 @@ def _key(panel: Axes, gaps: bool) -> None:
 
 
 def _across(run: TimeRun) -> Floats:
-    """What courses are drawn over: turns of what turns evenly, else time."""
+    """Return the abscissa: revolutions of an input with prescribed speed, otherwise time."""
     return run.turns if run.driven == "rate" else run.time
 
 
@@ -126,7 +126,9 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Pairs with play, as they stand in the train; where there are too many, those that are most apart."""
+    """Return the pairs with backlash in the order of the train; if they are too many, those apart for most
+    of the time.
+    """
     names = [
         name
         for row, name in enumerate(run.gaps.labels[0])
@@ -138,7 +140,7 @@ def _loose(run: TimeRun) -> list[str]:
 
 
 def _moving(run: TimeRun) -> list[str]:
-    """Outputs that do not turn evenly, those furthest ahead or behind first."""
+    """Return the outputs that do not turn uniformly, those with the largest deviation first."""
     deviation = {each.output: max(each.ahead, each.behind) for each in run.deviations}
     swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in deviation}
     names = [name for name in deviation if max(deviation[name], swing[name]) > _SEEN]
@@ -146,20 +148,21 @@ def _moving(run: TimeRun) -> list[str]:
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
-    """Samples about the greatest gap of all pairs that are drawn, or the last ones."""
+    """Return a slice of samples about the maximum gap of all drawn pairs, or the last samples."""
     whole = len(run.time)
     first = int(np.searchsorted(run.time, run.skip))
     middle = whole
     if pairs:
         open_ = np.max([np.minimum(run.gaps[pair], run.coast_gaps[pair])[first:] for pair in pairs], axis=0)
         if len(open_) and open_.max() > _OPEN:
+            # centred on the maximum gap
             middle = first + int(open_.argmax())
     end = min(max(middle + _STRETCH // 2, first + _STRETCH), whole)
     return slice(max(first, end - _STRETCH), end)
 
 
 def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
-    """The driven side between its flanks; bands where neither touches, ticks where it strikes."""
+    """Plot the driven side between its flanks, with a band for the coast flank and markers at impacts."""
     at, front = _across(run)[stretch], np.degrees(run.gaps[pair][stretch])
     back = front + np.degrees(run.coast_gaps[pair][stretch])
     panel.fill_between(at, back, 1.06 * back.max(), color=PALE, alpha=0.6, linewidth=0, gid=f"coast flank {pair}")
@@ -167,16 +170,16 @@ def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
     _impacts(panel, run, pair, stretch)
     top = 1.06 * back.max()
     if _FLAT < front.max() < _SMALL * back.min():
-        top = 1.3 * front.max()  # the coast flank is out of sight
+        top = 1.3 * front.max()  # the coast flank is outside of the panel
     panel.set_ylim(-0.12 * top, top)
     panel.set_xlim(at[0], at[-1])
     apart = next(each.apart for each in run.contacts if each.name == pair)
-    words = f"{short(pair)}: apart {100 * apart:.3g} % of the time; coast flank from {back.min():.3g} deg on"
+    words = f"{short(pair)}: apart {100 * apart:.3g} % of the time; coast flank from {back.min():.3g} deg"
     _name(panel, y="gap (deg)", title=words)
 
 
 def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
-    """The link of an escapement, which goes and is stopped."""
+    """Plot the speed of the link of an escapement between its beats."""
     at = _across(run)[stretch]
     panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
     _impacts(panel, run, stop, stretch)
@@ -185,11 +188,12 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
-    """Ticks at the foot, as strong as what they take."""
+    """Mark impacts at the bottom, with sizes by their energy."""
     own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
     if not own.any():
         return
     across = _across(run)
+    # impacts lie between samples
     at = np.interp(run.impacts.time[own], run.time, across)
     energy = run.impacts.energy[own]
     near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
@@ -219,7 +223,7 @@ def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     if first < len(across):
         panel.set_xlim(across[first], across[-1])
     legend_above(panel, 4)
-    _name(panel, _across_text(run), "ahead (deg)", "outputs: ahead of what touching teeth do")
+    _name(panel, _across_text(run), "ahead (deg)", "outputs: ahead of the motion with touching teeth")
 
 
 def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
@@ -229,6 +233,7 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
         frequency, size = find_amplitudes(run.time[first:], run.outputs[name][first:])
         drawn.append(np.array([frequency[1:], np.degrees(size[1:])]))
         panel.plot(*drawn[-1], linewidth=0.8, **series_look(place), label=short(name))
+    # all outputs share one axis
     top = max(float(size.max(initial=0.0)) for _, size in drawn)
     if top:
         legend_above(panel, 4)
@@ -242,18 +247,20 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
             over = max(float(size[abs(heard / at - 1) < _CLEAR - 1].max(initial=0.0)) for heard, size in drawn)
             if panel.get_xlim()[0] < at < panel.get_xlim()[1] and amplitude > _DEEPEST * top:
                 write(panel, at, 1.4 * over, source, rotation=60, ha="left", va="bottom", fontsize=FINE)
-    _name(panel, "frequency (Hz)", "swing (deg)", f"spectrum; lines of {short(moving[0])} are named")
+    _name(panel, "frequency (Hz)", "amplitude (deg)", f"spectrum; lines of {short(moving[0])} are labelled")
 
 
 def _minor_numbers(panel: Axes) -> None:
-    """Between powers of ten, where there are few of those: 20, 30 and 50, not 2 x 10^1."""
+    """Label minor ticks as 20, 30 and 50 instead of 2 x 10^1 if the axis spans few powers of ten."""
     low, high = panel.get_xlim()
     few = high < _DECADES * low
     panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """The strongest lines that are known, none beside another: frequency (Hz), amplitude (deg), whose it is."""
+    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines that are not close to
+    each other.
+    """
     taken: list[float] = []
     for peak in peaks:
         near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)

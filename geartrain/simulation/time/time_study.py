@@ -1,4 +1,4 @@
-"""A train asked for its motion in time: two runs, of steps h and h/2, and what they say."""
+"""Study of the motion of a train in time: two runs with time steps h and h/2, and their comparison."""
 
 from __future__ import annotations
 
@@ -17,103 +17,113 @@ from geartrain.simulation.time.run_figures import RunFigures
 from geartrain.simulation.time.time_run import TimeRun
 
 PER_TOOTH = 200
-"""Steps of the coarser run in the shortest period of a pair."""
+"""Steps of the coarser run in the shortest tooth-passing period."""
 PER_SWING = 40
-"""In the period of the fastest mode, where teeth yield."""
-_UNEVEN = (
-    1.00618  # steps that fall on corners tooth after tooth are read on either side of them by rounding, and part teeth
-)
-_FEWEST = 200  # steps in a turn of the lead
-_FEWEST_TOUCHING = 1000  # where pairs touch and part: a pin's speed changes much in little of its turn
-_PER_BEAT = 1000  # steps from one beat of an escapement to the next
-_PER_FALL = 16  # from one stop of an escapement to the next, while a train at rest is not stepped
-_MOST_FALLING = 300_000_000  # steps of a run that are made so short for that
-_SAMPLES = 12  # in the shortest period of a pair
-_A_BEAT = 50  # samples of an escapement
+"""Steps in the period of the fastest mode of compliant teeth."""
+_UNEVEN = 1.00618  # steps that meet a kink at every tooth would be evaluated on either side of it by rounding
+_FEWEST = 200  # minimum steps per revolution of the driving link
+_FEWEST_TOUCHING = 1000  # the same with contacts: a pin's speed may change much within a small angle
+_PER_BEAT = 1000  # steps between two beats of an escapement
+_PER_FALL = 16  # steps of the motion between two stops of an escapement; a train at rest is not stepped
+_MOST_FALLING = 300_000_000  # maximum number of steps of a run that are shortened for that
+_SAMPLES = 12  # samples in the shortest tooth-passing period
+_A_BEAT = 50  # samples between two beats of an escapement
 _MOST_SAMPLES = 40_000
-_FEWEST_SAMPLES = 500  # of a run: what is left out before it is counted in whole samples
+_FEWEST_SAMPLES = 500  # minimum samples of a run: the skipped part must be a whole number of samples
 _MOST_STEPS = 2_000_000_000
-_MOST_BLOCKS = 20  # whole turns or several, whose figures are compared
-_MASSLESS = 1e-6  # of all inertias: what turns so light is in balance at every moment
-_SLOW = 7e-5  # s: a step of one contact in plain Python
+_MOST_BLOCKS = 20  # maximum number of batches of whole revolutions
+_MASSLESS = 1e-6  # factor of all inertias: a train this light is quasi-static
+_SLOW = 7e-5  # time of one step of one contact in plain Python [s]
 
 
 @dataclass(frozen=True)
 class TimeStudy:
-    """What is asked of a train in time."""
+    """Request for the motion of a train in time."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
     turns: float
-    """Of the lead: counted, and left out before."""
+    """Counted revolutions of the driving link."""
     skip: float = 1.0
-    """Of the lead: counted, and left out before."""
+    """Revolutions of the driving link before the counted ones."""
     steps: int | None = None
-    """Of the coarser run in a turn of the lead; None for what its teeth ask."""
+    """Steps of the coarser run per revolution of the driving link; None for a number that suits its teeth."""
     samples: int | None = None
-    """Kept of the whole run; None for what a spectrum asks."""
+    """Number of samples of the whole run; None for a number that suits a spectrum."""
     fast: bool | None = None
-    """Whether kernels are compiled; None decides by the work."""
+    """True if kernels are compiled; None decides by the amount of work."""
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
-            what = f"a run of {self.turns:g} turns after {self.skip:g}"
-            raise QuestionError(Problem(what, "time goes on", "give turns above 0, and 0 or more to leave out"))
+            what = f"a run cannot have {self.turns:g} turns after {self.skip:g} skipped ones"
+            raise QuestionError(
+                Problem(what, "turns must be above 0, and skip 0 or more", "give for example turns=10, skip=1")
+            )
         if self.steps is not None and self.steps < 1:
-            raise QuestionError(Problem(f"{self.steps} steps in a turn", "time goes on", "give 1 or more"))
+            raise QuestionError(
+                Problem(
+                    f"{self.steps} steps per turn are too few", "a turn has at least 1 step", "give steps=200 or more"
+                )
+            )
         if self.per_turn * (self.turns + self.skip) > _MOST_STEPS:
-            what = f"{self.per_turn * (self.turns + self.skip):.3g} steps"
-            raise QuestionError(Problem(what, f"more than {_MOST_STEPS:.0e} take days", "give fewer turns or steps"))
+            what = f"the run would take {self.per_turn * (self.turns + self.skip):.3g} steps"
+            raise QuestionError(
+                Problem(what, f"the maximum is {_MOST_STEPS:.0e}, which takes days", "give fewer turns or steps")
+            )
 
     @cached_property
     def busiest(self) -> float:
-        """Periods of the pair that has most of them in a turn of the lead; 1 or more."""
+        """Maximum number of tooth-passing periods of a pair per revolution of the driving link; 1 or more."""
         return max([1.0, *(float(source.cycles) for source in self.of.sources.values())])
 
     @cached_property
     def per_turn(self) -> int:
-        """Steps of the coarser run in a turn of the lead."""
+        """Steps of the coarser run per revolution of the driving link."""
         if self.steps is not None:
             return self.steps
         fewest = _FEWEST_TOUCHING if self.of.model.pairs else _FEWEST
         found = max(fewest, ceil(PER_TOOTH * self.busiest * _UNEVEN))
-        # a wheel that is let go falls much faster than it turns on the mean
+        # a released escape wheel moves much faster than on average
+        # the fastest mode must be resolved even if it is not excited by teeth
         swing = ceil(PER_SWING * self.of.fastest / abs(self.of.case.rate))
         found = max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])
-        # a multiple, so that samples still fall on beats
-        falls = (_PER_FALL * tau / abs(self.of.case.rate) / each / found for each in self.of.model.falls)
+        # a multiple, so that samples still coincide with beats
+        falls = (_PER_FALL * tau / abs(self.of.case.rate) / each / found for each in self.of.model.fall_times)
         most = int(_MOST_FALLING / found / (self.turns + self.skip))
         return found * max(1, min(most, ceil(max(falls, default=1.0))))
 
     @property
     def beats(self) -> list[float]:
-        """Beats of each escapement in a turn of the lead."""
+        """Beats of each escapement per revolution of the driving link."""
         return [tau / abs(self.of.case.rate) / beat for _, beat in self.of.case.escapements.values()]
 
     def plan(self, finer: int) -> StepPlan:
-        """The steps of one run: `finer` 1 or 2."""
+        """Return the time steps of one run; `finer` is 1 or 2."""
+        # the finer run has exactly twice the steps
         steps, skip = (round(each * self.per_turn) * finer for each in (self.turns, self.skip))
         often = max([_SAMPLES * self.busiest, *(_A_BEAT * each for each in self.beats)])
         samples = self.samples or min(_MOST_SAMPLES, max(_FEWEST_SAMPLES, ceil(often * (self.turns + self.skip))))
         stride = max(1, (steps + skip) // finer // max(samples, 2)) * finer
+        # counting begins at a sample
         skip -= skip % stride
-        # a block ends with a sample, and is at most a sample off whole turns
+        # a block ends at a sample, so it may differ from whole revolutions by at most one sample
         block = round(ceil(self.turns / _MOST_BLOCKS) * self.per_turn * finer / stride) * stride
         return StepPlan(tau / abs(self.of.case.rate) / self.per_turn / finer, skip, steps, stride, block)
 
     @property
     def is_fast(self) -> bool:
-        """Whether kernels are compiled for both runs."""
+        """True if kernels are compiled for both runs."""
         steps = sum(plan.skip + plan.steps for plan in (self.plan(1), self.plan(2)))
         return is_fast(self.fast, steps * max(len(self.of.model.pairs), 1) * _SLOW)
 
     def run(self, on_done: Callable[[float], object] = lambda _: None) -> TimeRun:
-        """Both runs, and what they say.
+        """Simulate both runs and return the result.
 
-        on_done   called with the share of the work that each stretch adds; where it returns True, what is done is told:
-                  of the first run, as far as it came, without another to compare it with
+        on_done   called with the fraction of the work of each interval; if it returns True, the result is that of the
+                  completed
+                  part of the first run, without a comparison
 
-        Raises `KeyboardInterrupt` where it does so before anything is counted.
+        Raises `KeyboardInterrupt` if it returns True before the counted part begins.
         """
         model = self.of.model
         plans = self.plan(1), self.plan(2)
@@ -132,19 +142,20 @@ class TimeStudy:
         if not first.plan.steps:
             raise KeyboardInterrupt
         if stopped:
-            return first.told(None)
+            return first.result(None)
         second = RunFigures(self.of, self.outputs, simulate(model, plans[1], fast, advance, yields), peaks)
-        return first.told(None) if second.plan.steps < plans[1].steps else second.told(first)
+        return first.result(None) if second.plan.steps < plans[1].steps else second.result(first)
 
     def static_peaks(self) -> Sequence[float | None]:
-        """Greatest torque of each pair (N m) in balance at every moment: rigid, and nearly without inertia.
+        """Return the maximum quasi-static torque of each pair [N m], from a rigid run with nearly no inertia.
 
-        None where teeth are rigid, or where no speed is prescribed, since such a train would run away.
+        None for rigid teeth, and if no speed is prescribed, since such a train would run away.
         """
         model = self.of.model
         if self.of.yields is None or self.of.case.drive.kind != "rate":
             return [None] * len(model.pairs)
         steps = max(_FEWEST, ceil(PER_TOOTH * self.busiest))
         plan = StepPlan(tau / abs(self.of.case.rate) / steps, round(self.skip * steps), round(self.turns * steps), 1)
+        # nearly without inertia a rigid train is quasi-static
         run = simulate(replace(model, mass=_MASSLESS * model.mass), plan, self.is_fast)
         return [float(each) for each in np.abs(run.forces[plan.skip :]).max(axis=0, initial=0.0)]

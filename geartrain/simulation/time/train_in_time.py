@@ -1,4 +1,4 @@
-"""A train and how it is driven in time: its runs, its steps one by one, its separation by steps, its modes."""
+"""Entry points of the simulation in time: runs, step-by-step simulation, separation rate, and vibration modes."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 from geartrain.numerics.labelled_array import labelled_array
 from geartrain.numerics.results import Result, Tabular
+from geartrain.simulation.contacts.compliant_train import CompliantTrain
 from geartrain.simulation.contacts.link_inertia import find_link_inertias
 from geartrain.simulation.contacts.time_case import PowerInput, find_time_case
 from geartrain.simulation.contacts.train_model import TrainModel
-from geartrain.simulation.contacts.yielding_train import YieldingTrain
 from geartrain.simulation.time.time_study import TimeStudy
 
 if TYPE_CHECKING:
@@ -29,18 +29,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class DrivenTrain:
-    """A train, and how it is driven in time. Equal planets are taken as one."""
+    """Train with its drive in time. Equal planets are merged into one."""
 
     train: TrainMechanics
     state: str | None = None
     rate: str | float | None = None
-    """Of the first input that turns, as text or in rad/s; None for the declared drive."""
+    """Rate of the first input that turns, as text or in rad/s; None for the declared drive."""
     restitution: float | None = None
-    """Of all impacts, in place of what is declared."""
+    """Coefficient of restitution of every impact; None for the declared values."""
     outputs: Sequence[str] = ()
-    """What is recorded: outputs or links; by default all outputs, and all links of a train without any."""
+    """Recorded outputs or links; by default all outputs, and all links of a train without outputs."""
     without: Sequence[str] = ()
-    """Pairs left out."""
+    """Names of pairs that are left out."""
 
     def study(
         self,
@@ -52,26 +52,32 @@ class DrivenTrain:
         samples: int | None = None,
         fast: bool | None = None,
     ) -> TimeStudy:
-        """Two runs over some turns: see `GearTrain.dynamics`."""
+        """Return a study with two runs over some turns; see `GearTrain.dynamics`."""
         check_numbers(turns=turns, skip=skip, restitution=self.restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
-        seen, found = self._seen(), self._model(radians_per_second(self.rate), model == "compliant")
+        seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate), model == "compliant")
         return TimeStudy(found, seen, turns, skip, steps, samples, fast)
 
     def simulation(self, step: float | None, fast: bool | None) -> Simulation:
-        """The train at time 0, to be moved step by step: see `GearTrain.simulation`."""
+        """Return a simulation of the train at time 0; see `GearTrain.simulation`."""
         from geartrain.numerics.kernels import is_fast
         from geartrain.simulation.time.stepwise_simulation import Simulation
 
         check_numbers(step=step, restitution=self.restitution)
         if step is not None and not 0 < step < inf:
-            raise QuestionError(Problem(f"steps of {step:g} s", "time goes on", "give a length above 0"))
-        seen, found = self._seen(), self._model(radians_per_second(self.rate))
+            raise QuestionError(
+                Problem(
+                    f"a time step of {step:g} s",
+                    "the time step must be positive and finite",
+                    "give for example step=1e-4",
+                )
+            )
+        seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate))
         return Simulation(found, seen, step or TimeStudy(found, seen, 1).plan(2).step, fast=is_fast(fast, inf))
 
-    def _seen(self) -> list[tuple[str, str, str]]:
-        """What is recorded: its name, the link, and the link from which it is seen."""
+    def _recorded_outputs(self) -> list[tuple[str, str, str]]:
+        """Return each recorded output as its name, its link, and its reference link."""
         own = self.train.planets_as_one.kinematics
         return [(name, *links) for name, links in own.seen_links(self.state, self.outputs).items()]
 
@@ -88,9 +94,9 @@ def model_in_time(
     yields: bool = False,
     scale: float | None = None,
 ) -> TrainModel:
-    """The train as a model of contacts; `rate` (rad/s) and `restitution` in place of what is declared.
+    """Build the contact model of a train; `rate` [rad/s] and `restitution` override the declared values.
 
-    scale   rate (rad/s) where none is declared, for answers that do not depend on it
+    scale   rate [rad/s] if none is declared, for results that do not depend on it
     """
     train = train.planets_as_one
     declared, case, problem = (
@@ -99,27 +105,28 @@ def model_in_time(
         find_motion_problem(train, state, without),
     )
     if rate is not None:
+        # a given rate is positive; the sense follows from the declared inputs
         rate *= problem.way
     inertia = {each.link: each.value for each in find_link_inertias(train, state, with_inputs=True) if each.value}
     found = find_time_case(declared, case, problem, train.tree, inertia, rate, restitution, scale)
     if yields:
-        return YieldingTrain(declared, problem, found, train.tree, case.state, restitution=restitution)
+        return CompliantTrain(declared, problem, found, train.tree, case.state, restitution=restitution)
     return TrainModel(declared, problem, found, train.tree, case.state)
 
 
 def find_vibration_modes(
     train: TrainMechanics, state: str | None = None, *, without: Sequence[str] = ()
 ) -> VibrationModes:
-    """Eigenfrequencies and modes of the train about contact, teeth yielding by their stiffness (docs/dynamics.md).
+    """Compute natural frequencies and modes of a train about contact, with compliant teeth (docs/dynamics.md).
 
     Parameters
     ----------
     train : TrainMechanics
         `GearTrain.mechanics`.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state; None only for a train that has no states.
     without : sequence of str
-        Pairs left out.
+        Names of pairs that are left out.
 
     Returns
     -------
@@ -129,12 +136,12 @@ def find_vibration_modes(
     Raises
     ------
     QuestionError
-        If the train does not move, a link that can move by itself has no inertia, nothing says how stiff teeth are
-        that are to yield, or nothing can swing.
+        If the train does not move, a link that can move by itself has no inertia, the stiffness of a pair is not
+        known, or the train cannot vibrate.
 
     Examples
     --------
-    A disc of 1e-6 kg m2 that swings on teeth of 20 N m/rad, sqrt(k/J)/2 pi:
+    A disc of 1e-6 kg m2 that vibrates on teeth of 20 N m/rad, sqrt(k/J)/2 pi:
 
     >>> import geartrain
     >>> wheels = {"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 30},
@@ -145,7 +152,7 @@ def find_vibration_modes(
     [711.763]
     """
     found = model_in_time(train, state, without, None, None, yields=True, scale=1.0)
-    assert isinstance(found, YieldingTrain)
+    assert isinstance(found, CompliantTrain)
     return find_modes(found)
 
 
@@ -159,34 +166,34 @@ def step_to_separation(
     fast: bool | None = None,
     on_done: Callable[[float], object] = lambda _: None,
 ) -> SteppedSeparation:
-    """The rate of the input at which stepping first parts teeth, to compare with `find_separation` over as many turns.
+    """Find the rate of the input at which teeth first separate by time stepping, as a check of `find_separation`.
 
     Parameters
     ----------
     train : TrainMechanics
         `GearTrain.mechanics`.
     state : str, optional
-        A declared state; None only of a train that has none.
+        Name of a declared state; None only for a train that has no states.
     turns : float
-        Turns of the input from the start.
+        Simulated range of the input from the start [turn].
     steps : int, optional
-        Steps in a turn; by default 200 in the shortest period of a pair.
+        Steps per turn; by default 200 in the shortest tooth-passing period.
     without : sequence of str
-        Pairs left out.
+        Names of pairs that are left out.
     fast : bool, optional
-        Whether kernels are compiled; by default if the run is long and numba is installed.
+        Compile the kernels; by default if the run is long and numba is installed.
     on_done : callable
-        Called with the share of the work that is done; where it returns True, what is known so far is given back.
+        Function called with the fraction of the work that is done; the search stops if it returns True.
 
     Returns
     -------
     SteppedSeparation
-        The rate, with its error, by steps that are made ever shorter where pairs carry least.
+        The rate with its error, by ever shorter time steps at the positions where pairs carry the minimum torque.
 
     Raises
     ------
     QuestionError
-        If by the condition for it teeth part at any rate or at none, or the train cannot be stepped.
+        If the predicted separation is at any rate or at none, or the train cannot be simulated.
 
     Examples
     --------
@@ -211,10 +218,11 @@ def step_to_separation(
     check_numbers(turns=turns)
     check_whole_numbers(steps=steps)
     train = train.planets_as_one
+    # the prediction over the same range, for comparison
     predicted = find_separation(train, state, without, turns).rate
     found = model_in_time(train, state, without, tau * (predicted or 1.0), 0.0)
     own = found.case
-    # as in the condition: a torque that drives at another link pulls there while the input turns evenly
+    # as in the condition: a driving torque at another link acts there while the input turns uniformly
     load = loads_with_drive(dict(own.load), train.declaration, train.kinematics.case(state), found.problem.speeds)
     drive = own.drive if load == own.load else PowerInput(found.problem.driving_link, "rate", rate=own.rate)
     found = replace(found, case=replace(own, load=load, drive=drive), tolerance=FINE_TABLES)
@@ -222,7 +230,7 @@ def step_to_separation(
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
-    """A rate in rad/s, as it is given; None stays None."""
+    """Convert a rate to rad/s; None is returned unchanged. Raises `QuestionError` if the rate is not positive."""
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity
@@ -231,12 +239,14 @@ def radians_per_second(rate: str | float | None) -> float | None:
         try:
             rate = Quantity.parse(rate, "speed", plain=True).si
         except PydanticCustomError as error:
-            raise QuestionError(Problem(f"rate: {error.message()}", "", "give one such as '1 turn/s'")) from None
+            raise QuestionError(
+                Problem(f"rate: {error.message()}", "a rate is a number with a unit", "write for example '1 turn/s'")
+            ) from None
     check_numbers(rate=rate)
     if rate is not None and not 0 < rate < inf:
-        why = "a train turns the way its inputs are declared to"
+        why = "the sense of rotation follows from the declared inputs"
         raise QuestionError(
-            Problem(f"a rate of {rate:g} rad/s", why, "give one above 0, or declare inputs the other way")
+            Problem(f"a rate of {rate:g} rad/s", why, "give a rate above 0, or change the sign of the inputs")
         )
     return rate
 
@@ -246,33 +256,33 @@ def radians_per_second(rate: str | float | None) -> float | None:
 
 @dataclass(frozen=True)
 class VibrationModes(Tabular, Result):
-    """How a train swings about contact: what solves K phi = w^2 M phi, speed ratios at their means.
+    """Vibration modes of a train about contact: solutions of K phi = w^2 M phi, with speed ratios at their means.
 
     See Also
     --------
-    geartrain.simulation.find_vibration_modes : gives these.
+    geartrain.simulation.find_vibration_modes : Returns such an object.
     """
 
     MEANINGS: ClassVar = {
         "mode": "Number of the mode, in the order of frequencies.",
         "frequency": "Natural frequency of the mode [Hz].",
-        "* angle": "Angle of the link, the greatest of each mode 1.",
+        "* angle": "Angle of the link, normalised to a maximum of 1 in each mode.",
     }
 
     train: str
-    """Its name."""
+    """Name of the train."""
     frequencies: Floats
-    """Rising [Hz]; 0 where the train turns as a whole and nothing prescribes its speed. Shape (mode,)."""
+    """Natural frequencies in ascending order [Hz]; 0 for free rotation of the whole train. Shape (mode,)."""
     damping: Floats
-    """Ratio to the critical, of each mode by itself; 0 at 0 Hz. Shape (mode,)."""
+    """Damping ratio of each mode; 0 at 0 Hz. Shape (mode,)."""
     shapes: LabelledArray
-    """Angles of links, the greatest of each mode 1. Shape (link, mode)."""
+    """Angles of links, normalised to a maximum of 1 in each mode. Shape (link, mode)."""
     stiffness: dict[str, float]
-    """Of each pair, on its driven side [N m/rad]."""
+    """Stiffness of each pair about its driven side [N m/rad]."""
     notes: tuple[str, ...]
-    """What is left out."""
+    """Effects that are not included."""
     assumed: tuple[str, ...]
-    """What nothing declares and was estimated."""
+    """Estimates that replace missing declarations."""
 
     def _summary(self) -> str:
         shown = ", ".join(f"{each:.4g}" for each in self.frequencies[:4])
@@ -280,7 +290,7 @@ class VibrationModes(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each mode: number, frequency, damping, and the angles of links."""
+        """Columns with a row for each mode: number, frequency, damping, and the angles of links."""
         angles = zip(self.shapes.labels[0], self.shapes.values.tolist(), strict=True)
         return {
             "mode": [*range(1, len(self.frequencies) + 1)],
@@ -290,16 +300,18 @@ class VibrationModes(Tabular, Result):
         }
 
 
-def find_modes(of: YieldingTrain) -> VibrationModes:
-    """Of a train in one case."""
+def find_modes(of: CompliantTrain) -> VibrationModes:
+    """Compute the vibration modes of a train in one case."""
     squares, modes = of.vibration
     speeds = np.sqrt(squares)
+    # damping ratio of each mode, neglecting coupling of modes by damping
     losses = np.einsum("im,ij,jm->m", modes, of.matrices[1], modes)
     damping = np.divide(losses, 2 * speeds, out=np.zeros_like(speeds), where=speeds > 0)
     shapes = of.speeds[:, of.free] @ modes
     for column in shapes.T:
+        # the largest angle becomes +1, which fixes scale and sign
         column /= column[np.argmax(np.abs(column))]
-    shapes += 0.0  # no zero is negative
+    shapes += 0.0  # turns -0.0 into 0.0
     names = [str(at + 1) for at in range(len(speeds))]
     stiffness = {pair.name: float(k) for pair, k in zip(of.model.pairs, of.yields.stiffness, strict=True)}
     frequencies = speeds / tau

@@ -1,4 +1,4 @@
-"""`geartrain dynamics`: motion in time, with inertia, play, impacts, drag and friction."""
+"""The command `geartrain dynamics`: motion in time with inertia, backlash, impacts, drag and friction."""
 
 from __future__ import annotations
 
@@ -55,30 +55,33 @@ def run(
     restitution: Restitution = None,
     model: ToothModel = None,
     find_rate: Annotated[
-        bool, typer.Option("--find-rate", help="Also seek by stepping the rate at which teeth first part.")
+        bool, typer.Option("--find-rate", help="Also find the rate at which teeth first separate by time stepping.")
     ] = False,
-    output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--output", help="Output or link to report; may be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
     fast: Fast = None,
     json: Json = False,
     csv: Annotated[bool, typer.Option("--csv", help="Print angles, speeds, torques and gaps as CSV.")] = False,
     plot: Annotated[
-        Path | None, typer.Option("--plot", help="Draw gaps, outputs ahead and behind, and spectrum to this file.")
+        Path | None, typer.Option("--plot", help="Plot gaps, deviations of outputs, and spectrum to this file.")
     ] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Motion in time: when teeth part, how often they strike, what outputs and energy do; to a .csv, its course."""
+    """Simulate motion in time: separation of teeth, impacts, outputs and energy; -o x.csv writes all samples."""
     from geartrain.analysis.gear_train import load
     from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
+    # both outputs must not overwrite each other
     check_distinct_outputs(to, picture)
     if csv and to.path is not None:
-        raise typer.BadParameter("the course is printed, or written: give --csv, or -o x.csv", param_hint="--csv")
+        raise typer.BadParameter(
+            "--csv prints the samples to standard output: give either --csv or -o x.csv", param_hint="--csv"
+        )
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
     requested = request.arguments() | {"outputs": tuple(output or ())}
     train = load(file)
@@ -87,6 +90,7 @@ def run(
     if csv or to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
     else:
+        # after an interruption a second long computation is not wanted
         if find_rate and found.complete:
             stepped = _stepped(train, found, requested)
         report = collect_time_report(train, found, requested["without"], stepped)
@@ -100,20 +104,20 @@ def run(
             picture,
         )
     if not found.complete:
-        tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are of those")
+        tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are for these turns")
         raise typer.Exit(INTERRUPTED)
     if stepped is not None and not stepped.complete:
-        tell("stopped before the rate at which teeth part was found as well as it can be")
+        tell("stopped before the search for the separation rate converged")
         raise typer.Exit(INTERRUPTED)
     if found.unsolved:
         raise typer.Exit(VERDICT)
 
 
 def _stepped(train: GearTrain, found: TimeRun, requested: dict[str, Any]) -> SteppedSeparation:
-    """The rate at which teeth first part, in as many turns from the start; Ctrl-C ends it with what is known."""
+    """Find the separation rate by time stepping over the turns of the run; Ctrl-C ends it with a partial result."""
     from geartrain.simulation.time.train_in_time import step_to_separation
 
     more = {name: requested[name] for name in ("steps", "without", "fast")}
-    with interruptible("rate at which teeth part") as on_done:
+    with interruptible("separation rate") as on_done:
         turns = requested["turns"] + requested["skip"]
         return step_to_separation(train.mechanics, found.state, turns, **more, on_done=on_done)

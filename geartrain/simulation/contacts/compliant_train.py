@@ -1,11 +1,11 @@
-"""A train whose teeth yield: the contacts of `TrainModel`, each with a stiffness and a damping; how it swings.
+"""Train with compliant teeth: the contacts of `TrainModel`, each with stiffness and damping, and the vibration modes.
 
-M x'' + C x' + K x = 0 about contact, docs/dynamics.md (19): K = sum k r^T r over pairs that touch, r the row of speeds
-by which a pair closes, ratios at their means; and the springs of drives.
+M x'' + C x' + K x = 0 about contact, docs/dynamics.md (19), where K = sum k r^T r over touching pairs and the springs
+of drives. r is the row of speeds by which a pair closes, with ratios at their means.
 
 Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
-wheel's axis, r the arm of that line: the base radius of involute teeth, the pitch radius of others. Damping follows the
-same way, or from restitution: docs/dynamics.md (16) and (17).
+wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
+Damping is converted in the same way, or follows from restitution: docs/dynamics.md (16) and (17).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.simulation.contacts.contact_model import ToothYield
+from geartrain.simulation.contacts.contact_model import ToothCompliance
 from geartrain.simulation.contacts.train_model import TrainModel
 from geartrain.teeth.involute import Involute
 
@@ -35,42 +35,46 @@ if TYPE_CHECKING:
 
 
 DAMPING_RATIO = 0.05
-"""Of a pair of which neither damping nor restitution is declared: of the size measured on spur gears."""
+"""Damping ratio of a pair without declared damping and restitution, of the order measured on spur gears."""
 
-_MINIMUM = 0.05  # restitution: what comes back falls with the square of the damping, and never to nothing
+_MINIMUM = (
+    0.05  # minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
+)
 _SINGLE = 14e9
-"""N/m2: stiffness of one couple of steel teeth for each width of face, ISO 6336-1, method B, simplified."""
+"""Stiffness of one pair of steel teeth in contact by face width [N/m2]: ISO 6336-1, method B, simplified."""
 
-_STEEL, _BRONZE = 206e9, 110e9  # N/m2, Young's moduli
-_DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # kg/m3, from and to; bronze and brass are alike
+_STEEL, _BRONZE = 206e9, 110e9  # Young's moduli [N/m2]
+_DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # ranges of density [kg/m3]; brass counts as bronze
 
 
 @dataclass(frozen=True)
-class YieldingTrain(TrainModel):
-    """A train in one case as a model of contacts that yield. `restitution` is asked in place of what is declared."""
+class CompliantTrain(TrainModel):
+    """Contact model of a train with compliant teeth in one case; `restitution` overrides the declared values."""
 
     restitution: float | None = None
 
     @cached_property
-    def table(self) -> ToothYieldTable:
-        """How its pairs yield."""
+    def table(self) -> ToothComplianceTable:
+        """Stiffness and damping of its pairs."""
         driven = {}
         for gear in self.train.gears:
             first, second = gear.pair
             driver = self.problem.drivers.get(gear.name)
             driven[gear.name] = first if driver is not None and driver.wheel == second else second
-        return ToothYieldTable(self.train, self._meshes, driven, self.restitution)
+        return ToothComplianceTable(self.train, self._meshes, driven, self.restitution)
 
     def _is_contact(self, circuit: Circuit) -> bool:
-        # what has no stiffness and need not yield keeps its ratio
+        # a pair without stiffness keeps its ratio unless the rigid model makes it a contact
         return circuit.id in self.table.pairs or super()._is_contact(circuit)
 
-    def _even_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
-        return None if self._gears[circuit.id].efficiency is None else super()._even_arms(circuit, transmission)
+    def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
+        return (
+            None if self._gears[circuit.id].efficiency is None else super()._constant_ratio_arms(circuit, transmission)
+        )
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """What was estimated."""
+        """Estimates that replace missing declarations."""
         names = [pair.name for pair in self.model.pairs]
         yields = [self.table.pairs[name] for name in names]
         notes = [each.note for each in yields if each.note]
@@ -81,7 +85,9 @@ class YieldingTrain(TrainModel):
         ]
         if assumed:
             ratio = self.table.pairs[assumed[0]].ratio
-            notes.append(f"damping of {', '.join(assumed)} taken as {ratio:g} of the critical: none is declared")
+            notes.append(
+                f"damping of {', '.join(assumed)} taken as {ratio:g} of the critical damping, because none is declared"
+            )
         return tuple(notes)
 
     def _undeclared(self, name: str) -> bool:
@@ -89,39 +95,45 @@ class YieldingTrain(TrainModel):
         return self.train.restitution_of(parts[name]) is None
 
     @cached_property
-    def pair_yields(self) -> tuple[PairYield, ...]:
-        """Of each pair of the model. Raises `QuestionError` where one has no stiffness, and for escapements."""
+    def pair_compliances(self) -> tuple[PairCompliance, ...]:
+        """Stiffness and damping of each pair of the model.
+
+        Raises `QuestionError` if a stiffness is missing, and for escapements.
+        """
         if self.case.escapements:
-            what = f"the escapement of '{self.train.name}'"
-            raise QuestionError(Problem(what, "a stop is rigid, and these teeth yield", "take the rigid model"))
+            what = f"'{self.train.name}' has an escapement, which compliant teeth do not support"
+            raise QuestionError(Problem(what, "the stops of an escapement are rigid", "use rigid teeth"))
         lacking = [pair.name for pair in self.model.pairs if pair.name not in self.table.pairs]
         if lacking:
-            what = f"nothing says how stiff the teeth of {', '.join(lacking)} are"
-            why = "an estimate takes involute teeth of known module, thickness and density, of steel, brass or bronze"
-            fix = "declare `stiffness`, of the pairs or the train, such as 20 N m/rad (of pins in N m/rad only)"
+            what = f"the stiffness of {', '.join(lacking)} is not known"
+            why = (
+                "an estimate requires involute teeth of known module, thickness and density, of steel, brass or bronze"
+            )
+            fix = "declare the stiffness of pairs or the train, such as `stiffness: 20 N m/rad` (pins: only N m/rad)"
             raise QuestionError(Problem(what, why, fix))
         return tuple(self.table.pairs[pair.name] for pair in self.model.pairs)
 
     @cached_property
-    def yields(self) -> ToothYield:
-        """Stiffness and damping of each pair of the model."""
-        stiffness = np.array([each.stiffness for each in self.pair_yields], dtype=np.float64)
+    def yields(self) -> ToothCompliance:
+        """Stiffness and damping of each pair of the model, as arrays."""
+        stiffness = np.array([each.stiffness for each in self.pair_compliances], dtype=np.float64)
         damping = [
+            # damping from the damping ratio: c = 2 zeta sqrt(k m)
             2 * each.ratio * np.sqrt(each.stiffness * self._inertia(self._row(pair)))
             if each.damping is None
             # declared
             else each.damping
-            for pair, each in zip(self.model.pairs, self.pair_yields, strict=True)
+            for pair, each in zip(self.model.pairs, self.pair_compliances, strict=True)
         ]
-        return ToothYield(stiffness, np.array(damping, dtype=np.float64))
+        return ToothCompliance(stiffness, np.array(damping, dtype=np.float64))
 
     @cached_property
     def free(self) -> list[int]:
-        """The coordinates whose speed is not prescribed."""
+        """Coordinates whose speed is not prescribed."""
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
     def _row(self, pair: ContactPair) -> Floats:
-        """Opening speed of a pair by the speeds of coordinates, at its mean ratio."""
+        """Return the coefficients of the coordinates' speeds in a pair's opening speed, at its mean ratio."""
         row = np.zeros(len(self.coordinates))
         for at, value in pair.driven.items():
             row[at] += value
@@ -130,14 +142,14 @@ class YieldingTrain(TrainModel):
         return row
 
     def _inertia(self, row: Floats) -> float:
-        """What resists a row (kg m2): 1/(r M^-1 r^T); 0 where all its speeds are prescribed."""
+        """Return the effective inertia of a row [kg m2], 1/(r M^-1 r^T); 0 if all its speeds are prescribed."""
         free = row[self.free]
         ease = float(free @ np.linalg.solve(self.mass[np.ix_(self.free, self.free)], free)) if free.any() else 0.0
         return 1 / ease if ease else 0.0
 
     @cached_property
     def matrices(self) -> tuple[Floats, Floats, Floats]:
-        """M, C and K of the coordinates that are free."""
+        """Matrices M, C and K of the free coordinates."""
         stiffness, damping = np.zeros_like(self.mass), np.array(self.model.viscous)
         for pair, k, c in zip(self.model.pairs, *self.yields, strict=True):
             row = self._row(pair)
@@ -153,25 +165,32 @@ class YieldingTrain(TrainModel):
 
     @cached_property
     def vibration(self) -> tuple[Floats, Floats]:
-        """Squares of circular frequencies, and modes of the free coordinates with phi^T M phi = 1, rising."""
+        """Squared angular frequencies in ascending order, and modes of the free coordinates with phi^T M phi = 1."""
         from scipy.linalg import eigh
 
         if not self.free:
-            what = f"'{self.train.name}' has nothing that can swing"
-            why = "all its links keep their ratio to what drives"
-            raise QuestionError(Problem(what, why, "declare `stiffness`, of a pair or the train"))
+            what = f"'{self.train.name}' cannot vibrate"
+            why = "all its links have constant speed ratios to the drive"
+            raise QuestionError(
+                Problem(what, why, "declare the stiffness of a pair or of the train, such as `stiffness: 20 N m/rad`")
+            )
         mass, _, stiffness = self.matrices
+        # the mass matrix is positive definite, as checked by `mass`
         squares, modes = eigh(stiffness, mass)
-        # what turns freely has 0, and rounding
+        # rigid-body rotation has frequency 0 except for rounding
         bound = 1e-12 * max(float(squares[-1]), 0.0)
         return np.where(squares > bound, squares, 0.0), modes
 
     @property
     def fastest(self) -> float:
-        """Circular frequency of its fastest mode, or half the rate at which damping alone stops a pair (rad/s)."""
+        """Angular frequency [rad/s] that time steps must resolve.
+
+        It is that of the fastest mode, or half the decay rate of the most damped pair.
+        """
         rates = [0.0]
         for pair, c in zip(self.model.pairs, self.yields.damping, strict=True):
             inertia = self._inertia(self._row(pair))
+            # a strongly damped pair decays at the rate c/m
             rates.append(float(c) / inertia / 2 if inertia else 0.0)
         return max(float(np.sqrt(self.vibration[0][-1])), *rates)
 
@@ -180,31 +199,31 @@ class YieldingTrain(TrainModel):
 
 
 @dataclass(frozen=True)
-class PairYield:
-    """How one pair yields: torque on the driven wheel for each radian (N m/rad) by which it does, the driver held."""
+class PairCompliance:
+    """Torsional stiffness and damping of one pair about its driven wheel, with the driver fixed."""
 
     stiffness: float
     source: Literal["declared", "estimated"]
-    """Where that is from; `note`, how it was estimated."""
+    """Source of the stiffness; `note` describes the estimate."""
     damping: float | None
-    """N m s/rad; None where it follows from `ratio`, that of critical damping."""
+    """Damping [N m s/rad]; None if it follows from `ratio`, the damping ratio."""
     ratio: float
     note: str = ""
 
 
 @dataclass(frozen=True)
-class ToothYieldTable:
-    """How the pairs of a train yield."""
+class ToothComplianceTable:
+    """Stiffness and damping of the pairs of a train."""
 
     train: Train
     meshes: Mapping[str, GearMesh]
-    """Those with real teeth; `driven`, the driven wheel of each pair."""
+    """Pairs with real teeth; `driven` is the driven wheel of each pair."""
     driven: Mapping[str, str]
     restitution: float | None = None
-    """Of every pair, in place of what is declared."""
+    """Coefficient of restitution of every pair; None for the declared values."""
 
     @cached_property
-    def pairs(self) -> Mapping[str, PairYield]:
+    def pairs(self) -> Mapping[str, PairCompliance]:
         """Pairs and couplings whose stiffness is declared or can be estimated."""
         found = {}
         for gear in self.train.gears:
@@ -213,16 +232,16 @@ class ToothYieldTable:
             if stiffness is not None:
                 own = None if damping is None else self._about_driven(gear, damping, "damping")
                 value = self._about_driven(gear, stiffness, "stiffness")
-                found[gear.name] = PairYield(value, "declared", own, ratio)
+                found[gear.name] = PairCompliance(value, "declared", own, ratio)
             elif (estimate := self._estimate(gear)) is not None:
                 own = None if damping is None else self._about_driven(gear, damping, "damping")
-                found[gear.name] = PairYield(estimate[0], "estimated", own, ratio, estimate[1])
+                found[gear.name] = PairCompliance(estimate[0], "estimated", own, ratio, estimate[1])
         for coupling in self.train.couplings:
             stiffness, damping = self.train.stiffness, self.train.damping
             if stiffness is not None and stiffness.dimension == "torsional stiffness":
                 turning = damping is not None and damping.dimension == "torsional damping"
                 own = damping.si if damping is not None and turning else None
-                found[coupling.name] = PairYield(stiffness.si, "declared", own, self._ratio(coupling))
+                found[coupling.name] = PairCompliance(stiffness.si, "declared", own, self._ratio(coupling))
         return found
 
     def _ratio(self, part: GearPair | object) -> float:
@@ -232,18 +251,20 @@ class ToothYieldTable:
         return DAMPING_RATIO if restitution is None else damping_ratio(restitution)
 
     def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
-        """About the driven wheel's axis (N m/rad, N m s/rad)."""
+        """Convert a stiffness or damping to the driven wheel's axis [N m/rad, N m s/rad]."""
         if quantity.dimension in ("torsional stiffness", "torsional damping"):
             return quantity.si
         arm = self._arm(gear)
         if arm is None:
-            what = f"the {key} of '{gear.name}', {quantity}, is one along the line of action"
-            fix = f"declare the wheels' `module`, or a {key} in N m{'' if key == 'stiffness' else ' s'}/rad"
-            raise QuestionError(Problem(what, "nothing gives the pair a size, and so that line an arm", fix))
+            what = (
+                f"the {key} of '{gear.name}', {quantity}, acts along the line of action, whose lever arm is not known"
+            )
+            fix = f"declare `module` of the wheels, or `{key}` in N m{'' if key == 'stiffness' else ' s'}/rad"
+            raise QuestionError(Problem(what, "the lever arm follows from the module", fix))
         return quantity.si * arm**2
 
     def _arm(self, gear: GearPair) -> float | None:
-        """Arm of the line of action about the driven wheel's axis (m)."""
+        """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is unknown."""
         wheel = self.driven[gear.name]
         mesh = self.meshes.get(gear.name)
         own = self.train.wheels[wheel][1]
@@ -258,7 +279,7 @@ class ToothYieldTable:
         return radius
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
-        """Stiffness of involute teeth of known width and metal, and the words for it."""
+        """Estimate the stiffness of involute teeth of known width and metal; return it with a note on the method."""
         mesh, arm = self.meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
             return None
@@ -267,8 +288,10 @@ class ToothYieldTable:
         moduli = [_youngs_modulus(each.density or self.train.density) for each in wheels]
         if None in widths or None in moduli:
             return None
+        # the narrower wheel limits the width of contact
         width = min(each.si for each in widths if each is not None)
         one, other = (each for each in moduli if each is not None)
+        # harmonic mean: the compliances of both teeth add
         elastic = 2 * one * other / (one + other)
         note = (
             f"stiffness of {gear.name} estimated: 14 N/(mm um) of face width, ISO 6336-1 for steel, times "
@@ -278,10 +301,10 @@ class ToothYieldTable:
 
 
 def restitution_at(ratio: float) -> float:
-    """Restitution of a spring and damper that push and never pull, at a ratio of critical damping, 0 or more.
+    """Return the coefficient of restitution of a spring and damper without tension, at a damping ratio of 0 or more.
 
-    They part where -k g - c dg/dt vanishes, before the spring is straight (Schwager and Poeschel 2007); at a ratio of 1
-    what comes back is 1/e^2.
+    They separate where -k g - c dg/dt vanishes, before the spring is fully extended (Schwager and Poeschel 2007). At a
+    damping ratio of 1 the coefficient is 1/e^2.
 
     >>> restitution_at(0.0), round(restitution_at(1.0), 6)
     (1.0, 0.135335)
@@ -296,7 +319,7 @@ def restitution_at(ratio: float) -> float:
 
 
 def damping_ratio(restitution: float) -> float:
-    """The ratio at which that much comes back; a restitution below 0.05 counts as 0.05.
+    """Return the damping ratio that gives a coefficient of restitution; values below 0.05 count as 0.05.
 
     >>> round(damping_ratio(0.3), 4), damping_ratio(1.0)
     (0.4972, 0.0)
@@ -308,7 +331,7 @@ def damping_ratio(restitution: float) -> float:
 
 
 def _youngs_modulus(density: Quantity | None) -> float | None:
-    """Of the metal that has such a density (N/m2); None for one not in the list."""
+    """Return Young's modulus [N/m2] of the metal with this density; None for a density not in the list."""
     if density is None:
         return None
     return next((modulus for low, high, modulus in _DENSITIES if low <= density.si <= high), None)

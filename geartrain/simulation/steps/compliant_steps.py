@@ -1,12 +1,13 @@
-"""Teeth that yield: the implicit midpoint rule for contacts with a stiffness and a damping.
+"""Compliant teeth: the implicit midpoint rule for contacts with stiffness and damping.
 
 docs/dynamics.md (15) and (18):
 
     P = h max(0, -k g - c dg/dt)   where g < 0,
 
-gap and closing speed in the middle of the step. Both are linear in the speeds at its end, the law taken where the step
-before leads; so a pair that touches is a row with the compliance 1/s, s = h^2 k/4 + h c/2, of the equations that rigid
-contacts are solved by. The rule is of second order and takes no energy of what swings.
+with gap and closing speed in the middle of the step. Both are linear in the speeds at its end, because the transmission
+function is evaluated at the extrapolated position. A touching pair is therefore a row with the compliance 1/s, s = h^2
+k/4 + h c/2, in the equations that also solve rigid contacts. The rule is of second order and conserves the energy of
+vibrations.
 """
 
 from __future__ import annotations
@@ -50,34 +51,34 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 
-class YieldingTeeth(NamedTuple):
-    """What teeth that yield need beside their contacts, by pair; torques are those on driven sides."""
+class CompliantTeeth(NamedTuple):
+    """Data of compliant teeth by pair; torques are those on driven sides."""
 
     stiffness: Floats
-    """N m/rad, N m s/rad."""
+    """Torsional stiffness [N m/rad]."""
     damping: Floats
-    """N m/rad, N m s/rad."""
+    """Torsional damping [N m s/rad]."""
     peak: Floats
-    """Greatest contact torque of what is counted (N m): changed by the kernel."""
+    """Maximum contact torque of the counted part [N m]; modified by the kernel."""
     impact: Ints
-    """The impact that each pair has last begun, -1 none: changed by the kernel."""
+    """Index of the last impact of each pair, -1 for none; modified by the kernel."""
     gap: Floats
-    """Of both flanks in the middle of a step (rad), but for what its change of speeds adds: room."""
+    """Gap of both flanks in the middle of a step without its change of speed [rad]; workspace."""
 
 
 @kernel
-def run_yielding_steps(
+def run_compliant_steps(
     system: ContactSystem,
     transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
     rules: StepRules,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
     steps: int,
     counted: bool,
 ) -> None:
-    """Go so many steps on; arguments as of `run_steps`."""
+    """Advance by a number of steps; the arguments are as in `run_steps`."""
     since = 0
     for _ in range(steps):
         rounds = solve_midpoint_step(system, transmissions, state, here, rules, teeth)
@@ -92,7 +93,7 @@ def run_yielding_steps(
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += 1
             count_energy(system, state, here, record, rules, here.middle, 0.5)
-            count_yielding(system, state, here, record, rules, teeth)
+            count_compliant_contacts(system, state, here, record, rules, teeth)
         for d in range(len(here.v)):
             state.speed[d] = here.v[d]
             state.angle[d] += rules.step * here.middle[d]
@@ -114,9 +115,9 @@ def solve_midpoint_step(
     state: ContactState,
     here: StepEquations,
     rules: StepRules,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
 ) -> int:
-    """Speeds at the end of a step, and how many guesses they took."""
+    """Solve for the speeds at the end of a step; return the number of guesses."""
     find_midpoint_loads(system, state, here, rules.step)
     for m in range(len(system.stiff)):
         here.before[m] = state.touching[m]
@@ -133,7 +134,7 @@ def solve_midpoint_step(
 
 @kernel
 def find_midpoint_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Momentum, and impulses of torques, springs and drag as far as they are known before the step."""
+    """Compute momentum, and the known parts of the impulses of torques, springs and drag."""
     n = len(here.v)
     for d in range(n):
         here.load[d] = step * system.torque[d] + (system.mass[d, d] - step / 2 * system.viscous[d, d]) * state.speed[d]
@@ -156,10 +157,10 @@ def find_midpoint_bounds(
     transmissions: PairTables,
     state: ContactState,
     here: StepEquations,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
     step: float,
 ) -> None:
-    """Speed ratios, arms and gaps in the middle of the step, and the speeds of rows at which P would vanish."""
+    """Compute ratios, arms and gaps in the middle of the step, and the row speeds at which P vanishes."""
     for m in range(len(system.stiff)):
         S, q, dS, dq = system.start_driver[m], system.start_driven[m], 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
@@ -184,24 +185,25 @@ def find_midpoint_bounds(
             teeth.gap[m, side] = sign * (q + step / 2 * dq - angle) - step / 4 * rate
             here.bound[m, side] = -(stiff * teeth.gap[m, side] + damped / 2 * rate) / system.stiff[m]
             if system.two_sided[m] == 0 and teeth.gap[m, side] + step / 4 * rate >= 0.0:
-                # flanks that are apart do not damp
+                # flanks without contact do not damp
                 here.bound[m, side] = -np.inf
                 if state.touching[m] == side + 1:
                     state.touching[m] = 0
 
 
 @kernel
-def count_yielding(
+def count_compliant_contacts(
     system: ContactSystem,
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
     rules: StepRules,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
 ) -> None:
-    """Shares of time, what damping and friction take, impacts and peaks, by pair.
+    """Add times in contact, losses of damping and friction, impacts and peaks, by pair.
 
-    What a contact takes less its damping stays in the column of steps, from which the energy stored is to be taken.
+    The work of a contact without its damping is added to the numerical dissipation, from which the change of the stored
+    energy must be subtracted.
     """
     for m in range(len(system.stiff)):
         rate_S, rate_q, mean_S, mean_q, start_S, start_q = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -220,7 +222,7 @@ def count_yielding(
             count_gap(counts, ahead, behind, 1.0 if state.touching[m] == OPEN else 0.0)
             for side in range(2):
                 opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
-                count_straightened(state, here, record, teeth, m, side, rules.step / 4 * opening)
+                count_released_energy(state, here, record, teeth, m, side, rules.step / 4 * opening)
         now = state.touching[m]
         if now == 0:
             teeth.impact[m] = -1
@@ -242,30 +244,30 @@ def count_yielding(
                 counts[CHANGES] += 1.0
             counts[IMPACT_COUNT] += 1.0
             counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], -sign * rate)
-            # where flanks meet, damping alone pushes: within the first step that falls off again
+            # at first contact the force is only that of damping, which decreases within the first step
             met = sign * (here.ratio[m, side] * start_S - start_q)
             teeth.peak[m] = max(teeth.peak[m], teeth.damping[m] * met)
             teeth.impact[m] = record.numbers[IMPACTS]
             note_impact(record, state.clock[0] + rules.step / 2, m, -sign * rate, 0.0, 0.0)
         if 0 <= teeth.impact[m] < len(record.impacts):
-            # an impact lasts until its teeth part
+            # an impact lasts until its teeth separate
             record.impacts[teeth.impact[m], 3] += damped
             record.impacts[teeth.impact[m], 4] += here.P[m]
 
 
 @kernel
-def count_straightened(
+def count_released_energy(
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
-    teeth: YieldingTeeth,
+    teeth: CompliantTeeth,
     m: int,
     side: int,
     opened: float,
 ) -> None:
-    """What teeth still hold that part before they are straight again: they straighten against their own damping.
+    """Add the energy that teeth still store when they separate to the impact losses: it is dissipated by their damping.
 
-    opened   what the middle of the step has of gap beyond its start, at the speeds of the start (rad)
+    opened   change of the gap from the start to the middle of the step, at the initial speeds [rad]
     """
     parted = (1 if here.before[m] == side + 1 else 0) - (1 if state.touching[m] == side + 1 else 0)
     if parted != 0:

@@ -134,7 +134,7 @@ _MASKS = (
     (re.compile(r"\bin \d+(?:\.\d+)? s\b"), "in TIME"),
     (re.compile(r"\b246\d{4}\.\d{4,}"), "JULIAN"),
     (re.compile(r"\{[0-9A-F]{8}(?:-[0-9A-F]{4}){3}-[0-9A-F]{12}\}"), "{GUID}"),
-    (re.compile(r"/\S*/geartrain-fault-\w+\.txt"), "FAULT"),
+    (re.compile(r"/\S*/geartrain-error-\w+\.txt"), "FAULT"),
 )
 _CLOCKS = {"seconds", "elapsed", "created", "date", "applicationVersion"}
 """Keys of JSON whose values are masked."""

@@ -19,26 +19,26 @@ Where a command takes FILE, give a YAML declaration or the name of a shipped tra
 
 | exit code | means |
 |---|---|
-| 0 | determined, and every expectation holds |
-| 1 | a verdict (free, locked, contradictory) or an expectation that fails, reported as a result |
-| 2 | input that cannot be read or used; nothing is printed or written |
-| 3 | a fault of geartrain itself: one line on standard error names a file with the traceback, which is to be reported |
+| 0 | determined, and every expectation is met |
+| 1 | the verdict is free, locked or contradictory, or an expectation is not met; this is a result |
+| 2 | invalid input; nothing is printed or written |
+| 3 | internal error; standard error names a log file to attach to a bug report |
 | 130 | interrupted (Ctrl-C) |
-| 141 | nobody reads standard output any more (`geartrain ... \\| head`) |
+| 141 | the reader closed standard output (`geartrain ... \\| head`) |
 
-With the environment variable `GEARTRAIN_TRACEBACK` set, the traceback of a fault is printed too.
+If the environment variable `GEARTRAIN_TRACEBACK` is set, the traceback of an internal error is also printed.
 
-Whatever a command writes (`-o`, `--to`, `--plot`, `--profile`) follows one rule. A file that is there is
-kept, and the command refuses before it works, unless `--force` is given. Symbolic links are followed: the file behind
-one is replaced, the link stays. Only regular files are written over: a folder, FIFO, device or socket is refused by
-name, and so is a file whose permissions say read-only, even to root and with `--force`. A file is written whole or not
-at all, and keeps the permissions it had. `-o -` is standard output: what would go into a file goes there. The partial
-files of an interrupted run are gone on with by `--resume`, or written over by `--force`.
+All files that a command writes (`-o`, `--to`, `--plot`, `--profile`) follow the same rules. An existing file is
+overwritten only with `--force`. Without it the command stops before any computation. Symbolic links are followed: the
+target is replaced, and the link is kept. Only regular files are overwritten. Folders, FIFOs, devices and sockets are
+refused, and so are read-only files, even for root and with `--force`. A file is written completely or not at all, and
+keeps its permissions. `-o -` writes the content of the file to standard output. Partial files of an interrupted run are
+continued with `--resume`, or overwritten with `--force`.
 """
 
 
 def commands(group: Any, path: str) -> Iterator[tuple[str, Any]]:
-    """Every command with its full name; groups before what they hold."""
+    """Yield every command with its full name; groups before their members."""
     for name, command in group.commands.items():
         yield f"{path} {name}", command
         if hasattr(command, "commands"):
@@ -46,7 +46,7 @@ def commands(group: Any, path: str) -> Iterator[tuple[str, Any]]:
 
 
 def section(name: str, command: Any) -> Iterator[str]:
-    """One command: what it does, its arguments and its options."""
+    """Yield the lines of one command: its description, arguments and options."""
     context = typer.Context(command, info_name=name)
     yield from (f"## {name}", "", str(command.help or "").strip(), "", "```sh")
     usage = " ".join([name, *command.collect_usage_pieces(context)])

@@ -2,14 +2,14 @@
 
 verbs           groups of commands, imported on request; exit codes
 common          options that commands share, loading of trains, output of results
-option_values   values of options; `long_runs` has progress bars, journals, and options of motion in time
+option_values   parsers of option values; `long_runs` has progress bars, journals, and options of dynamics
 declarations    `init`, `format`, `list`, `periods`, `schema`
 solve           `solve`, `equations`, `formula`; `check`, `graph`, `gearbox`, `bench` have modules of their own
 report          `report`, `compare`; `draw` writes pictures, `view` has `view` and `watch`
 torques, motion, sphere
-mesh            a group: a pair of wheels of any tooth form
+mesh            a group of commands for a pair of wheels of any tooth form
 
-Commands of wings are in the folders of their capabilities.
+Commands of optional parts of the package are in their own folders.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from geartrain.cli.verbs import EndingGroup, LazyGroup, Verbs, guarded
 
 
 class VerbGroup(EndingGroup, LazyGroup):
-    """`geartrain` itself."""
+    """The commands of `geartrain`."""
 
     verbs = Verbs(
         {
@@ -69,12 +69,12 @@ class VerbGroup(EndingGroup, LazyGroup):
 app = typer.Typer(
     name="geartrain",
     cls=VerbGroup,
-    help="What does this gear train do? Exact speeds, named diagnoses and sources for any declared train.",
+    help="Exact gear-train kinematics from a YAML file: speeds, diagnosis, losses, drawings.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Exit codes: 0 determined, every expectation holds; 1 a verdict or a failed expectation; 2 unusable input; "
-    "3 a fault of geartrain itself; 130 interrupted; 141 nobody reads the output any more.",
+    epilog="Exit codes: 0 determined and as expected; 1 not determined, or an expectation failed; 2 invalid input; "
+    "3 internal error; 130 interrupted; 141 output pipe closed by its reader.",
 )
 
 
@@ -96,19 +96,19 @@ def _root(
 
 
 def _start_lightly() -> None:
-    """Spare a short command half of its time: what collects garbage, and what looks for plugins that there are not."""
-    # modules and models are a hundred thousand objects that stay until the end: to look through them at every 700 new
-    # ones costs a tenth of a short command, and to look through all of them before the process goes, a quarter
+    """Reduce the start time of short commands by less garbage collection and no search for plugins."""
+    # modules and models are about 100,000 long-lived objects: a collection after every 700 new ones takes a tenth of
+    # the time of a short command, and the final collection at exit takes a quarter
     gc.set_threshold(100_000, 20, 20)
     atexit.register(gc.freeze)
-    # pydantic would read the entry points of every package installed
+    # pydantic would otherwise read the entry points of every installed package
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 
 def main(name: str = "geartrain") -> None:
-    """Run the command. What is wrong with the input is said on standard error, with exit code 2; a fault is code 3.
+    """Run the command. Exit codes: 2 for errors of the input, reported on standard error; 3 for internal errors.
 
-    name   by which usage and help call it: what can be typed to start it again
+    name   program name in usage and help, which can be typed to start it again
     """
     _start_lightly()
     sys.exit(guarded(partial(app, prog_name=name)))

@@ -1,4 +1,4 @@
-"""`geartrain bench`: error against run time on the user's own train."""
+"""`geartrain bench`: accuracy against run time for a train."""
 
 from __future__ import annotations
 
@@ -13,13 +13,16 @@ def run(
     file: File,
     state: StateName = None,
     positions: Annotated[
-        int, typer.Option("--positions", min=2, max=1_000_000, help="Angles of each pair, and positions of the input.")
+        int,
+        typer.Option(
+            "--positions", min=2, max=1_000_000, help="Number of angles of each pair, and of input positions."
+        ),
     ] = 10_000,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Measure error against run time on a train: speeds, transmission functions, motion, torques."""
+    """Measure accuracy against run time for a train: speeds, transmission functions, motion, torques."""
     from geartrain.analysis.accuracy import find_accuracy
     from geartrain.analysis.gear_train import load
     from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy

@@ -12,9 +12,9 @@ from geartrain.errors import GearTrainError
 
 def run(
     files: Files,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing of trains that are sound.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing for trains that pass.")] = False,
 ) -> None:
-    """Validate trains and verify every `expect`, `published` and `tolerance`; the worst finding is the exit code."""
+    """Validate trains and verify every `expect`, `published` and `tolerance`; the exit code is the worst result."""
     worst = GOOD
     for file in files:
         worst = max(worst, _check(file, quiet))

@@ -1,4 +1,4 @@
-"""What the verbs share: arguments, exit codes, where text goes."""
+"""Arguments, exit codes and output that the commands share."""
 
 from __future__ import annotations
 
@@ -27,23 +27,25 @@ File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a 
 Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
 Out = Annotated[
     Path | None,
-    typer.Option("--output-file", "-o", help="Write to this file, or as into a file to standard output: -."),
+    typer.Option("--output-file", "-o", metavar="FILE", help="Write to FILE (- = standard output)."),
 ]
-Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
-Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite existing files.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Fast = Annotated[
     bool | None,
-    typer.Option("--fast/--no-fast", help="Compile inner loops with numba, or do not; by default in long runs."),
+    typer.Option("--fast/--no-fast", help="Compile inner loops with numba; default: only in long runs."),
 ]
-StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
-FirstState = Annotated[str | None, typer.Option("--state", help="The state; default the first.")]
+StateName = Annotated[str | None, typer.Option("--state", help="State to analyse; default all states.")]
+FirstState = Annotated[str | None, typer.Option("--state", help="State to analyse; default the first.")]
 Names = list[str] | None
-Without = Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")]
-Seed = Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is drawn.")]
+Without = Annotated[
+    Names, typer.Option("--without", help="Omit a gear pair, to open a closed loop of real teeth; may be repeated.")
+]
+Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:
-    """All trains, or one error that tells what is wrong with each of the files."""
+    """Load all trains, or raise one error with the problems of every file."""
     from geartrain.analysis.gear_train import load
 
     trains: list[GearTrain] = []
@@ -59,12 +61,12 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """True if all is determined and as expected in a state (by default the first), and no teeth are at fault."""
+    """Return whether a state (default the first) is determined and as expected, and no teeth are faulty."""
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """The named state, or all states in which speeds can be calculated; a note says why another is left out."""
+    """Return the named state, or all states with computable speeds, with a note for each omitted state."""
     if state is not None:
         return (state,)
     for case in train.kinematics.cases.values():
@@ -74,7 +76,7 @@ def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]
 
 
 def tell(text: str) -> None:
-    """A line on standard error: what was written, what was passed over, how to go on."""
+    """Print a line on standard error, such as a note or the name of a written file."""
     typer.echo(printable(text), err=True)
 
 
@@ -86,25 +88,26 @@ def complain(error: GearTrainError) -> None:
 
 @dataclass(frozen=True)
 class Sink:
-    """Where a result goes: into a file that may be written, or to standard output."""
+    """Destination of a result: a file that may be written, or standard output."""
 
     path: Path | None = None
-    """None: standard output."""
+    """Path of the file; None for standard output."""
     force: bool = False
-    """An existing file is written over."""
+    """Overwrite an existing file."""
     plain: bool = False
-    """Standard output was asked for by name, `-`: what goes there is what would go into a file."""
+    """Standard output was requested as `-`, and receives the content of a file."""
     theme: ThemeName = "light"
-    """Colours of a picture that goes there."""
+    """Colours of a picture."""
 
     @property
     def suffix(self) -> str:
-        """Of the file, "" without one."""
+        """Suffix of the file in lower case; "" without one."""
         return self.path.suffix.lower() if self.path is not None else ""
 
     def write(self, data: bytes, said: str = "") -> None:
-        """A finished result, whole or not at all; `said` follows its name on standard error."""
+        """Write a finished result atomically; report its name, followed by `said`, on standard error."""
         if self.path is None:
+            # text printed so far must precede the bytes
             sys.stdout.flush()
             sys.stdout.buffer.write(data)
             sys.stdout.buffer.flush()
@@ -119,18 +122,19 @@ STANDARD, STANDARD_NAME = Sink(), Path("-")
 
 
 def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: str = "-o") -> Sink:
-    """Where the result of an option goes, made sure of before it is worked out.
+    """Return the destination of a result, after checking that it can be written.
 
-    allowed   suffixes; empty for all
-    Raises `GearTrainError` for what may not be written, and for pages of documents where what makes them is missing.
+    allowed   allowed suffixes; empty for all
+    Raises `GearTrainError` for a file that cannot be written, and for an HTML page without the required packages.
     """
     if out is None or out == STANDARD_NAME:
         if out is not None and option != "-o":
-            why = "standard output is for the answer"
-            raise GearTrainError(Problem(f"{option} - is not written", why, "name a file", option))
+            why = "standard output receives the result"
+            raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
         return Sink(plain=out is not None)
     from geartrain.numerics.files import destination
 
+    # checked before the computation, which may take long
     if suffix_of(out, allowed, option) == ".html" and ".html" in allowed:
         from geartrain.report.html_page import check_pages
 
@@ -140,12 +144,12 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
 
 
 def picture_sink(out: Path | None, force: bool, theme: ThemeName, option: str = "--plot") -> Sink:
-    """Where a picture goes, and its colours; made sure of before it is worked out. Raises `GearTrainError`."""
+    """Return the destination and theme of a picture, after checking that it can be written. Raises `GearTrainError`."""
     return replace(sink(out, force, PICTURES, option), theme=theme)
 
 
 def check_distinct_outputs(*sinks: Sink) -> None:
-    """Make sure that no two results of one command go into one file. Raises `GearTrainError`."""
+    """Check that no two results of one command are written to the same file. Raises `GearTrainError`."""
     taken: set[Path] = set()
     for each in sinks:
         if each.path is None:
@@ -154,13 +158,13 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 
         real = destination(each.path, each.force)
         if real in taken:
-            why = "the second would take the place of the first"
-            raise GearTrainError(Problem("two results go into one file", why, "name two files", str(each.path)))
+            why = "the second would overwrite the first"
+            raise GearTrainError(Problem("two results have the same file", why, "give two files", str(each.path)))
         taken.add(real)
 
 
 def emit(text: str, out: Sink = STANDARD) -> None:
-    """Text to a file, whole or not at all, or to standard output; control characters in it are written out."""
+    """Write text atomically to a file, or print it; control characters in it are escaped."""
     text = printable(text)
     if out.path is None:
         typer.echo(text)
@@ -169,7 +173,7 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Documents as HTML or Markdown to a file, or to be read: within the terminal's width, or 80 columns of a pipe."""
+    """Write documents as HTML or Markdown to a file, or print them as wide as the terminal, or 80 columns in a pipe."""
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
     if (out.suffix if suffix is None else suffix) == ".html":
@@ -179,6 +183,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
     elif out == STANDARD and sys.stdout.isatty():
         from rich.console import Console
 
+        # without highlighting: rich would colour every number
         to_terminal(documents, Console(highlight=False))
     elif out == STANDARD:
         emit(to_text(documents))
@@ -187,7 +192,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """A result: as JSON where that is asked for or the file is called so, else as documents; made as one only."""
+    """Write a result as JSON if requested by option or suffix, else as documents; only the used form is computed."""
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:
@@ -195,28 +200,31 @@ def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[],
 
 
 def draw(figure: Any, out: Sink) -> None:
-    """A figure to a file, whole or not at all; as .svg where nothing says otherwise."""
+    """Write a figure atomically to a file; the default format is .svg."""
     from geartrain.drawing import render
 
     out.write(render(figure, out.suffix or ".svg", theme=out.theme))
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """The suffix of an output file, "" without one; others than the allowed ones are refused."""
+    """Return the suffix of an output file, "" without one; reject suffixes that are not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
-        raise typer.BadParameter(f"'{suffix}' is no form of output here; use {', '.join(allowed)}", param_hint=option)
+        raise typer.BadParameter(
+            f"'{suffix}' is not an output format of this command; use {', '.join(allowed)}", param_hint=option
+        )
     return suffix
 
 
 def file_name(text: str, ending: str) -> Path:
-    """A file in the current folder called after `text`, with whatever no file name should hold made a hyphen."""
+    """Return a file in the current folder named after `text`, with unsuitable characters replaced by hyphens."""
+    # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """A plain number, a percentage or ppm, as an option gives it; exact."""
+    """Parse the value of an option that is a plain number, a percentage or ppm; exact."""
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity
@@ -229,16 +237,17 @@ def read_share(text: str, option: str) -> Fraction:
 
 
 def as_json(data: Any) -> str:
-    """Results as this command prints them in JSON; characters that a terminal would obey are escaped, as JSON does."""
+    """Format results as JSON; characters that would control a terminal are escaped."""
     from geartrain.numerics.results import plain
 
     data = plain(data)
+    # JSON has no NaN and no infinity: `plain` data must not contain them
     text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
     return text if printable(text) == text else json.dumps(data, indent=2, allow_nan=False)
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows with the same keys as CSV with a header; empty without rows."""
+    """Format rows with the same keys as CSV with a header; empty without rows."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

@@ -1,7 +1,7 @@
 """Commands on files: `geartrain init`, `format`, `list`, `periods` and `schema`.
 
-A template to begin with; declarations in short or long form; the shipped trains, the table of periods, and the schema
-of declarations and answers.
+They write a template, convert declarations to short or long form, list the shipped trains and the table of periods,
+and print the schema of declarations and results.
 """
 
 from __future__ import annotations
@@ -19,36 +19,39 @@ TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 def write_template(
     kind: Annotated[
-        str, typer.Argument(help="planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND")
+        str,
+        typer.Argument(help="Template: planetary, differential, gearbox, reducer, clock or orrery.", metavar="KIND"),
     ],
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write a small declaration with comments that runs as it is: KIND.yaml here, or where -o says."""
+    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o."""
     kinds = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
     check_choice("template", kind, kinds)
     path = Path(f"{kind}.yaml") if out is None else out
     to = sink(path, force)
+    # `emit` appends the final line feed
     emit((TEMPLATES / f"{kind}.yaml").read_text(encoding="utf-8").removesuffix("\n"), to)
     if to.path is not None:
         tell(f"next: geartrain check {path}; geartrain report {path}; geartrain view {path} -o {path.stem}.html")
 
 
 def write_style(
-    files: Annotated[list[str], typer.Argument(help="YAML declarations, which are rewritten.", metavar="FILE")],
-    long: Annotated[bool, typer.Option("--long", help="Write long forms.")] = False,
+    files: Annotated[list[str], typer.Argument(help="YAML declarations to rewrite.", metavar="FILE")],
+    long: Annotated[bool, typer.Option("--long", help="Write all entries in long form.")] = False,
     check: Annotated[
-        bool, typer.Option("--check", help="Write nothing; exit with 1 if something would change.")
+        bool, typer.Option("--check", help="Write nothing; exit with code 1 if a file would change.")
     ] = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write turning pairs by axis and gear pairs as `a ~ b`, or all of them long; comments stay with their entries.
+    """Rewrite turning pairs by axis and gear pairs as `a ~ b`, or all of them in long form; comments are kept.
 
-    What is declared stays the same, which is checked before a file is written. Other lines are left as they are.
+    The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
+    changed.
     """
     if out is not None and (len(files) > 1 or check):
-        raise typer.BadParameter("-o is for one file, which is then left as it is", param_hint="-o")
+        raise typer.BadParameter("-o needs exactly one FILE, and excludes --check", param_hint="-o")
     to = None if out is None else sink(out, force)
     worst = GOOD
     for file in files:
@@ -79,9 +82,7 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
 
 
 def list_trains(
-    evidence: Annotated[
-        bool, typer.Option("--evidence", help="The evidence of trains to be found, for `reconstruct`.")
-    ] = False,
+    evidence: Annotated[bool, typer.Option("--evidence", help="List the shipped evidence for `reconstruct`.")] = False,
 ) -> None:
     """List the shipped trains with their titles."""
     from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
@@ -92,7 +93,7 @@ def list_trains(
 
 
 def list_periods(
-    word: Annotated[str, typer.Argument(help="Show only names that contain this.", metavar="[WORD]")] = "",
+    word: Annotated[str, typer.Argument(help="List only names that contain this word.", metavar="[WORD]")] = "",
 ) -> None:
     """List the shipped table of astronomical periods, speeds and counts."""
     from geartrain.errors import Problem, QuestionError
@@ -102,7 +103,9 @@ def list_periods(
     rows = [row for row in period_table().values() if word in row.name]
     if not rows:
         raise QuestionError(
-            Problem(f"no name contains '{word}'", "the shipped table has no such row", suggested_period(word))
+            Problem(
+                f"no name contains '{word}'", "only the names in the shipped table are searched", suggested_period(word)
+            )
         )
     width = max(len(row.name) for row in rows)
     emit("\n".join(f"{row.name:<{width}}  {float(row.value):.12g} {units[row.kind]}  ({row.source})" for row in rows))
@@ -111,29 +114,29 @@ def list_periods(
 def print_schema(
     question: Annotated[
         list[str] | None,
-        typer.Argument(help="A command, such as motion or mesh pin: the keys of its --json.", metavar="COMMAND"),
+        typer.Argument(help="Command whose JSON keys are printed, such as motion or mesh pin.", metavar="COMMAND"),
     ] = None,
     form: Annotated[
-        str, typer.Option("--as", help="json for editors, markdown for readers, answers: of --json.")
+        str, typer.Option("--as", help="Format: json, markdown, or answers (the schema of --json).")
     ] = "json",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the JSON Schema of the declaration; editors with a YAML plugin complete and check with it.
+    """Print the JSON Schema of declarations, with which editors with a YAML plugin complete and validate them.
 
-    With --as answers, the JSON Schema of what commands print with --json, by command. With a command, the keys of its
-    JSON as a table.
+    With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print
+    the keys of its JSON as a table.
     """
     from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
     from geartrain.report.text import to_markdown, to_text
 
     if form not in ("json", "markdown", "answers"):
-        what = f"'{form}' is not a form of schema; use json or markdown, or answers"
+        what = f"'{form}' is not a schema format; use json, markdown or answers"
         raise typer.BadParameter(what, param_hint="--as")
     to = sink(out, force)
     if question:
         keys = [describe_answer(" ".join(question))]
-        emit(to_markdown(keys) if form == "markdown" else to_text(keys, 120), to)  # keys are long
+        emit(to_markdown(keys) if form == "markdown" else to_text(keys, 120), to)  # columns, because keys are long
     elif form == "markdown":
         emit(declaration_reference(), to)
     else:

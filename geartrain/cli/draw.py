@@ -27,22 +27,34 @@ from geartrain.cli.option_values import turns as read_turns
 def run(
     file: File,
     kind: Annotated[
-        Literal["plan", "stick", "graph", "lever", "dials"], typer.Option("--kind", "-k", help="What is drawn.")
+        Literal["plan", "stick", "graph", "lever", "dials"], typer.Option("--kind", "-k", help="Kind of drawing.")
     ] = "plan",
     out: Annotated[
         Path | None,
-        typer.Option("--output-file", "-o", help="An .svg, .png or .pdf; default NAME-KIND.svg; - is standard output."),
+        typer.Option(
+            "--output-file",
+            "-o",
+            metavar="FILE",
+            help="Write an .svg, .png or .pdf to FILE (- = standard output); default NAME-KIND.svg.",
+        ),
     ] = None,
-    state: Annotated[str | None, typer.Option("--state", help="The state; default the first, of lever all.")] = None,
-    turns: Annotated[str, typer.Option("--turns", help="Turns of the input, such as 3, -1/4, 2.5.")] = "0",
+    state: Annotated[
+        str | None, typer.Option("--state", help="State to draw; default the first, for lever all states.")
+    ] = None,
+    turns: Annotated[str, typer.Option("--turns", help="Revolutions of the input, such as 3, -1/4, 2.5.")] = "0",
     theme: Theme = "light",
     force: Force = False,
-    labels: Annotated[bool, typer.Option("--labels/--no-labels", help="Names and numbers.")] = True,
-    output: Annotated[list[str] | None, typer.Option("--output", help="Of dials: only this; may be repeated.")] = None,
+    labels: Annotated[
+        bool, typer.Option("--labels/--no-labels", help="Print names and numbers in the drawing.")
+    ] = True,
+    output: Annotated[
+        list[str] | None, typer.Option("--output", help="With dials: draw only this output; may be repeated.")
+    ] = None,
 ) -> None:
     """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
     from geartrain.analysis.gear_train import load
 
+    # options are checked before the train is read
     suffix_of(out, PICTURES)
     turned = read_turns("--turns", turns)
     train = load(file)

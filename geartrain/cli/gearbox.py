@@ -1,4 +1,4 @@
-"""`geartrain gearbox`: all states of a train with clutches in one table, and all gears that there are."""
+"""`geartrain gearbox`: all states of a train with clutches in one table, and a search for all possible gears."""
 
 from __future__ import annotations
 
@@ -12,24 +12,28 @@ from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, give, si
 def run(
     file: File,
     output: Annotated[
-        str | None, typer.Option("--output", help="The output, by default the first that is not the input.")
+        str | None, typer.Option("--output", help="Output link; default the first output that is not the input.")
     ] = None,
     search: Annotated[
-        bool, typer.Option("--search", help="Try every way to close as many elements as are needed.")
+        bool, typer.Option("--search", help="Try every combination of clutches and brakes that determines the speeds.")
     ] = False,
-    gears: Annotated[int, typer.Option("--gears", min=0, help="With --search: series of so many forward gears.")] = 0,
-    steps: Annotated[tuple[float, float], typer.Option("--steps", help="Least and greatest step of such a series.")] = (
+    gears: Annotated[
+        int, typer.Option("--gears", min=0, help="Search for series with this number of forward gears.")
+    ] = 0,
+    steps: Annotated[
+        tuple[float, float], typer.Option("--steps", help="Minimum and maximum ratio step of a series.")
+    ] = (
         1.05,
         2.0,
     ),
     single: Annotated[
-        bool, typer.Option("--single", help="Only shifts in which one element opens and one closes.")
+        bool, typer.Option("--single", help="Allow only shifts in which one element opens and one closes.")
     ] = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Ratios, steps, speeds, slip, torques of clutches and brakes, and circulating power, state by state."""
+    """Tabulate ratios, steps, speeds, slip, torques of clutches and brakes, and recirculating power of every state."""
     from geartrain.analysis.gear_train import load
     from geartrain.report.gearbox_report import describe_gear_search, describe_gearbox
 

@@ -1,4 +1,4 @@
-"""`geartrain graph`: the adjacency matrix, the edges, or the graph for other tools."""
+"""`geartrain graph`: the adjacency matrix, the edges, or the graph in formats of other tools."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ def run(
     form: Annotated[
         str | None,
         typer.Option(
-            "--as", help=f"One of {', '.join(_FORMS)}; default by the suffix of -o, else labels, edges above 48 links."
+            "--as",
+            help=f"Format: {', '.join(_FORMS)}; default by the suffix of -o, else labels (edges above 48 links).",
         ),
     ] = None,
     out: Out = None,
@@ -32,7 +33,7 @@ def run(
     to = sink(out, force, _SUFFIXES)
     form = form or _SUFFIXES.get(to.suffix, "")
     if form and form not in _FORMS:
-        raise typer.BadParameter(f"'{form}' is not a form of graph; use {', '.join(_FORMS)}", param_hint="--as")
+        raise typer.BadParameter(f"'{form}' is not a graph format; use {', '.join(_FORMS)}", param_hint="--as")
     train = load(file)
     form = form or ("labels" if len(train.graph) <= graph.MOST_SQUARE else "edges")
     if form == "matrix":

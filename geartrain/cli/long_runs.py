@@ -1,6 +1,6 @@
-"""Long runs of commands: an executor, a journal of what is done, a progress bar; options of motion in time.
+"""Executors, journals and progress bars of long commands, and options of simulations in the time domain.
 
-Ctrl-C ends a motion in time after the step in progress.
+Ctrl-C ends a simulation after the current step.
 """
 
 from __future__ import annotations
@@ -33,33 +33,33 @@ if TYPE_CHECKING:
     from geartrain.numerics.work import Execution, Journal
     from geartrain.scene.scene_run import TimeRun
 
-Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Number of processes; default all cores.")]
+Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Number of processes; default one per core.")]
 Dask = Annotated[str | None, typer.Option("--dask", help="Address of a dask scheduler whose workers do the work.")]
-Resume = Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Resume an interrupted run.")]
 
-COMPILING = "compiling kernels for this machine, once: some ten seconds, up to half a minute"
+COMPILING = "compiling kernels for this machine: 10 to 30 s, only once"
 
 
 class ProgressBar:
-    """How far a run has come, on a terminal; nothing anywhere else."""
+    """Progress of a run on a terminal; without a terminal it is not displayed."""
 
     def __init__(self, shown: Progress, task: TaskID, patience: float) -> None:
         self._shown, self._task, self._from = shown, task, time.monotonic() + patience
 
     def advance(self, steps: int = 1) -> None:
-        """So many more steps are done."""
+        """Add steps that are done."""
         self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
 
     def reach(self, done: int, total: int) -> None:
-        """So much is done of all; a single step is not shown."""
+        """Set the number of steps done and the total; a single step is not displayed."""
         self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
 @contextmanager
 def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
-    """A progress bar on standard error, where that is a terminal; `patience` (s) is waited before it is shown.
+    """Open a progress bar on standard error if that is a terminal, displayed after `patience` [s].
 
-    A line above it tells when kernels are compiled, which is long and once.
+    A line above it reports the compilation of kernels, which is slow but happens only once.
     """
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
@@ -76,17 +76,17 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
 
 @dataclass(frozen=True)
 class RunOptions:
-    """Who does the work, and whether an interrupted run is resumed."""
+    """Options of a run: its workers, and whether an interrupted run is resumed."""
 
     workers: int | None
-    """Processes; None for all cores, or for those of the cluster."""
+    """Number of processes; None for the number of cores, or for a cluster."""
     dask: str | None = None
     """Address of a dask scheduler."""
     resume: bool = False
 
     @contextmanager
     def executor(self, what: str) -> Iterator[Executor | None]:
-        """The executor of one run; a line on standard error gives the size of the work and the number of workers."""
+        """Open the executor of one run; report the number of tasks and workers on standard error."""
         from geartrain.numerics.work import open_executor
 
         def announce(tasks: int, workers: int) -> None:
@@ -98,25 +98,26 @@ class RunOptions:
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
-    """A run that is whole needs no journal; for one that was cut, say where it can be taken up."""
+    """Remove the journal of a complete run, or report how an interrupted run can be resumed."""
     if not cut:
         if journal is not None:
             journal.finish()
     elif journal is not None and len(journal):
-        tell(f"stopped; what is done is in {journal.path}: give the same command with --resume")
+        tell(f"stopped; finished work is in {journal.path}: repeat the command with --resume to continue")
     else:
-        tell("stopped before anything was done that could be kept")
+        tell("stopped before any work was finished")
 
 
 @contextmanager
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
-    """How one run is done: an executor, a journal where a file can be made, a progress bar.
+    """Open the execution of one run: an executor, a journal if the folder is writable, and a progress bar.
 
-    The journal stands beside the output, and is called after the question.
+    The journal is next to the output file, and its name contains a hash of the question.
     """
     from geartrain.numerics.work import Execution
 
     plain = json.loads(json.dumps(question, default=str))
+    # the name depends on the question, so that runs with other options have other journals
     mark = hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()[:8]
     path = (out.parent if out else Path()) / f"{what}-{mark}.partial.jsonl"
     with (
@@ -129,25 +130,26 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
 
 @contextmanager
 def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
-    """The journal at `path`; None where no file can be made."""
+    """Open the journal at `path`; None if the folder is not writable."""
     from geartrain.numerics.work import Journal
 
+    # a run works without a journal, but it cannot be resumed then
     if not resume and not os.access(path.parent, os.W_OK):
         yield None
         return
     if resume and not path.exists():
         _check_others(path, question)
-        tell(f"nothing to resume: there is no {path}; the run begins anew")
+        tell(f"nothing to resume: {path} does not exist; starting a new run")
     with Journal(path, question, resume=resume) as journal:
         try:
             yield journal
         finally:
-            if not journal.closed and not len(journal):  # nothing worth keeping
+            if not journal.closed and not len(journal):  # an empty journal is not kept
                 journal.finish()
 
 
 def _check_others(path: Path, question: Mapping[str, Any]) -> None:
-    """Refuse to resume where the folder holds journals of the same command, all of other questions."""
+    """Refuse to resume if the folder contains only journals of the same command with other options."""
     from geartrain.errors import QuestionError
     from geartrain.numerics.work import another_question
 
@@ -161,29 +163,35 @@ def _check_others(path: Path, question: Mapping[str, Any]) -> None:
 
 TURNS, SKIP = "10", "1"
 Rate = Annotated[
-    str | None, typer.Option("--rate", help="Turns a second of the input, or such as '30 rpm'; default the drive.")
+    str | None,
+    typer.Option("--rate", help="Input speed in turns per second, or such as '30 rpm'; default the declared drive."),
 ]
-Turns = Annotated[str | None, typer.Option("--turns", help=f"Turns of the input that are counted; default {TURNS}.")]
-Skip = Annotated[str | None, typer.Option("--skip", help=f"Turns before, which are not counted; default {SKIP}.")]
+Turns = Annotated[str | None, typer.Option("--turns", help=f"Revolutions of the input to evaluate; default {TURNS}.")]
+Skip = Annotated[str | None, typer.Option("--skip", help=f"Revolutions to simulate before evaluation; default {SKIP}.")]
 Steps = Annotated[
     int | None,
-    typer.Option("--steps", min=1, max=MOST_COUNT, help="Steps in a turn of the input; default by its teeth."),
+    typer.Option(
+        "--steps", min=1, max=MOST_COUNT, help="Time steps per revolution of the input; default by its tooth counts."
+    ),
 ]
 Restitution = Annotated[
-    str | None, typer.Option("--restitution", help="Of all impacts, 0 to 1; default as declared, or 0.")
+    str | None,
+    typer.Option(
+        "--restitution", help="Coefficient of restitution of every impact, 0 to 1; default as declared, or 0."
+    ),
 ]
 ToothModel = Annotated[
     Literal["rigid", "compliant"] | None,
-    typer.Option("--model", help="Teeth that are rigid, the default, or yield by their stiffness."),
+    typer.Option("--model", help="Tooth model: rigid (default), or compliant by tooth stiffness."),
 ]
 
 _MOST_TURNS = 1e9
-_WHOLE = 1_000_000  # of a bar
+_WHOLE = 1_000_000  # length of a progress bar
 
 
 @dataclass(frozen=True)
 class TimeRequest:
-    """What is asked of a train in time, as options give it; None where nothing is."""
+    """Options of a simulation in the time domain; None for options that are not given."""
 
     rate: str | None = None
     turns: str | None = None
@@ -195,7 +203,9 @@ class TimeRequest:
     fast: bool | None = None
 
     def arguments(self) -> dict[str, Any]:
-        """What `GearTrain.dynamics` is given. Raises `GearTrainError` for what is no number, or out of range."""
+        """Return the arguments of `GearTrain.dynamics`. Raises `GearTrainError` for values that are invalid or out of
+        range.
+        """
         turns, skip = TURNS if self.turns is None else self.turns, SKIP if self.skip is None else self.skip
         return {
             "rate": None if self.rate is None else input_rate(self.rate),
@@ -210,14 +220,14 @@ class TimeRequest:
 
 
 def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) -> TimeRun:
-    """The run, with a bar that tells how far it is; Ctrl-C ends it after the step that it is in."""
+    """Run a simulation in the time domain with a progress bar; Ctrl-C ends it after the current step."""
     with interruptible("motion in time") as on_done:
         return train.dynamics(state=state, **requested, on_done=on_done)
 
 
 @contextmanager
 def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
-    """A bar, as what is told each further share of the work; it answers True once Ctrl-C has come."""
+    """Open a progress bar; yield a function that adds a fraction of the work and returns True after Ctrl-C."""
     with progress(what, _WHOLE, patience=2.0) as bar, _interrupts() as came:
 
         def on_done(share: float) -> bool:
@@ -229,10 +239,11 @@ def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
 
 @contextmanager
 def _interrupts() -> Iterator[list[int]]:
-    """A list into which the first Ctrl-C goes; the second ends all as ever."""
+    """Record the first Ctrl-C in a list; the second one interrupts as usual."""
     came: list[int] = []
 
     def note(number: int, frame: Any) -> None:
+        # the second Ctrl-C interrupts immediately
         signal.signal(signal.SIGINT, before)
         came.append(number)
 

@@ -1,4 +1,4 @@
-"""`geartrain motion`: what real teeth and pins do to the outputs while the input turns."""
+"""`geartrain motion`: transmission errors and speeds of the outputs with real teeth and pins."""
 
 from __future__ import annotations
 
@@ -39,45 +39,54 @@ if TYPE_CHECKING:
 
 def run(
     file: File,
-    turns: Annotated[str, typer.Option("--turns", help="Turns of the input, or 'period'; negative: back.")] = "20",
-    samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 200_000,
-    output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
-    links: Annotated[bool, typer.Option("--links", help="Every link, not only the outputs.")] = False,
-    wide: Annotated[bool, typer.Option("--wide", help="What each pair gives to every output.")] = False,
+    turns: Annotated[
+        str, typer.Option("--turns", help="Revolutions of the input, or 'period'; negative to turn backwards.")
+    ] = "20",
+    samples: Annotated[
+        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions.")
+    ] = 200_000,
+    output: Annotated[Names, typer.Option("--output", help="Output or link to report; may be repeated.")] = None,
+    links: Annotated[bool, typer.Option("--links", help="Report every link, not only the outputs.")] = False,
+    wide: Annotated[bool, typer.Option("--wide", help="Report the contribution of each pair to every output.")] = False,
     state: StateName = None,
     without: Without = None,
     phases: Annotated[
-        int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Runs with random phases of the teeth.")
+        int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Number of runs with random tooth phases.")
     ] = 0,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random phases.")] = 1,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed.")] = 1,
     tolerance: Annotated[
-        float | None, typer.Option("--tabulated", help="Read laws from tables of this accuracy (pitches).")
+        float | None,
+        typer.Option("--tabulated", help="Interpolate transmission functions in tables of this accuracy (pitches)."),
     ] = None,
-    estimates: Annotated[bool, typer.Option("--estimates", help="Cheap estimates, and how far off they are.")] = False,
-    spectrum: Annotated[bool, typer.Option("--spectrum", help="Lines by exact order, and whose they are.")] = False,
+    estimates: Annotated[bool, typer.Option("--estimates", help="Add fast estimates and their errors.")] = False,
+    spectrum: Annotated[
+        bool, typer.Option("--spectrum", help="Add spectral lines by exact order, with their sources.")
+    ] = False,
     fast: Fast = None,
     json: Json = False,
     csv: Annotated[bool, typer.Option("--csv", help="Print every position as CSV.")] = False,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw errors and speeds to this file.")] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted -o x.csv.")] = False,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Plot errors and speeds to this file.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Transmission error and speed of outputs with real teeth and pins; to a .csv, every position."""
+    """Compute transmission error and speed of outputs with real teeth and pins; with -o x.csv, at every position."""
     from geartrain.analysis.gear_train import load
     from geartrain.dynamics import MotionRun
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
+    # where the results of an interrupted run are written, checked together with the others
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
     if csv and to.path is not None:
-        raise typer.BadParameter("positions are printed, or written: give --csv, or -o x.csv", param_hint="--csv")
+        raise typer.BadParameter("positions are either printed or written: give --csv or -o x.csv", param_hint="--csv")
     if resume and to.suffix != ".csv":
-        raise typer.BadParameter("a table is what can be gone on with: give -o x.csv too", param_hint="--resume")
+        raise typer.BadParameter("only a CSV file can be resumed: give -o x.csv too", param_hint="--resume")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
+    # an output that is also a link is reported once
     motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance, fast)
     requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
@@ -94,19 +103,22 @@ def run(
         from geartrain.drawing import motion_figure
 
         with progress("drawing", samples) as bar:
-            draw(motion_figure(requested, bar.advance, f"{train.name}: what real teeth do to outputs"), picture)
+            draw(
+                motion_figure(requested, bar.advance, f"{train.name}: transmission errors and speeds of outputs"),
+                picture,
+            )
 
 
 def _turns(text: str, motion: Motion) -> float:
     if text != "period":
         return float(read_turns("--turns", text))
     if motion.period is None:
-        raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
+        raise typer.BadParameter("no speed ripples, so a common period does not exist", param_hint="--turns")
     return float(motion.period)
 
 
 def _partial(to: Sink) -> Sink:
-    """Where the figures of an interrupted run go. A table has a partial file of its own, which can be taken up."""
+    """Return the file for the figures of an interrupted run; CSV tables have their own partial file."""
     if to.path is None or to.suffix == ".csv":
         return STANDARD
     from geartrain.numerics.files import partial_name
@@ -125,7 +137,7 @@ def _report(
     spectrum: bool,
     every_output: bool,
 ) -> None:
-    """The figures, into the second place where they are cut short."""
+    """Compute and write the figures, to the second destination if the run is interrupted."""
     from geartrain.report.motion_report import collect_motion, describe_motion
 
     work = requested.samples * (1 + phases + estimates + spectrum)
@@ -139,6 +151,7 @@ def _report(
             if spectrum:
                 requested.find_spectra(bar.advance)
         except KeyboardInterrupt:
+            # an interrupt before the first results ends the command
             if not requested.done:
                 raise
             stopped = True
@@ -147,7 +160,7 @@ def _report(
     found = collect_motion(requested, name, state, None if stopped else separation())
     give(to, json, lambda: found, lambda: [describe_motion(found, every_output)])
     if stopped:
-        tell(f"stopped after {requested.done} of {requested.samples} positions; the figures are of those")
+        tell(f"stopped after {requested.done} of {requested.samples} positions; the results are for these positions")
         raise typer.Exit(INTERRUPTED)
 
 
@@ -157,7 +170,7 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
     try:
         with LongTable(out, csv_line(requested._position_columns), resume, force) as table:
             if resume and not table.rows:
-                tell(f"nothing to resume: there is no {table.partial}; the run begins anew")
+                tell(f"nothing to resume: {table.partial} does not exist; starting a new run")
             if table.rows:
                 requested._check_resumed(table.last(), table.rows)
             first = table.rows
@@ -167,7 +180,7 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
                     bar.advance(len(rows))
     except KeyboardInterrupt:
         tell(f"stopped after {table.rows} of {requested.samples} positions: {table.partial}")
-        tell("give the same command with --resume to go on")
+        tell("repeat the command with --resume to continue")
         raise typer.Exit(INTERRUPTED) from None
     tell(f"wrote {out}")
 

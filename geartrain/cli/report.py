@@ -1,4 +1,4 @@
-"""`geartrain report` and `compare`: a report on a train, and the outputs of several trains side by side."""
+"""`geartrain report` and `compare`: a report on a train, and the outputs of several trains in one table."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ def report(
         typer.Option("--section", help="Print only sections whose title contains this word; repeatable."),
     ] = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="Print all sections, also formulas, circuits, sources.")
+        bool, typer.Option("--all", help="Print all sections, including formulas, circuits and sources.")
     ] = False,
-    view: Annotated[bool, typer.Option("--view", help="Include the turning train in the page.")] = False,
+    view: Annotated[bool, typer.Option("--view", help="Include the animated train in the page.")] = False,
     force: Force = False,
 ) -> None:
-    """Report on trains: text within the terminal, 80 columns in a pipe; by the suffix of -o .md, .html or .json.
+    """Report on trains as text on the terminal (80 columns in a pipe), or as .md, .html or .json by the suffix of -o.
 
-    A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
+    An .html page also contains pictures of the plan and the dials if the extra 'plot' is installed.
     """
     from geartrain.report.document import without_details
     from geartrain.report.train_data import collect_report
@@ -52,8 +52,9 @@ def report(
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":
-        raise typer.BadParameter("a train turns in a page only: give -o x.html too", param_hint="--view")
+        raise typer.BadParameter("the animation needs an HTML page: give -o x.html too", param_hint="--view")
     trains = load_all(files)
+    # the exit code covers all states, also those that are not printed
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))
     if json or to.suffix == ".json":
         emit(as_json([collect_report(train) for train in trains]), to)
@@ -80,7 +81,7 @@ def _shared(train: GearTrain, view: bool) -> Document:
 
 
 def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
-    """The plan, and the dials where there are any; and what kept one from being drawn."""
+    """Return the plan, the dials if declared, and notes on pictures that could not be drawn."""
     from geartrain.report.document import Picture
 
     drawn: list[Picture] = []
@@ -108,11 +109,11 @@ def compare(
     out: Out = None,
     json: Json = False,
     everything: Annotated[
-        bool, typer.Option("--all", help="All outputs, not only those with a dial or target.")
+        bool, typer.Option("--all", help="Compare all outputs, not only those with a dial or target.")
     ] = False,
     force: Force = False,
 ) -> None:
-    """Put the outputs of several trains side by side, with their errors against the targets."""
+    """Compare the outputs of several trains in one table, with their errors against the targets."""
     from geartrain.report.reconstruction_comparison import describe_comparison
     from geartrain.report.train_data import collect_report
 

@@ -21,7 +21,9 @@ from geartrain.cli.common import (
     sink,
 )
 
-OutputName = Annotated[str | None, typer.Option("--output", help="An output or a link: only what drives it is solved.")]
+OutputName = Annotated[
+    str | None, typer.Option("--output", help="Output or link; only the part of the train that drives it is solved.")
+]
 
 
 def solve(
@@ -30,7 +32,9 @@ def solve(
     state: StateName = None,
     json: Json = False,
     out: Out = None,
-    method: Annotated[str, typer.Option("--method", help="auto, exact or sparse (also called floats).")] = "auto",
+    method: Annotated[
+        str, typer.Option("--method", help="Solution method: auto, exact or sparse (also called floats).")
+    ] = "auto",
     force: Force = False,
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
@@ -56,7 +60,7 @@ def solve(
 def equations(
     file: File,
     state: StateName = None,
-    latex: Annotated[bool, typer.Option("--latex", help="As a LaTeX align environment.")] = False,
+    latex: Annotated[bool, typer.Option("--latex", help="Print a LaTeX align environment.")] = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -75,18 +79,21 @@ def equations(
 
 def formula(
     file: File,
-    output: Annotated[list[str] | None, typer.Option("--output", help="Of this output; may be repeated.")] = None,
+    output: Annotated[
+        list[str] | None, typer.Option("--output", help="Output to derive a formula for; may be repeated.")
+    ] = None,
     state: StateName = None,
-    inverse: Annotated[bool, typer.Option("--inverse", help="Ratios as input over output too.")] = False,
+    inverse: Annotated[bool, typer.Option("--inverse", help="Also print ratios as input over output.")] = False,
     sensitivities: Annotated[
-        bool, typer.Option("--sensitivities", help="How each count changes each ratio, as formulas.")
+        bool,
+        typer.Option("--sensitivities", help="Print the sensitivity of each ratio to each tooth count, as formulas."),
     ] = False,
-    latex: Annotated[bool, typer.Option("--latex", help="Formulas as LaTeX.")] = False,
+    latex: Annotated[bool, typer.Option("--latex", help="Print formulas as LaTeX.")] = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """What each output is, in lowest terms, as a formula in tooth counts and speeds of inputs; where it locks."""
+    """Derive each output in lowest terms as a formula in tooth counts and input speeds, and where it locks."""
     from geartrain.analysis.gear_train import load
     from geartrain.report.formula_report import collect_formulas, describe_formulas
 
@@ -95,7 +102,7 @@ def formula(
     states = chosen_states(train, state)
     report = collect_formulas(train, states, tuple(output or ()), sensitivities)
     give(to, json, lambda: report, lambda: [describe_formulas(report, latex, inverse)])
-    # a state that is free, as it says, need not determine its outputs
+    # a state declared as free need not determine its outputs
     bound = [name for name in states if train.solve(name).verdict or not train.solve(name).as_expected]
     requested = sum(len(output or train.declaration.case(name).outputs) for name in bound)
     raise typer.Exit(GOOD if sum(each.state in bound for each in report.formulas) == requested else VERDICT)

@@ -1,4 +1,4 @@
-"""`geartrain sphere`: gears on polyhedra and graphs, whether they turn, close and fit."""
+"""`geartrain sphere`: mobility, closure and sizes of gears on polyhedra and graphs."""
 
 from __future__ import annotations
 
@@ -35,28 +35,39 @@ _FILES = (".txt", ".csv", ".dat")
 
 def run(
     solid: Annotated[
-        str | None, typer.Argument(help="A solid by name, or a file of vertices, one a line.", metavar="SOLID")
+        str | None, typer.Argument(help="Name of a solid, or a file with one vertex per line.", metavar="SOLID")
     ] = None,
     gears: Annotated[
-        str, typer.Option("--gears", help="faces, vertices, faces+vertices, faces+edges, faces+vertices+edges.")
+        str,
+        typer.Option(
+            "--gears", help="Places of gears: faces, vertices, faces+vertices, faces+edges, faces+vertices+edges."
+        ),
     ] = "faces",
-    teeth: Annotated[str | None, typer.Option("--teeth", help="Tooth numbers by kind, such as 5=20,3=12.")] = None,
-    drop: Annotated[list[str] | None, typer.Option("--drop", help="Kind, gear or mesh to leave out.")] = None,
+    teeth: Annotated[str | None, typer.Option("--teeth", help="Tooth counts by kind, such as 5=20,3=12.")] = None,
+    drop: Annotated[
+        list[str] | None, typer.Option("--drop", help="Kind, gear or mesh to omit; may be repeated.")
+    ] = None,
     exact: Annotated[bool, typer.Option("--exact", help="Move the axes until all pitches are equal.")] = False,
-    graph: Annotated[Path | None, typer.Option("--graph", help="Gears of a graph: two names a line.")] = None,
-    aim: Annotated[str, typer.Option("--aim", help="With --graph: equal 'pitch' or closed 'phases'.")] = "pitch",
+    graph: Annotated[
+        Path | None, typer.Option("--graph", help="File with a graph of gears, two names per line.")
+    ] = None,
+    aim: Annotated[str, typer.Option("--aim", help="With --graph: aim at equal 'pitch' or closed 'phases'.")] = "pitch",
     minimum: Annotated[int, typer.Option("--minimum", help="With --graph: minimum tooth count of a gear.")] = 12,
-    radius: Annotated[str, typer.Option("--radius", help="Of the sphere, or of a wheel: 5=1.25.")] = "1",
-    suggest: Annotated[int, typer.Option("--suggest", help="List the best tooth sets up to so many teeth.")] = 0,
-    best: Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many suggestions.")] = 20,
-    survey: Annotated[bool, typer.Option("--survey", help="The table of solids.")] = False,
+    radius: Annotated[
+        str, typer.Option("--radius", help="Radius of the sphere, or pitch radius of a wheel, such as 5=1.25.")
+    ] = "1",
+    suggest: Annotated[
+        int, typer.Option("--suggest", help="List the best tooth sets with at most this many teeth.")
+    ] = 0,
+    best: Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of suggestions.")] = 20,
+    survey: Annotated[bool, typer.Option("--survey", help="Print the table of solids.")] = False,
     json: Json = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the sphere and its gears to this file.")] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Gears on a sphere: mobility, gridlock, closure of the teeth, sizes; with -o x.yaml as a train."""
+    """Determine mobility, gridlock, closure of the teeth and sizes of gears on a sphere; -o x.yaml writes a train."""
     from geartrain.report.spherical_report import describe_sphere
     from geartrain.spherical.gear_sphere import GearSphere
 
@@ -69,7 +80,7 @@ def run(
         _survey(json, to)
         return
     if (solid is None) == (graph is None):
-        raise typer.BadParameter("name a solid or a graph, or ask for --survey", param_hint="SOLID")
+        raise typer.BadParameter("give a solid, --graph or --survey", param_hint="SOLID")
     made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
@@ -89,11 +100,11 @@ def run(
 
 
 def _check_listed(to: Sink, picture: Sink) -> None:
-    """A list is neither a train nor one sphere that could be drawn."""
+    """Reject output options that need one sphere, when a list is requested."""
     if to.suffix in _YAML:
-        raise typer.BadParameter("a list of sets is no train to be written", param_hint="-o")
+        raise typer.BadParameter("a list of tooth sets cannot be written as a train", param_hint="-o")
     if picture.path is not None:
-        raise typer.BadParameter("one sphere is drawn, and a list has many", param_hint="--plot")
+        raise typer.BadParameter("only one sphere can be drawn, and the list has several", param_hint="--plot")
 
 
 def _survey(json: bool, to: Sink) -> None:
@@ -137,7 +148,7 @@ def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:
-    """`5=20,3=12` or one number for all."""
+    """Parse tooth counts by kind, `5=20,3=12`, or one count for all."""
     if text is None:
         return None
     try:
@@ -150,7 +161,7 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """The sphere's radius, given itself or through the pitch radius of one kind of wheel."""
+    """Return the radius of the sphere, given directly or by the pitch radius of one kind of wheel."""
     from geartrain.spherical.gear_sizes import size_gears
     from geartrain.spherical.pitch_cones import sphere_radius
 
@@ -160,7 +171,8 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
         return value
     if kind not in configuration.kinds:
         kinds = ", ".join(dict.fromkeys(configuration.kinds))
-        raise typer.BadParameter(f"there are no gears '{kind}'; kinds are {kinds}", param_hint="--radius")
+        raise typer.BadParameter(f"'{kind}' is not a kind of gear; use {kinds}", param_hint="--radius")
+    # a pitch radius determines the sphere through the pitch cone angle of its kind
     cones = size_gears(configuration).outer
     return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
 

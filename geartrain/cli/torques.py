@@ -1,4 +1,4 @@
-"""`geartrain torques`: torques, flow of power, losses, self-locking."""
+"""`geartrain torques`: torques, power flow, losses, self-locking."""
 
 from __future__ import annotations
 
@@ -45,17 +45,18 @@ def run(
     json: Json = False,
     turns: Annotated[
         str | None,
-        typer.Option("--turns", help="Torque over so many turns of the input, or over the 'period' of the train."),
+        typer.Option("--turns", help="Compute torque over this many revolutions of the input, or over the 'period'."),
     ] = None,
     samples: Annotated[
-        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input, beside corners and jumps.")
+        int,
+        typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions, besides kinks and jumps."),
     ] = 20_000,
     input_: Annotated[
-        str | None, typer.Option("--input", help="Link whose torque is asked over the turns; default the crank.")
+        str | None, typer.Option("--input", help="With --turns: link whose torque is computed; default the crank.")
     ] = None,
     csv: Annotated[bool, typer.Option("--csv", help="Print the torque at every position as CSV.")] = False,
     trials: Annotated[
-        int | None, typer.Option("--trials", help="So many runs with friction drawn from its declared deviation.")
+        int | None, typer.Option("--trials", help="Number of runs with random friction by its declared deviation.")
     ] = None,
     seed: Seed = 1,
     workers: Workers = None,
@@ -63,13 +64,13 @@ def run(
     resume: Resume = False,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
+        typer.Option("--plot", help="Draw the power flow of one state, or with --turns its torque, to this file."),
     ] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
+    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque."""
     from geartrain.analysis.gear_train import load
     from geartrain.report.torque_report import collect_torque_report, describe_torques
 
@@ -79,20 +80,21 @@ def run(
     tabled = csv or to.suffix == ".csv"
     if turns is None and (tabled or input_ is not None or trials is not None):
         which = "--csv" if tabled else "--input" if input_ is not None else "--trials"
-        raise typer.BadParameter("it is about the torque over some turns: give --turns too", param_hint=which)
+        raise typer.BadParameter("this option needs --turns: give --turns too", param_hint=which)
     if resume and trials is None:
-        raise typer.BadParameter("it goes on with trials of friction: give --trials too", param_hint="--resume")
+        raise typer.BadParameter("only friction trials can be resumed: give --trials too", param_hint="--resume")
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
     over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_)
+    # a state without loads is not a failure
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if over_turn is not None:
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None and over_turn.turns is not None:
         options = RunOptions(workers, dask, resume)
-        tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
+        tried = _friction_trials(train, over_turn, (samples, input_), (trials, seed), out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
@@ -106,14 +108,14 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Torque over some turns in the one state that is loaded."""
-    state = _loaded(train, found, "--turns").state
+    """Compute the torque over some revolutions in the one state with loads."""
+    state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
-            raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
+            raise typer.BadParameter("no torque ripples, so a common period does not exist", param_hint="--turns")
         span = float(period)
     else:
         span = float(read_turns("--turns", turns))
@@ -121,7 +123,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
         return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
 
 
-def _tried(
+def _friction_trials(
     train: GearTrain,
     over_turn: TorqueCycle,
     run: tuple[int, str | None],
@@ -129,49 +131,53 @@ def _tried(
     out: Path | None,
     options: RunOptions,
 ) -> Any:
-    """The same run in trials of friction; `run` are its samples and the link, `drawn` trials and seed."""
+    """Repeat the run in trials with random friction.
+
+    run     number of samples, and link
+    drawn   number of trials, and random seed
+    """
     wing("workshop.monte_carlo.trial_run").check_trials(drawn[0])
     plan = wing("workshop").find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
     with long_run("torques", plan.question(*drawn), out, options) as given:
         found = wing("workshop").try_frictions(plan, *drawn, given)
         close_journal(given.journal, cut=not found.complete)
     if not found.complete:
-        tell(f"stopped after {found.done} of {found.wanted} trials; the figures are of those")
+        tell(f"stopped after {found.done} of {found.wanted} trials; the results are for these trials")
     return found
 
 
-def _loaded(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
-    """The one state that was asked for, or that has loads."""
+def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
+    """Return the state that was requested, or the only one with loads."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
         names = ", ".join(train.states)
-        done = {"--plot": "drawn", "--turns": "followed"}[option]
-        raise typer.BadParameter(f"one state is {done}: name it with --state, of {names}", param_hint=option)
+        done = {"--plot": "drawn", "--turns": "simulated"}[option]
+        raise typer.BadParameter(f"only one state can be {done}: give --state with one of {names}", param_hint=option)
     return loaded[0]
 
 
 def _table(found: TorqueCycle) -> str:
-    """Every position: torque, what starts the train, and what is lost where, over the speed of the input."""
+    """Format torque, starting torque and losses at every position as CSV."""
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
-        raise GearTrainError(Problem("there is no torque over a turn to write", found.verdict.text, "declare loads"))
+        raise GearTrainError(Problem("the torque cannot be written", found.verdict.text, "declare loads"))
     columns = [found.turns, found.torque, found.standing, *found.losses.values]
     header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]
     return csv_text(header, zip(*(column.tolist() for column in columns), strict=True)).rstrip("\n")
 
 
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
-    """The torque over the turns that were asked for.
+    """Draw the torque over the requested revolutions, or the power flow.
 
-    Else the flow under the declared loads; without any, that of a unit of power from the input to the output.
+    The power flow is that under the declared loads, or without loads that of a unit of power from input to output.
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
     from geartrain.report.torque_report import summary_text, turns_text
 
-    torques = _loaded(train, found, "--plot")
+    torques = _loaded_state(train, found, "--plot")
     name = train.name if torques.state is None else f"{train.name}, state {torques.state}"
     if over_turn is not None:
         draw(torque_cycle_figure(over_turn, f"{name}: torque over {turns_text(over_turn.span)}"), picture)

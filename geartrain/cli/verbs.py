@@ -1,6 +1,6 @@
-"""Groups of commands: each command is imported when it is requested, and each end has its exit code.
+"""Groups of commands that are imported on request, and the exit code of every way to end.
 
-A fault of geartrain itself never has the exit code of a verdict.
+An internal error never has the exit code of a verdict.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ if TYPE_CHECKING:
 
 
 Command = Any
-"""A command of click, which typer carries with it or imports, by its version."""
+"""A click command; typer contains click or imports it, depending on its version."""
 
 
 class Verbs(Mapping[str, Command]):
-    """The commands of a group by name, each made when it is requested.
+    """Commands of a group by name, each created when it is requested.
 
-    A command is a function (`module:function`) or a module with a function `run`, and `context_settings` where it needs
-    any; or with a `typer.Typer` named `app` for a group.
+    A command is a function (`module:function`), or a module with a function `run` and optional `context_settings`. A
+    group is a module with a `typer.Typer` named `app`.
 
     Parameters
     ----------
     modules
-        Name of each command -> its function or module, in the order in which `--help` lists them. Commands of a wing
-        that is not installed are left out.
+        Name of each command -> its function or module, in the order in which `--help` lists them. Commands of an
+        optional part that is not installed are omitted.
     make
         Name -> function, for commands that are not modules.
     entry_points
@@ -65,6 +65,7 @@ class Verbs(Mapping[str, Command]):
         return self._made[name]
 
     def __iter__(self) -> Iterator[str]:
+        # a command of an optional part is listed only if that part is installed
         absent = {f"geartrain.{name}" for name in WINGS if not has_wing(name)}
         yield from (name for name, module in self._modules.items() if ".".join(module.split(".")[:2]) not in absent)
         yield from self._make
@@ -75,11 +76,12 @@ class Verbs(Mapping[str, Command]):
 
     @cached_property
     def _added(self) -> dict[str, EntryPoint]:
-        """Commands of other distributions."""
+        """Commands of other distributions, by name."""
         if self._group is None:
             return {}
         from importlib.metadata import entry_points
 
+        # other distributions can add commands, but not replace those of this group
         known = {*self._modules, *self._make}
         return {each.name: each for each in entry_points(group=self._group) if each.name not in known}
 
@@ -95,7 +97,10 @@ class Verbs(Mapping[str, Command]):
         return typer.main.get_command(one)
 
     def _load(self, name: str) -> Any:
-        """Function or module of a command. Raises `KeyError` for an unknown name and for a wing not installed."""
+        """Import the function or module of a command.
+
+        Raises `KeyError` for an unknown name and for an optional part that is not installed.
+        """
         if name in self._modules:
             module, _, function = self._modules[name].partition(":")
             try:
@@ -123,32 +128,32 @@ class LazyGroup(TyperGroup):
 
 FAULT, READER_GONE = 3, 141
 TRACEBACK = "GEARTRAIN_TRACEBACK"
-"""An environment variable: where it is set, a fault's traceback is printed too."""
+"""Environment variable that also prints the traceback of an internal error, if it is set."""
 
 _DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQUOT", errno.ENOSPC)}
 
 
 class _ReaderGoneError(Exception):
-    """Nobody reads standard output any more."""
+    """Standard output was closed by its reader."""
 
 
 class EndingGroup(TyperGroup):
-    """A group of verbs; a closed pipe and Ctrl-C are not left to typer, whose exit code would be that of a verdict."""
+    """A group of commands that handles closed pipes and Ctrl-C itself; typer would exit with the code of a verdict."""
 
     def make_context(self, *given: Any, **more: Any) -> Any:
-        """Read the command line; `--help` and `--version` end here."""
-        with _ends():
+        """Parse the command line; `--help` and `--version` end here."""
+        with _translated_exits():
             return super().make_context(*given, **more)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the verb that was asked for."""
-        with _ends():
+        """Run the command that was requested."""
+        with _translated_exits():
             return super().invoke(ctx)
 
 
 @contextmanager
-def _ends() -> Iterator[None]:
-    """Ends that are not typer's to tell."""
+def _translated_exits() -> Iterator[None]:
+    """Convert exceptions that typer would report differently."""
     try:
         yield
     except BrokenPipeError:
@@ -157,15 +162,16 @@ def _ends() -> Iterator[None]:
         tell("stopped")
         raise typer.Exit(INTERRUPTED) from None
     except Exception as error:
-        if hasattr(error, "format_message"):  # wrong usage, in the words of typer and the user's
+        if hasattr(error, "format_message"):  # usage error: the text may quote control characters of the user
             error.message = printable(str(error.message))  # type: ignore[attr-defined]
         raise
 
 
 def guarded(run: Callable[[], Any]) -> int:
-    """Run the command, tell whatever went wrong on standard error, and say with which code to exit."""
+    """Run the command, report errors on standard error, and return the exit code."""
     try:
         code = _code(run)
+        # errors of the disk or a closed pipe may appear only when the buffer is written
         sys.stdout.flush()
     except GearTrainError as error:
         complain(error)
@@ -173,24 +179,30 @@ def guarded(run: Callable[[], Any]) -> int:
     except KeyboardInterrupt:
         return _interrupted()
     except (BrokenPipeError, _ReaderGoneError):
-        _mute()
+        _discard_output()
         return READER_GONE
     except Exception as error:
+        # an error without a file name is one of standard output
         if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
-            what = Problem("the result cannot be written", str(error), "make room there", "standard output")
+            what = Problem(
+                "the result cannot be written",
+                str(error),
+                "free disk space, or write to another disk",
+                "standard output",
+            )
             complain(GearTrainError(what))
-            _mute()
+            _discard_output()
             return NOT_USABLE
-        _tell_fault(error)
+        _report_internal_error(error)
         return FAULT
     return _interrupted() if code == INTERRUPTED else code
 
 
 def _interrupted() -> int:
-    """The exit code of Ctrl-C, also where it came while Python was evaluating a string, as dataclasses and numba do.
+    """Return the exit code of Ctrl-C, after clearing CPython's record of the interrupt.
 
-    CPython remembers that such an evaluation was interrupted, even if somebody catches that, and `python -m` then dies
-    by the signal at its very end; the next evaluation of a string makes it forget.
+    CPython records an interrupt during the evaluation of a string, as in dataclasses and numba, even if it is caught,
+    and `python -m` is then killed by the signal at exit. The next evaluation of a string clears the record.
     """
     eval("0")
     return INTERRUPTED
@@ -200,37 +212,37 @@ def _code(run: Callable[[], Any]) -> int:
     try:
         run()
     except SystemExit as ended:
-        if isinstance(ended.__context__, BrokenPipeError):  # rich, which shows the help, ends with 1 then
+        if isinstance(ended.__context__, BrokenPipeError):  # rich, which prints the help, then exits with code 1
             raise _ReaderGoneError from None
         return ended.code if isinstance(ended.code, int) else 0 if ended.code is None else FAULT
     return 0
 
 
-def _mute() -> None:
-    """What is left in the buffer goes nowhere, lest the interpreter complain of it on its way out."""
+def _discard_output() -> None:
+    """Send the remaining output to the null device, so that the interpreter does not report an error at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _tell_fault(error: Exception) -> None:
-    """One line on standard error; the traceback goes into a file that can be sent."""
+def _report_internal_error(error: Exception) -> None:
+    """Report an internal error in one line on standard error, and write its traceback to a file."""
     text = "".join(traceback.format_exception(error))
     said = printable(str(error).partition("\n")[0])
-    kept = _kept(text)
-    how = f"please report it with {kept}" if kept else f"set {TRACEBACK}=1 to see where, and please report that"
-    tell(f"internal error: {type(error).__name__}: {said}; this is a fault of geartrain: {how}")
+    kept = _write_traceback(text)
+    how = f"attach {kept} to a bug report" if kept else f"set {TRACEBACK}=1, and attach the traceback to a bug report"
+    tell(f"internal error: {type(error).__name__}: {said}; this is an error in geartrain: {how}")
     if os.environ.get(TRACEBACK):
         tell(text)
 
 
-def _kept(text: str) -> str:
-    """The name of a new file with a traceback and what was asked, "" where none can be made."""
+def _write_traceback(text: str) -> str:
+    """Write a traceback and the command line to a new file; return its name, or "" if it cannot be created."""
     import platform
     from importlib.metadata import version
 
     head = f"geartrain {version('geartrain')}, Python {platform.python_version()}, {platform.platform()}\n"
-    requested = f"asked: {sys.argv!r}\n\n"
+    requested = f"command: {sys.argv!r}\n\n"
     try:
-        handle, name = tempfile.mkstemp(prefix="geartrain-fault-", suffix=".txt", text=True)
+        handle, name = tempfile.mkstemp(prefix="geartrain-error-", suffix=".txt", text=True)
         with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
             file.write(head + requested + text)
     except OSError:

@@ -1,6 +1,4 @@
-"""`geartrain view`: one HTML file in which the train turns. `geartrain watch`: report and animated train in a browser,
-written again each time the file is saved.
-"""
+"""`geartrain view`, an animated train in one HTML file, and `geartrain watch`, a live report and animation."""
 
 from __future__ import annotations
 
@@ -41,18 +39,23 @@ if TYPE_CHECKING:
     from geartrain.viewer.viewer_page import Shown
 
 
-_MOST_ANGLES = 2_000_000  # of all links together, before few of them are chosen
+_MOST_ANGLES = 2_000_000  # angles of all links together, before samples are selected
 
-Other = Annotated[str | None, typer.Argument(help="Another train, shown beside the first.", metavar="[FILE2]")]
+Other = Annotated[str | None, typer.Argument(help="Another train, shown next to the first.", metavar="[FILE2]")]
 Page = Annotated[
     Path | None,
     typer.Option(
-        "--output-file", "-o", help="Write the page to this file; default NAME.html here; - is standard output."
+        "--output-file",
+        "-o",
+        metavar="FILE",
+        help="Write to FILE (- = standard output); default NAME.html in this folder.",
     ),
 ]
-Turns = Annotated[str | None, typer.Option("--turns", help="With --dynamics: turns of the lead that are counted.")]
-Embed = Annotated[bool, typer.Option("--embed", help="The picture with three buttons, for a frame in another page.")]
-Kiosk = Annotated[bool, typer.Option("--kiosk", help="The same for a museum's screen: full screen, turns by itself.")]
+Turns = Annotated[str | None, typer.Option("--turns", help="With --dynamics: revolutions of the driving link to show.")]
+Embed = Annotated[
+    bool, typer.Option("--embed", help="Write only the picture with three buttons, for a frame in another page.")
+]
+Kiosk = Annotated[bool, typer.Option("--kiosk", help="Write a full-screen page that runs by itself, for a museum.")]
 
 
 def view(
@@ -60,11 +63,14 @@ def view(
     other: Other = None,
     out: Page = None,
     state: StateName = None,
-    open_it: Annotated[bool, typer.Option("--open", help="Show it in the browser.")] = False,
+    open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     force: Force = False,
-    teeth: Annotated[bool, typer.Option("--teeth/--no-teeth", help="Draw the teeth, or plain discs.")] = True,
+    teeth: Annotated[
+        bool, typer.Option("--teeth/--no-teeth", help="Draw wheels with teeth, or as plain discs.")
+    ] = True,
     dynamics: Annotated[
-        bool, typer.Option("--dynamics", help="Play the motion in time of one state, with play and impacts.")
+        bool,
+        typer.Option("--dynamics", help="Simulate and play one state in the time domain, with backlash and impacts."),
     ] = False,
     rate: Rate = None,
     turns: Turns = None,
@@ -77,25 +83,26 @@ def view(
     embed: Embed = False,
     kiosk: Kiosk = False,
 ) -> None:
-    """A page in which the train turns: one file, no server, no network; two trains stand side by side."""
+    """Write an animated train, or two side by side, as one HTML file that needs no server and no network."""
     from geartrain.scene import build_scene
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
     _check_request(request, dynamics, other)
-    shown = _shown(embed, kiosk, other)
+    shown = _layout(embed, kiosk, other)
     trains = load_all([file] if other is None else [file, other])
     to = _page_sink(out or file_name("-".join(train.name for train in trains), ".html"), force)
+    # a simulation, and a page with two trains, show one state
     first = dynamics or other is not None
     taken = [(train, each) for train in trains for each in _states(train, state, first)]
-    runs = [_played(train, each, request) if dynamics else None for train, each in taken]
+    runs = [_simulated(train, each, request) if dynamics else None for train, each in taken]
     whole = shown == "page"
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
     _write_page(scenes, to, shown, other is not None, teeth)
     if open_it and to.path is not None and not webbrowser.open(to.path.resolve().as_uri()):
-        tell("no browser could be started here; open the file by hand")
+        tell("no browser could be started; open the file manually")
     for run in runs:
         if run is not None and not run.complete:
-            tell(f"stopped after {run.turns[-1]:.4g} turns; what is written shows those")
+            tell(f"stopped after {run.turns[-1]:.4g} revolutions; the page shows these")
             raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if all(is_sound(train, each) for train, each in taken) else VERDICT)
 
@@ -106,37 +113,47 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
     data = page(scenes, compare=compare, teeth=teeth, shown=shown).encode("utf-8")
     to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
     if shown == "embed" and to.path is not None:
-        tell(f"put it beside your page, and this into it:\n{frame_of(to.path.name, scenes[0].title or scenes[0].name)}")
+        frame = frame_of(to.path.name, scenes[0].title or scenes[0].name)
+        tell(f"copy it next to your page, and add to your page:\n{frame}")
 
 
-def _shown(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """How a page shows a train. Raises `QuestionError` for two ways at once, and two trains where one has room."""
+def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
+    """Return the layout of a page. Raises `QuestionError` for two layouts, or for two trains in a layout for one."""
     if embed and kiosk:
-        raise QuestionError(Problem("--embed and --kiosk at once", "one page is written", "leave one out", "view"))
+        raise QuestionError(
+            Problem("--embed and --kiosk are given together", "a page has one layout", "omit one of them", "view")
+        )
     if (embed or kiosk) and other is not None:
-        why = f"{'--embed' if embed else '--kiosk'} has room for one"
-        raise QuestionError(Problem("two trains", why, "give one, or write a page of both", other))
+        layout = "--embed" if embed else "--kiosk"
+        raise QuestionError(
+            Problem(
+                f"two trains are given with {layout}", f"{layout} shows one train", f"give one, or omit {layout}", other
+            )
+        )
     return "embed" if embed else "kiosk" if kiosk else "page"
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raises `QuestionError` for options of a motion in time that is not asked for, or asked of two trains."""
+    """Raise `QuestionError` for options of dynamics without --dynamics, or with two trains."""
     if not dynamics and request != TimeRequest():
-        why = "without --dynamics the train turns as its crank does, and nothing is simulated"
-        raise QuestionError(Problem("options of motion in time", why, "add --dynamics, or leave them out"))
+        what, why = (
+            "options of --dynamics are given without it",
+            "without --dynamics the page shows the kinematics only",
+        )
+        raise QuestionError(Problem(what, why, "add --dynamics, or omit these options"))
     if dynamics and other is not None:
-        why = "each runs by its own clock, and two trains on one page have one crank"
-        raise QuestionError(Problem("motion in time of two trains", why, "write a page for each", other))
+        why = "two trains on one page share a crank, but each simulation has its own time"
+        raise QuestionError(Problem("two trains are given with --dynamics", why, "write a page for each", other))
 
 
-def _played(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """The run that is shown, sampled at every step of its coarser run where that is not too much."""
+def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
+    """Run the simulation that is shown, sampled at every step of its coarser run if the data are not too large."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """The states that are shown: the one that is named, else all, or the `first` only."""
+    """Return the displayed states: the named one, else all, or only the first."""
     if state is not None:
         return (state,)
     names = train.states or (None,)
@@ -144,11 +161,11 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
 
 
 def _page_sink(path: Path, force: bool) -> Sink:
-    """Where a page goes. Raises `QuestionError` where a browser would not know the file for one."""
+    """Return the destination of a page. Raises `QuestionError` for a suffix that browsers do not open as a page."""
     if path == STANDARD_NAME or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
-    why = f"'{path.suffix}' is no suffix of a page" if path.suffix else "its name has no suffix"
-    fix = "let it end in .html; pictures and films are saved from the page"
+    why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"
+    fix = "use the suffix .html; pictures and films can be saved from the page"
     raise QuestionError(Problem("the page cannot be written", why, fix, str(path)))
 
 
@@ -156,29 +173,31 @@ def _page_sink(path: Path, force: bool) -> Sink:
 
 
 def watch(
-    file: Annotated[str, typer.Argument(help="A YAML file.", metavar="{FILE}")],
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Where it is served; 0 takes a free one.")] = 0,
-    open_it: Annotated[bool, typer.Option("--open", help="Show it in the browser.")] = False,
+    file: Annotated[str, typer.Argument(help="YAML file to watch.", metavar="{FILE}")],
+    port: Annotated[
+        int, typer.Option("--port", min=0, max=65535, help="Port of the local server; 0 takes a free one.")
+    ] = 0,
+    open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
 ) -> None:
-    """Show report and turning train side by side, and again each time the file is saved; Ctrl-C ends it.
+    """Show report and animation side by side in a browser, updated whenever the file is saved; Ctrl-C ends it.
 
-    The page is served on this machine alone, and keeps camera, crank and state. What is wrong with the file stands
-    above what was shown last.
+    The page is served on this machine only, and keeps camera, crank and state. Errors in the file are displayed above
+    the last valid version.
     """
     from geartrain.viewer.live_server import LiveServer
 
     path = Path(file)
     if not path.is_file():
-        what, fix = f"there is no file '{file}'", "give a file, such as one that `geartrain init planetary` writes"
-        raise QuestionError(Problem(what, "a page can follow only what is saved", fix))
+        what, fix = f"file '{file}' does not exist", "give an existing file, such as one of `geartrain init planetary`"
+        raise QuestionError(Problem(what, "only a saved file can be watched", fix))
     server = LiveServer(lambda: _pages(path), lambda: _files(path), port)
     server.refresh()
     tell(server.error or f"{file} is shown at {server.address} until Ctrl-C ends it")
     if server.error:
-        tell(f"it is shown at {server.address} once that is mended, until Ctrl-C ends it")
+        tell(f"it is shown at {server.address} once the file is corrected, until Ctrl-C ends it")
     if open_it and not webbrowser.open(server.address):
-        tell("no browser could be started here; open the address by hand")
-    server.run(lambda error: tell(error or f"{file} is shown anew"))
+        tell("no browser could be started; open the address manually")
+    server.run(lambda error: tell(error or f"{file} is updated"))
 
 
 def _pages(path: Path) -> LivePages:
@@ -194,7 +213,7 @@ def _pages(path: Path) -> LivePages:
 
 
 def _files(path: Path) -> tuple[Path, ...]:
-    """The file and those that it extends; the file alone while that cannot be read."""
+    """Return the file and those that it extends; only the file if it cannot be read."""
     from geartrain.train.declaration_files import files_of
 
     try:

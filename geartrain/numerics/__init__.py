@@ -1,36 +1,35 @@
-"""Numbers, arrays, files and independent work, without any knowledge of gears.
+"""Mathematics, quantities, results, files and parallel tasks, independent of gears.
 
-In: numbers and tasks. Out: exact solutions of sparse systems, roots, piecewise functions, quantities with units,
-results of tasks in their order. Most of it is for the rooms above; a user meets quantities and figures in declarations,
-labelled arrays and long floats in answers, and runs long questions with an executor and a journal.
+Most modules serve the rest of the package. Users meet quantities and figures in declarations, labelled arrays and
+long floats in answers, and run long computations with an executor and a journal.
 
 Exact numbers
     exact, factored_ratios                integers and Fractions of any length, and their text
-    elimination                           sparse linear forms over the rationals
+    elimination                           sparse linear systems over the rationals
     integer_lattice                       integer rows in a rational span
-    rational_angles                       angles as parts of a turn
+    rational_angles                       angles as fractions of a turn
 Floats
-    long_float                            floats with an exponent of their own
+    long_float                            floats with an unbounded exponent
     rounding_bounds, bounded_polynomials  error-free transformations and a priori bounds; polynomials with such bounds
-    sparse_least_squares                  least squares with a few entries a row
-    roots                                 bracketed roots, one by one and many at once
-    chebyshev, polynomial_pieces          functions as series and as pieces of polynomials
+    sparse_least_squares                  least squares with a few entries per row
+    roots                                 bracketed roots, one by one and vectorised
+    chebyshev, polynomial_pieces          Chebyshev series and piecewise polynomials
     confidence_intervals                  confidence intervals of means and probabilities
-    vectors, polylines                    vectors in space, exact where they are; lines of points
+    vectors, polylines                    vectors in space, exact for exact numbers; polylines
     kernels                               functions in plain Python that numba can compile
 Graphs
-    graphs, lazy_graph                    paths in a rooted forest, groups of what is joined; a graph of networkx
+    graphs, lazy_graph                    paths in a rooted forest, union-find; a lazy graph of networkx
     block_triangular                      matching, then strongly connected components (Dulmage and Mendelsohn)
 Values with names and units, and their forms
     quantity                              values with a unit, their limits, and the number as it was written
-    arrays, labelled_array                types of arrays, named tuples of arrays; arrays with names on their axes
+    arrays, labelled_array                array types, named tuples of arrays; arrays with labelled axes
     results                               results as JSON, as tables, as pictures
-    containers                            mappings that cannot change
+    containers                            immutable mappings
     markdown_text                         text that Markdown takes literally
 Files, work, modules
-    files                                 finished text and tables out, atomically
-    work                                  independent tasks, their journal, and what runs them
-    lazy_names                            names of a package that are imported when they are asked for
+    files                                 atomic output of finished texts and tables
+    work                                  independent tasks, their journal, and their executors
+    lazy_names                            names of a package that are imported on first access
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Types of numpy arrays, named tuples of arrays, and arrays as text that JSON can hold."""
+"""Types of numpy arrays, operations on named tuples of arrays, and arrays as text in JSON."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ Indices = NDArray[np.intp]
 
 
 def packed(values: NDArray[Any], kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> str:
-    """Base64 of little-endian numbers, row by row: every digit of the kind, in a third of the letters of decimals."""
+    """Return little-endian numbers in base64, row by row.
+
+    No digit is lost, and the text is a third as long as decimals.
+    """
     return b64encode(values.astype(kind).tobytes()).decode("ascii")
 
 
@@ -24,14 +27,14 @@ NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
 
 
 def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
-    """Those that are numbered, or flagged, in `which`."""
+    """Return the named tuple with the entries selected by index or by mask along the last axis."""
     kind: Any = type(columns)
     found: NamedArrays = kind(*(each[..., which] for each in columns))
     return found
 
 
 def joined(sets: Sequence[NamedArrays]) -> NamedArrays:
-    """Several sets, one after another."""
+    """Join named tuples of arrays along the last axis."""
     kind: Any = type(sets[0])
     found: NamedArrays = kind(*(np.concatenate(each, axis=-1) for each in zip(*sets, strict=True)))
     return found

@@ -1,12 +1,12 @@
-"""Which unknowns of a sparse system must be found together, and in which order; known is only which row holds which.
+"""Block triangular form of a sparse system from its sparsity pattern, by Dulmage-Mendelsohn decomposition.
 
-Rows are matched to columns of their own as far as they can be. In a square system a column then depends on the other
-columns of its row, and columns that depend on each other make one block of the block triangular form. In any other,
-alternating paths from unmatched rows and columns part the system into three (Dulmage and Mendelsohn 1958): one with
-rows to spare, one that is square, one with columns to spare; each needs only what stands before it.
+A maximum matching pairs rows with columns. In a square system each column then depends on the other columns of its
+row, and the strongly connected components of that graph are the diagonal blocks. Any other system splits into three
+parts along alternating paths from unmatched rows and columns (Dulmage and Mendelsohn 1958): an overdetermined, a
+square and an underdetermined part. Each part depends only on the parts before it.
 
-Written out here, for the answers that need it are to load neither numpy nor networkx, and without recursion: trains are
-as deep as they like.
+The algorithms are implemented here because commands that need them should load neither numpy nor networkx. They are
+iterative, because a train can be deeper than Python's recursion limit.
 """
 
 from __future__ import annotations
@@ -16,27 +16,33 @@ from typing import NamedTuple
 
 
 class Block(NamedTuple):
-    """Rows and as many columns that are solved together, in parallel: each row is matched to its column."""
+    """Rows and an equal number of columns that are solved simultaneously; each row is matched to the column at its
+    index.
+    """
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
 
 
 def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = ()) -> list[Block] | None:
-    """Block triangular form of a square system: each block after all it depends on; None where no matching exists.
+    """Return the block triangular form of a square system, or None if no perfect matching exists.
 
-    rows   the columns of each row; `also`, columns that a row depends on without holding them
-    Cost is linear in trees, and rows times entries at worst.
+    Each block follows all blocks that it depends on. The cost is linear for trees, and rows times entries at worst.
+
+    rows   columns with an entry, for each row
+    also   further columns that a row depends on, without an entry in it
     """
     row_of = _maximum_matching(dict(enumerate(rows)))
     if len(row_of) < len(rows):
         return None
     taken = [row_of[column] for column in range(len(rows))]
-    return _strong([(*row, *more) for row, more in zip(rows, also, strict=True)] if also else rows, taken)
+    return _strongly_connected_components(
+        [(*row, *more) for row, more in zip(rows, also, strict=True)] if also else rows, taken
+    )
 
 
-def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
-    """Tarjan's strongly connected components, without recursion: each comes after those it depends on."""
+def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
+    """Return strongly connected components by Tarjan's algorithm without recursion, in order of dependence."""
     order: dict[int, int] = {}
     low = [0] * len(rows)
     done = [False] * len(rows)
@@ -58,7 +64,7 @@ def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
                     break
                 if not done[other]:
                     low[column] = min(low[column], order[other])
-            else:  # all that the column depends on is done
+            else:  # every column that this one depends on is done
                 stack.pop()
                 if stack:
                     above = stack[-1][0]
@@ -80,9 +86,10 @@ def _close(open_: list[int], root: int, done: list[bool]) -> tuple[int, ...]:
 
 
 def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int) -> list[Block]:
-    """Dulmage-Mendelsohn decomposition: parts in the order in which they can be solved, from the columns of each row.
+    """Return the Dulmage-Mendelsohn decomposition of a system in an order in which its parts can be solved.
 
-    Only the first can have more rows than columns, and only the last more columns than rows.
+    Only the first part can have more rows than columns, and only the last more columns than rows. `rows` maps each row
+    to its columns.
     """
     row_of = _maximum_matching(rows)
     column_of = {row: column for column, row in row_of.items()}
@@ -90,8 +97,8 @@ def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int)
     for row, held in rows.items():
         for column in held:
             users[column].append(row)
-    over = _reached([row for row in rows if row not in column_of], rows, row_of)
-    under = _reached([column for column in users if column not in row_of], users, column_of)
+    over = _reachable([row for row in rows if row not in column_of], rows, row_of)
+    under = _reachable([column for column in users if column not in row_of], users, column_of)
     above = {column_of[row] for row in over if row in column_of}
     below = {row_of[column] for column in under if column in row_of}
     parts = [Block(tuple(sorted(over)), tuple(sorted(above)))] if over else []
@@ -100,7 +107,7 @@ def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int)
 
 
 def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) -> list[Block]:
-    """Blocks of the square part, whose rows and columns are numbered anew meanwhile."""
+    """Return the blocks of the square part, renumbering its rows and columns internally."""
     names = list(rows)
     columns = sorted({column for held in rows.values() for column in held}.difference(known))
     number = {column: at for at, column in enumerate(columns)}
@@ -112,11 +119,14 @@ def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) 
 
 
 def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
-    """Maximum bipartite matching by augmenting paths: column -> row. A round visits every column once at most."""
+    """Return a maximum bipartite matching, column -> row, by augmenting paths.
+
+    Each round visits every column at most once.
+    """
     row_of: dict[int, int] = {}
-    free = _peel(rows, row_of)
+    free = _match_forced_rows(rows, row_of)
     while True:
-        # one set for all rows of a round: a column from which no way led on leads nowhere until the matching changes
+        # shared by all rows of a round: a column without an augmenting path has none until the matching changes
         seen: set[int] = set()
         left = [row for row in free if not _augment_from(rows, row, row_of, seen)]
         if len(left) == len(free):
@@ -124,10 +134,10 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
         free = left
 
 
-def _peel(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
-    """Karp and Sipser's rule: match rows with one column left, again and again; the rows that remain.
+def _match_forced_rows(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
+    """Match rows with one remaining column repeatedly (Karp-Sipser heuristic); return the unmatched rows.
 
-    This settles trees in linear time.
+    This matches trees in linear time.
     """
     users: dict[int, list[int]] = {}
     for row, held in rows.items():
@@ -150,8 +160,10 @@ def _peel(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[i
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Breadth-first search for an alternating path that lets one more row be matched; False if there is none."""
-    came: dict[int, tuple[int, int | None]] = {}  # column -> the row that reached it, and that row's own column
+    """Extend the matching by a row through breadth-first search; return whether an augmenting path exists."""
+    came: dict[
+        int, tuple[int, int | None]
+    ] = {}  # column -> the row that reached it, and the column matched to that row
     queue: list[tuple[int, int | None]] = [(root, None)]
     for row, own in queue:
         for column in rows[row]:
@@ -169,8 +181,8 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
     return False
 
 
-def _reached(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
-    """All that alternating paths reach: from a start across to the other kind, and back along the matching."""
+def _reachable(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
+    """Return all vertices that alternating paths from the starts reach on their own side."""
     found, queue = set(starts), list(starts)
     for here in queue:
         for there in across[here]:

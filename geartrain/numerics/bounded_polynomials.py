@@ -1,11 +1,11 @@
-"""Polynomials and their quotients at many points in float64, each value with a bound on its rounding.
+"""Polynomials and their quotients at many points in float64, each value with a bound on its rounding error.
 
-A sum of n terms with at most r roundings each is off by at most (r + n) u / (1 - (r + n) u) times the sum of the terms'
-sizes (Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, sections 3.1 and 4.2). Whoever needs more
-than these bounds tell works out the doubtful points exactly.
+A sum of n terms with at most r roundings each has an error of at most (r + n) u / (1 - (r + n) u) times the sum of
+the absolute terms (Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, sections 3.1 and 4.2).
+Callers that need more than these bounds recompute the uncertain points exactly.
 
-A point is not held here: a function `product` gives the value of a monomial at all points at once, so that products
-that polynomials share need be multiplied once only.
+Points are not stored here. A function `product` returns the values of a monomial at all points, so that products
+shared between polynomials are multiplied only once.
 """
 
 from __future__ import annotations
@@ -25,22 +25,22 @@ Monomial = tuple[tuple[int, int], ...]
 """A product of powers of variables: (variable, power) pairs, variables ascending, powers of either sign, never 0."""
 
 WholeTerm = tuple[int, tuple[int, ...]]
-"""A whole coefficient, and exponents parallel to the variables."""
+"""An integer coefficient, and the exponents of all variables."""
 
 Product = Callable[[Monomial], Floats]
-"""The values of a monomial at all points, arrays that broadcast."""
+"""A function that returns the values of a monomial at all points, as arrays that broadcast."""
 
 _SAFE = 250
-"""Terms between 10^-250 and 10^250 are never near the ends of float64, where relative errors are not bounded."""
+"""Decimal exponent of safe terms: terms between 10^-250 and 10^250 neither underflow nor overflow in float64."""
 
 
 def monomial_of(exponents: Iterable[int]) -> Monomial:
-    """A monomial from the exponents of all variables."""
+    """Return the monomial with the given exponents of all variables."""
     return tuple((variable, power) for variable, power in enumerate(exponents) if power)
 
 
 def products_of(columns: Sequence[Floats]) -> Product:
-    """Monomials by plain multiplication of columns, one for each variable; powers 1 or more."""
+    """Return a `Product` that multiplies columns, one for each variable; powers must be 1 or more."""
 
     def product(monomial: Monomial) -> Floats:
         found: Floats = np.ones(())
@@ -53,7 +53,7 @@ def products_of(columns: Sequence[Floats]) -> Product:
 
 
 def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[Floats, Floats]:
-    """The sum of some terms in their order, and the same sum with all signs plus; zeros of `shape` where none is."""
+    """Return the sum of some terms in order, and the sum of their absolute values; zeros of `shape` without terms."""
     each = list(terms)
     if not each:
         return np.zeros(shape), np.zeros(shape)
@@ -61,24 +61,24 @@ def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[
 
 
 def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> int:
-    """Roundings that reach one term of a sum of monomials with coefficients, and those of the sum itself.
+    """Return the maximum number of roundings of one term of a sum of monomials, plus those of the summation.
 
-    roundings   already in each variable
+    roundings   number of roundings already in each variable
     """
-    # a power p of a variable with n roundings costs p multiplications and p times n; a coefficient one of each
+    # a power p of a variable with n roundings has p + p n roundings; a coefficient adds two
     each = (sum(abs(power) * (roundings[variable] + 1) for variable, power in monomial) for monomial in monomials)
     return max(each, default=0) + len(monomials) + 2
 
 
 def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Sequence[float]) -> bool:
-    """True if no term, in whatever order it is multiplied, comes near the ends of float64.
+    """Return whether no term can underflow or overflow in float64, whatever the order of multiplication.
 
-    terms     coefficients, not 0, and exponents parallel to the variables
-    largest   log10 of the largest value of each variable; the least is 1
+    terms     nonzero coefficients, and exponents of all variables
+    largest   log10 of the largest value of each variable; the minimum value is 1
     """
     for coefficient, exponents in terms:
         reach = sum(size * abs(power) for size, power in zip(largest, exponents, strict=True))
-        # twice, for a product may be formed above and below before it is divided
+        # twice, because a product may be formed in numerator and denominator before the division
         if 2 * reach + abs(log10(Fraction(coefficient))) > _SAFE:
             return False
     return True
@@ -91,63 +91,66 @@ class BoundedPolynomial:
     terms: tuple[tuple[float, Monomial], ...]
     """Coefficients in float64, and their monomials."""
     roundings: int
-    """In one term and in the sum: a value is off by at most roundings u times the sum of the terms' sizes."""
+    """Number of roundings in one term and the sum. The error is at most roundings * u * (sum of absolute terms)."""
 
     @classmethod
     def of(cls, terms: Sequence[tuple[int, Monomial]], scale: int, roundings: Sequence[int]) -> BoundedPolynomial:
-        """A polynomial with whole coefficients, over a scale that keeps them within float64.
+        """Return a polynomial with integer coefficients, divided by a scale that keeps them within float64.
 
-        roundings   already in each variable
+        roundings   number of roundings already in each variable
         """
-        # the quotient is rounded once; the coefficients themselves may be beyond the range of float64
+        # the exact quotient is rounded once; coefficients may be out of the range of float64
         scaled = tuple((float(Fraction(coefficient, scale)), monomial) for coefficient, monomial in terms)
         return cls(scaled, sum_roundings([monomial for _, monomial in terms], roundings))
 
     @cached_property
     def relative(self) -> float | None:
-        """A bound on the relative error of every value; None where terms may cancel."""
+        """Bound on the relative error of every value; None if terms can cancel."""
         signs = {coefficient > 0 for coefficient, _ in self.terms}
         return self.roundings * UNIT_ROUNDOFF * SLACK if len(signs) == 1 else None
 
     def __call__(self, product: Product) -> tuple[Floats, Floats | None]:
-        """Values, and bounds on their errors where `relative` is None."""
+        """Return the values, and bounds on their errors, or None for the bounds if `relative` is known."""
         each = (product(monomial) if one == 1 else one * product(monomial) for one, monomial in self.terms)
         if self.relative is not None:
-            # all of one sign: the size is the value, and the bound need not be worked out point by point
+            # terms of one sign: the size is the value, so a relative bound is sufficient
             return reduce(np.add, each), None
         value, size = sum_and_size(each)
         return value, sum_error(self.roundings, size)
 
     def bounded(self, product: Product) -> tuple[Floats, Floats]:
-        """Values, and bounds on their errors in any case."""
+        """Return the values, and bounds on their absolute errors in every case."""
         return _filled_in(*self(product), self.relative)
 
 
 @dataclass(frozen=True, eq=False)
 class BoundedQuotient:
-    """A quotient of two polynomials; a sum of monomials where `lower` is None."""
+    """A quotient of two polynomials, or only the numerator if `lower` is None."""
 
     upper: BoundedPolynomial
     lower: BoundedPolynomial | None
 
     @classmethod
     def of(cls, upper: Sequence[WholeTerm], lower: Sequence[WholeTerm], roundings: Sequence[int]) -> BoundedQuotient:
-        """A quotient of two sums of whole coefficients with exponents parallel to the variables.
+        """Return a quotient of two sums of integer coefficients with exponents of all variables.
 
-        roundings   already in each variable
+        roundings   number of roundings already in each variable
         """
-        # over the largest coefficient, which may itself be beyond the range of float64
+        # divided by the largest coefficient, which may be out of the range of float64
         scale = max((abs(coefficient) for coefficient, _ in (*upper, *lower)), default=1)
         above, below = ([(c, monomial_of(exponents)) for c, exponents in side] for side in (upper, lower))
         return cls(BoundedPolynomial.of(above, scale, roundings), BoundedPolynomial.of(below, scale, roundings))
 
     @property
     def relative(self) -> float | None:
-        """A bound on the relative error of every value; None where that depends on the point."""
+        """Bound on the relative error of every value; None if it depends on the point."""
         return self.upper.relative if self.lower is None else None
 
     def __call__(self, product: Product) -> tuple[Floats, Floats | None]:
-        """Values, and bounds on their errors where `relative` is None: infinite where no digit is sure, or at poles."""
+        """Return the values, and bounds on their errors, or None for the bounds if `relative` is known.
+
+        A bound is infinite at poles and where no digit is certain.
+        """
         if self.lower is None:
             return self.upper(product)
         (top, off), (bottom, beside) = self.upper.bounded(product), self.lower.bounded(product)
@@ -158,7 +161,7 @@ class BoundedQuotient:
         return value, np.where((left > 0) & np.isfinite(room), room, np.inf)
 
     def bounded(self, product: Product) -> tuple[Floats, Floats]:
-        """Values, and bounds on their errors in any case."""
+        """Return the values, and bounds on their absolute errors in every case."""
         return _filled_in(*self(product), self.relative)
 
 

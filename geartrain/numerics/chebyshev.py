@@ -1,4 +1,4 @@
-"""Chebyshev series on an interval: values at nodes, derivative, integral."""
+"""Chebyshev series on an interval: interpolation, differentiation and integration."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ChebyshevSeries:
-    """Chebyshev coefficients on [start, end]."""
+    """A Chebyshev series on the interval [start, end]."""
 
     coefficients: Floats
     start: float
@@ -24,13 +24,13 @@ class ChebyshevSeries:
 
     @classmethod
     def of(cls, f: Callable[[Floats], Floats], start: float, end: float, nodes: int) -> ChebyshevSeries:
-        """The series through the values of f at `nodes` Chebyshev points."""
+        """Interpolate f at `nodes` Chebyshev points."""
         d = np.asarray(start + (end - start) * (points(nodes)[0] + 1) / 2, dtype=np.float64)
         return cls.through(f(d), start, end)
 
     @classmethod
     def through(cls, values: Floats, start: float, end: float) -> ChebyshevSeries:
-        """The series through values at the points of `points`, ascending."""
+        """Interpolate values at the Chebyshev points of `points`, in ascending order."""
         _, inverse = points(len(values))
         return cls(np.asarray(inverse @ values, dtype=np.float64), start, end)
 
@@ -41,41 +41,41 @@ class ChebyshevSeries:
         width = self.end - self.start
         if not width:  # a series on a point is a constant
             return np.zeros(np.shape(d))
-        # 2 (d - start) first: at both ends it is exact, so that nodes come out as -1 and 1
+        # 2 (d - start) first: it is exact at both ends, so that these are mapped to -1 and 1
         found: Floats = (2 * (np.asarray(d) - self.start) - width) / width
         return found
 
     def derivative(self) -> ChebyshevSeries:
-        """d/dd of the series."""
+        """Return the derivative of the series."""
         width = self.end - self.start
         return ChebyshevSeries(
             np.asarray(cheb.chebder(self.coefficients) * 2 / width, dtype=np.float64), self.start, self.end
         )
 
     def integral(self) -> ChebyshevSeries:
-        """The integral from `start`."""
+        """Return the antiderivative that is 0 at `start`."""
         width = self.end - self.start
         raised = np.asarray(cheb.chebint(self.coefficients, lbnd=-1) * width / 2, dtype=np.float64)
         return ChebyshevSeries(raised, self.start, self.end)
 
     @property
     def tail(self) -> float:
-        """How far the last coefficients have fallen, over the greatest."""
+        """Maximum of the last four coefficients relative to the largest coefficient, a measure of convergence."""
         size = np.abs(self.coefficients)
-        return float(size[-4:].max() / max(size.max(), 1e-300))  # the last alone may be 0 for symmetry
+        return float(size[-4:].max() / max(size.max(), 1e-300))  # the last coefficient only may be 0 by symmetry
 
 
 @lru_cache(maxsize=32)
 def points(count: int) -> tuple[Floats, Floats]:
-    """Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to coefficients."""
+    """Return Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to coefficients."""
     x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
-    # at these points the matrix is as well conditioned as a cosine transform, and inverting it loses nothing
+    # at these points the matrix is as well conditioned as a cosine transform, so that inverting it is accurate
     return x, np.asarray(np.linalg.inv(cheb.chebvander(x, count - 1)), dtype=np.float64)
 
 
 @lru_cache(maxsize=32)
 def differentiation(count: int) -> Floats:
-    """Matrix from values at `points` to derivatives there (barycentric, its rows summing to 0)."""
+    """Return the differentiation matrix at the Chebyshev points of `points` (barycentric form, rows summing to 0)."""
     x, _ = points(count)
     weights = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
     weights[[0, -1]] /= 2
@@ -83,6 +83,6 @@ def differentiation(count: int) -> Floats:
     np.fill_diagonal(gap, 1.0)
     matrix = weights[None, :] / weights[:, None] / gap
     np.fill_diagonal(matrix, 0.0)
-    # the derivative of a constant is 0: to say so, rather than use the formula, keeps small rounding small
+    # the derivative of a constant is exactly 0: this condition gives smaller rounding errors than the formula
     np.fill_diagonal(matrix, -matrix.sum(axis=1))
     return matrix

@@ -1,4 +1,4 @@
-"""How sure an estimate is: shares, means, deviations and percentiles with their 95 % intervals."""
+"""Confidence intervals (95 %) of probabilities, means, standard deviations and percentiles."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)
 
 
 def deviations(confidence: float = CONFIDENCE) -> float:
-    """Standard deviations of a normal variable within which it lies with this probability, both ways."""
+    """Return the half-width of the two-sided interval of a standard normal variable with this probability."""
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 
@@ -31,7 +31,7 @@ class ProbabilityEstimate(Result):
 
     Examples
     --------
-    Of none in 256 trials the upper end is z^2 / (256 + z^2), z = 1.96.
+    For 0 of 256 trials the upper end is z^2 / (256 + z^2), z = 1.96.
 
     >>> never = ProbabilityEstimate(0, 256)
     >>> never.value, [round(end, 5) for end in never.interval]
@@ -41,25 +41,25 @@ class ProbabilityEstimate(Result):
     KEYS = ("count", "of", Key("share", "value", finite), "interval")
 
     count: int
-    """Number of trials in which it happened."""
+    """Number of trials in which the event occurred."""
     of: int
     """Number of trials."""
 
     @property
     def value(self) -> float:
-        """The share itself; NaN of none."""
+        """Relative frequency of the event; NaN without trials."""
         return self.count / self.of if self.of else nan
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Wilson's interval: it holds at shares of 0 and 1 too."""
+        """Wilson's score interval, which is also valid for frequencies of 0 and 1."""
         return wilson(self.count, self.of)
 
 
 def wilson(count: float, of: float) -> tuple[float, float]:
-    """Wilson's 95 % score interval of `count` of `of` (E. B. Wilson 1927); 0 to 1 of none.
+    """Return Wilson's 95 % score interval for `count` successes in `of` trials; (0, 1) without trials.
 
-    Of weighted trials both are effective numbers, not whole ones.
+    For weighted trials both are effective numbers, which need not be integers.
     """
     if not of:
         return 0.0, 1.0
@@ -68,7 +68,7 @@ def wilson(count: float, of: float) -> tuple[float, float]:
     p, square = count / of, z * z / of
     middle, half = p + square / 2, z * sqrt(max(p * (1 - p), 0.0) / of + square / (4 * of))
     low, high = (middle - half) / (1 + square), (middle + half) / (1 + square)
-    # the ends of none and of all are 0 and 1 exactly, not to rounding
+    # for 0 or all successes the ends are exactly 0 and 1, without rounding
     return (max(0.0, low) if count else 0.0), (min(1.0, high) if count < of else 1.0)
 
 
@@ -83,24 +83,24 @@ class IntervalEstimate:
     """
 
     value: float
-    """The estimate, in the unit of what is estimated."""
+    """The estimate, in the unit of the estimated quantity."""
     low: float
-    """Lower end of the interval; -inf where there are too few trials for one."""
+    """Lower end of the interval; -inf if there are too few trials."""
     high: float
-    """Upper end of the interval; inf where there are too few trials for one."""
+    """Upper end of the interval; inf if there are too few trials."""
 
     def to_dict(self) -> list[float | None]:
-        """Plain data for JSON: value, low, high; null where there is none."""
+        """Return [value, low, high] for JSON; null for infinite or undetermined numbers."""
         return [finite(each) for each in (self.value, self.low, self.high)]
 
 
 def in_degrees(figure: IntervalEstimate) -> list[float | None]:
-    """An angle (rad) as JSON has it, in degrees: value, low, high."""
+    """Convert the estimate of an angle [rad] to [value, low, high] in degrees for JSON."""
     return [finite(degrees(each)) for each in (figure.value, figure.low, figure.high)]
 
 
 def mean_of(values: Floats) -> IntervalEstimate:
-    """Mean with its normal interval."""
+    """Return the mean with its confidence interval by the normal approximation."""
     n = len(values)
     if n < 2:
         return IntervalEstimate(float(values[0]) if n else nan, -inf, inf)
@@ -109,7 +109,7 @@ def mean_of(values: Floats) -> IntervalEstimate:
 
 
 def deviation_of(values: Floats) -> IntervalEstimate:
-    """Standard deviation with Bonett's interval, which holds for distributions that are not normal.
+    """Return the standard deviation with Bonett's interval, which is also valid for non-normal distributions.
 
     D. G. Bonett, Approximate confidence interval for standard deviation of nonnormal distributions, Comput. Stat. Data
     Anal. 50 (2006) 775-782: ln(c s^2) +- z c sqrt((g - (n - 3)/n) / (n - 1)), with the kurtosis g about a trimmed mean
@@ -125,13 +125,14 @@ def deviation_of(values: Floats) -> IntervalEstimate:
     trimmed = int(n / (2 * sqrt(n - 4)))
     about = values - np.sort(values)[trimmed : n - trimmed].mean()
     kurtosis, c = n * float(np.sum(about**4)) / squares**2, n / (n - z)
-    half = z * c * sqrt(max(0.0, kurtosis - (n - 3) / n) / (n - 1)) / 2  # of the logarithm of the deviation
+    # half-width for the logarithm of the standard deviation; rounding of nearly equal values may make the root negative
+    half = z * c * sqrt(max(0.0, kurtosis - (n - 3) / n) / (n - 1)) / 2
     value = sqrt(squares / (n - 1))
     return IntervalEstimate(value, value * sqrt(c) * exp(-half), value * sqrt(c) * exp(half))
 
 
 def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
-    """Percentile of values in order; its interval is between two order statistics, for any distribution."""
+    """Return a percentile of sorted values with a distribution-free interval between two order statistics."""
     n, p = len(ordered), percent / 100
     if not n:
         return IntervalEstimate(nan, -inf, inf)
@@ -142,14 +143,14 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
 
 @cache
 def _counts_below(n: int, p: float) -> tuple[int, int]:
-    """The fewest successive counts, of n values below their quantile p, that have a probability of 95 % or more.
+    """Return the shortest range of counts of values below quantile p, out of n, with a probability of at least 95 %.
 
-    The count is binomial (H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1). Counts of none
-    and of all leave an end of the interval open, and are among them only where 95 % need them.
+    The count is binomial (H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1). Counts of 0 and n
+    leave an end of the interval open, and are included only if 95 % cannot be reached without them.
     """
     from scipy.special import bdtr
 
-    reach = ceil(7 * sqrt(n * p * (1 - p))) + 12  # beyond: less than 1e-9
+    reach = ceil(7 * sqrt(n * p * (1 - p))) + 12  # the probability beyond is below 1e-9
     counts = np.arange(max(floor(n * p) - reach, 0), min(ceil(n * p) + reach, n) + 1)
     up_to = bdtr(counts, n, p)
     less = np.concatenate([[bdtr(counts[0] - 1, n, p) if counts[0] else 0.0], up_to[:-1]])
@@ -162,6 +163,6 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
 
 
 def percentiles_of(values: Floats) -> dict[float, IntervalEstimate]:
-    """The percentiles that are told."""
+    """Return the reported percentiles of some values with their intervals, by percentage."""
     ordered = np.sort(values)
     return {percent: percentile_of(ordered, percent) for percent in PERCENTILES}

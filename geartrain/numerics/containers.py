@@ -1,7 +1,4 @@
-"""Mappings that cannot be changed, and a pause of the garbage collector while many small objects are made at once.
-
-Some mappings are made when they are read, whole or item by item. None of the many objects can be garbage yet.
-"""
+"""Immutable and lazily created mappings, and a pause of the garbage collector."""
 
 from __future__ import annotations
 
@@ -20,7 +17,7 @@ V = TypeVar("V")
 
 
 class FrozenDict(dict[K, V]):
-    """A dictionary that refuses to be changed; it compares, prints, copies and pickles as a dictionary does.
+    """An immutable dictionary that compares, prints, copies and pickles as a dictionary does.
 
     >>> FrozenDict(a=1) | {"b": 2}
     {'a': 1, 'b': 2}
@@ -29,8 +26,8 @@ class FrozenDict(dict[K, V]):
     __slots__ = ()
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
-        """Refuse what would change the mapping, with `TypeError`."""
-        raise TypeError("this mapping is frozen: make a copy with dict(...), and change that")
+        """Raise `TypeError` for any modification of the mapping."""
+        raise TypeError("this mapping is immutable: copy it with dict(...) and change the copy")
 
     __setitem__ = __delitem__ = __ior__ = _refuse
     clear = pop = popitem = setdefault = update = _refuse
@@ -40,7 +37,7 @@ class FrozenDict(dict[K, V]):
 
 
 class LazyMapping(Mapping[K, V]):
-    """A mapping that is made when it is first read; it compares as the dictionary it then is, and pickles as that.
+    """A mapping that is created when it is first read; it compares and pickles as the dictionary that it contains.
 
     >>> requested = []
     >>> found = LazyMapping(lambda: requested.append("made") or {"a": 1})
@@ -60,7 +57,7 @@ class LazyMapping(Mapping[K, V]):
         make = self._make
         if make is not None:
             self._found = FrozenDict(make())
-            self._make = None  # after what it gave is kept, for other threads; what it held may go
+            self._make = None  # set after the result is stored, for other threads; releases the memory of the function
         return self._found
 
     def __getitem__(self, key: K) -> V:
@@ -80,7 +77,7 @@ class LazyMapping(Mapping[K, V]):
 
 
 class ItemwiseMapping(Mapping[K, V]):
-    """A mapping of given keys, each value made when it is first read.
+    """A mapping with given keys, each value created when it is first read.
 
     >>> requested = []
     >>> found = ItemwiseMapping("ab", lambda key: requested.append(key) or key.upper())
@@ -111,12 +108,12 @@ class ItemwiseMapping(Mapping[K, V]):
         return len(self._keys)
 
     def __reduce__(self) -> tuple[type[dict[K, V]], tuple[dict[K, V]]]:
-        """Pickled as a dictionary of all values: what makes them may be a local function."""
+        """Return the pickle form, a dictionary of all values, because the function that creates them may be local."""
         return dict, (dict(self),)
 
 
 class FrozenFields:
-    """A frozen dataclass whose plain dictionaries are frozen too."""
+    """A base class of frozen dataclasses that makes their plain dictionaries immutable too."""
 
     __slots__ = ()
 
@@ -129,7 +126,10 @@ class FrozenFields:
 
 @contextmanager
 def collector_paused() -> Iterator[None]:
-    """Pause the garbage collector: its passes walk all objects made so far, and linear work turns quadratic."""
+    """Suppress garbage collection while many long-lived objects are created.
+
+    Each pass of the collector visits all objects created so far, which would make linear work quadratic.
+    """
     running = gc.isenabled()
     gc.disable()
     try:

@@ -1,6 +1,6 @@
-"""Sparse linear forms over the rationals: elimination, rank modulo a prime, and feasibility by the simplex method.
+"""Sparse linear systems over the rationals: elimination, rank modulo a prime, and feasibility by the simplex method.
 
-It imports the standard library only: verdicts on a train are exact, and wait for no array library.
+Only the standard library is imported, so that exact verdicts on a train do not wait for an array library.
 """
 
 from __future__ import annotations
@@ -16,20 +16,21 @@ from typing import Any, Protocol, TypeVar
 T = TypeVar("T")
 
 PRIME = (1 << 61) - 1
-"""A Mersenne prime: rank modulo it is a lower bound that is exact but for accidents of probability 1e-18."""
+"""A Mersenne prime. The rank modulo it is a lower bound of the rank, and equal to it except with probability 1e-18."""
 
 LinearForm = dict[int, Fraction]
-"""A linear form: column -> coefficient. Columns >= 0 are unknowns; columns < 0 are symbols, never solved for."""
+"""A linear form: column -> coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are never solved for.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Echelon:
-    """What elimination leaves: pivots in the order taken, conditions on symbols alone, redundant rows."""
+    """Echelon form: pivots in the order of elimination, conditions on symbols only, and redundant rows."""
 
     pivots: tuple[tuple[int, LinearForm], ...]
-    """(column, rest): column = -(rest), rest free of all columns taken before it."""
+    """Pairs (column, rest) with column = -(rest); the rest contains none of the columns eliminated before it."""
     conditions: tuple[LinearForm, ...]
-    """Rows without unknowns: each must vanish."""
+    """Rows without unknowns, each of which must vanish."""
     redundant: tuple[int, ...]
     """Indices of the rows that became 0 = 0."""
 
@@ -39,13 +40,13 @@ class Echelon:
         return len(self.pivots)
 
     def forms(self, budget: int | None = None) -> dict[int, LinearForm]:
-        """Back substitution: every pivot column as a linear form of symbols and unknowns that stayed free.
+        """Solve by back substitution for every pivot column, as a linear form of symbols and free unknowns.
 
-        Many free unknowns make long forms: past `budget` operations `TooDenseError` is raised.
+        Many free unknowns lead to long forms. `TooDenseError` is raised after `budget` operations.
         """
         solved: dict[int, LinearForm] = {}
         work = 0
-        for column, rest in reversed(self.pivots):  # the last pivot's rest holds free columns only
+        for column, rest in reversed(self.pivots):  # the rest of the last pivot contains free columns only
             form: LinearForm = {}
             for other, coefficient in rest.items():
                 known = solved.get(other)
@@ -53,7 +54,7 @@ class Echelon:
                     add_into(form, {other: -coefficient}, 1)
                 else:
                     add_into(form, known, -coefficient)
-                    # long numbers cost as many machine words as they have
+                    # the cost of a long number is its length in machine words
                     work += len(known) * (1 + coefficient.numerator.bit_length() // 64)
             if budget is not None and work > budget:
                 raise TooDenseError
@@ -62,11 +63,14 @@ class Echelon:
 
 
 class TooDenseError(Exception):
-    """Elimination passed its budget of operations; the caller has another way."""
+    """Elimination exceeded its budget of operations; the caller must use another method."""
 
 
 def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None:
-    """row += factor * other, dropping the entries that cancel; entries are numbers or polynomials, all of one kind."""
+    """Add factor * other to a row in place, removing entries that cancel.
+
+    Entries are numbers or polynomials, all of one type.
+    """
     for column, coefficient in other.items():
         value = row[column] + factor * coefficient if column in row else factor * coefficient
         if value:
@@ -76,10 +80,10 @@ def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None
 
 
 def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None, modulus: int = 0) -> Echelon:
-    """Sparse Gaussian elimination over the rationals (or modulo a prime); see `eliminate_units`.
+    """Eliminate unknowns by sparse Gaussian elimination over the rationals or modulo a prime; see `eliminate_units`.
 
     rows      linear forms that vanish; columns < 0 are symbols
-    budget    the most operations allowed, long numbers counting more; `TooDenseError` past it
+    budget    maximum number of operations, weighted by the length of numbers; `TooDenseError` beyond it
     modulus   0 for exact rationals, else a prime; coefficients must then be integers
     """
     field = Residues(modulus) if modulus else RATIONALS
@@ -89,19 +93,19 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
 
 
 class Ring(Protocol[T]):
-    """Coefficients of linear forms."""
+    """Protocol of the coefficient ring of linear forms."""
 
     @property
     def modulus(self) -> int:
-        """The modulus by which products are reduced; 0 if they are not reduced."""
+        """Modulus by which products are reduced; 0 if they are not reduced."""
         ...
 
     def inverse(self, entry: T) -> T | None:
-        """1 over a coefficient, None if it is not a unit of the ring."""
+        """Return the inverse of a coefficient, or None if it is not a unit of the ring."""
         ...
 
     def words(self, entry: T) -> int:
-        """Machine words that a coefficient has: the cost of one operation with it."""
+        """Return the length of a coefficient in machine words, which is the cost of one operation with it."""
         ...
 
 
@@ -127,27 +131,28 @@ class Residues:
     modulus: int
 
     def inverse(self, entry: Any) -> Any:
-        """1 over a residue."""
+        """Return the inverse of a residue modulo the prime."""
         return pow(int(entry), -1, self.modulus)
 
     def words(self, entry: Any) -> int:
-        """One word, as long as the modulus has no more."""
+        """Return 1, because a residue fits into one machine word."""
         return 1
 
 
 def eliminate_units(
     rows: Iterable[Mapping[int, T]], ring: Ring[T], budget: int | None = None
 ) -> tuple[list[tuple[int, dict[int, T]]], list[tuple[int, dict[int, T]]]]:
-    """Sparse Gaussian elimination over any commutative ring, by pivots that are units: shortest row first.
+    """Eliminate unknowns over any commutative ring by sparse Gaussian elimination with units as pivots.
 
-    In the shortest row the pivot is the rarest column (Markowitz' rule in part). Rows of one or two unknowns are plain
-    substitutions, so chains, trees and cascades cost linear time; fill appears only where circuits are truly coupled.
+    The shortest row is eliminated first, and its pivot is the column with the fewest entries (Markowitz pivoting in
+    part). Rows with one or two unknowns are plain substitutions, so chains, trees and cascades take linear time.
+    Fill-in appears only where circuits are truly coupled.
 
     rows     linear forms that vanish; columns < 0 are symbols, never pivots
-    budget   the most operations allowed, long coefficients counting more; `TooDenseError` past it
+    budget   maximum number of operations, weighted by the length of coefficients; `TooDenseError` beyond it
 
-    Returns the pivots in the order taken, (column, rest) with column = -(rest); and the rows without pivot by their
-    index: those without unknowns in the order met, then those in which no unknown has a unit.
+    Returns the pivots in the order of elimination, (column, rest) with column = -(rest), and the remaining rows with
+    their indices: first rows without unknowns, then rows in which no unknown has a unit.
     """
     modulus = ring.modulus
     active = {index: dict(row) for index, row in enumerate(rows)}
@@ -166,11 +171,12 @@ def eliminate_units(
         row = active.get(index, {})
         unknowns = [column for column in row if column >= 0]
         if index not in active or len(unknowns) != length:
-            continue  # an old entry of a row that changed since, and was queued again
+            continue  # outdated entry: the row has changed and was queued again
         if not unknowns:
             left.append((index, active.pop(index)))
             continue
-        # Markowitz' rule in part: the column that fewest rows hold fills least; ties by number, so that runs repeat
+        # Markowitz pivoting in part: the column with the fewest entries causes minimum fill-in; ties are resolved by
+        # number, so that runs are reproducible
         unknowns.sort(key=lambda column: (len(users[column]), column))
         for pivot in unknowns:
             inverse: Any = ring.inverse(row[pivot])
@@ -210,26 +216,27 @@ def eliminate_units(
 
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:
-    """A multiple of a rational row, in integers modulo a prime."""
-    # one factor for the whole row leaves the rank as it is, and no denominator is to be inverted modulo the prime
+    """Return a multiple of a rational row with integer coefficients modulo a prime."""
+    # one factor for the whole row does not change the rank, and avoids inverting denominators modulo the prime
     scale = math.lcm(*(value.denominator for value in row.values()))
     return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]
 
 
 def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) -> int:
-    """Rank of rational rows modulo a prime: never more than the true rank, and equal but for accidents."""
+    """Return the rank of rational rows modulo a prime, a lower bound that is almost always equal to the true rank."""
     return eliminate((residues(row, modulus) for row in rows), modulus=modulus).rank
 
 
 def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
-    """Simplex method, first phase: True if some numbers for the unknowns make every linear form 0 or more.
+    """Return whether some unknowns make every linear form nonnegative, by phase 1 of the simplex method.
 
-    forms      columns >= 0 are unknowns of either sign, `constant` is the column of what is added
+    Bland's rule, by which the entering and the leaving variables have the lowest possible index, prevents cycling.
 
-    Bland's rule, by which the entering and the leaving variable are those of the least number, cannot cycle.
+    forms      linear forms; columns >= 0 are unknowns of either sign
+    constant   column of the constant term
     """
     unknowns = sorted({column for form in forms for column in form if column != constant})
-    # an unknown is the difference of two variables that are not negative
+    # an unknown is the difference of two nonnegative variables
     place = {column: 2 * at for at, column in enumerate(unknowns)}
     table: list[list[Fraction]] = []
     basis: list[int] = []
@@ -242,29 +249,29 @@ def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> boo
                 row[place[column]], row[place[column] + 1] = value, -value
         row[first_slack + at] = Fraction(-1)
         row[-1] = -form.get(constant, Fraction(0))
-        met = row[-1] <= 0  # where all unknowns are 0
-        # right sides must be 0 or more; a row turned round has +1 at its slack, its first basic variable then
+        met = row[-1] <= 0  # satisfied if all unknowns are 0
+        # right-hand sides must be nonnegative; a negated row has +1 at its slack, which is then its basic variable
         table.append([-value for value in row] if met else row)
         basis.append(first_slack + at if met else artificial + at)
     return _reaches_zero(table, basis, artificial)
 
 
 def _reaches_zero(table: list[list[Fraction]], basis: list[int], artificial: int) -> bool:
-    """Whether the variables from `artificial` on, in the basis only, can all be made 0."""
+    """Return whether the artificial variables, numbered from `artificial` on, can all be reduced to 0."""
     while True:
         lacking = [row for row, own in zip(table, basis, strict=True) if own >= artificial]
         if not any(row[-1] for row in lacking):
             return True
-        # the reduced cost of the sum of the artificial variables; the first positive one is that of Bland's rule
+        # reduced costs of the sum of artificial variables; Bland's rule takes the first positive one
         enter = next((at for at in range(artificial) if sum(row[at] for row in lacking) > 0), None)
         if enter is None:
             return False
-        # the ratio test; of equal ratios `min` takes the least variable, as Bland's rule asks
+        # the ratio test; of equal ratios `min` takes the lowest index, as Bland's rule requires
         ratios = [(row[-1] / row[enter], own, at) for at, (row, own) in enumerate(zip(table, basis, strict=True))
                   if row[enter] > 0]  # fmt: skip
         _, _, leave = min(ratios)
-        lead = table[leave][enter]
-        pivot = table[leave] = [value / lead for value in table[leave]]
+        divisor = table[leave][enter]
+        pivot = table[leave] = [value / divisor for value in table[leave]]
         basis[leave] = enter
         for at, row in enumerate(table):
             if at != leave and row[enter]:

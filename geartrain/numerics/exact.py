@@ -1,7 +1,7 @@
-"""Integers and Fractions of any length: products without needless gcds, the nearest floats, and their text.
+"""Integers and Fractions of any length: products with few gcds, nearest floats, and decimal text, full or abridged.
 
-Text is in decimal, in full or abridged. The limit that Python sets to the digits of an integer is neither met nor
-moved."""
+Python's limit on the digits of integers in text is neither hit nor changed.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from fractions import Fraction
 
 
 def coprime(numerator: int, denominator: int) -> Fraction:
-    """A Fraction from a reduced pair with a positive denominator, without the gcd that Fraction() would take.
+    """Return a Fraction from coprime numerator and positive denominator without the gcd of the Fraction constructor.
 
-    The gcd of long integers costs the square of their length, and a walk along a train has reduced already.
+    The gcd of long integers takes quadratic time, and products along a train are already reduced.
     """
     value = Fraction()
     value._numerator = numerator  # type: ignore[attr-defined]
@@ -23,7 +23,10 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 
 
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
-    """n/d times a/b, reduced, denominator positive. n/d is reduced; a and b are short, so the gcds stay cheap."""
+    """Multiply n/d by a/b and return the reduced fraction with a positive denominator.
+
+    n/d must be reduced. a and b are short, so the gcds are cheap.
+    """
     if b < 0:
         a, b = -a, -b
     common = math.gcd(a, b)
@@ -42,7 +45,7 @@ def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
 
 
 def whole_multiple(values: Iterable[Fraction | int]) -> list[int]:
-    """The shortest multiple in whole numbers, with the same signs."""
+    """Return the smallest integers proportional to the values, with the same signs."""
     some = list(values)
     if all(abs(value) == 1 for value in some):
         return [int(value) for value in some]
@@ -53,38 +56,38 @@ def whole_multiple(values: Iterable[Fraction | int]) -> list[int]:
 
 
 def log10(value: Fraction) -> float:
-    """Decimal logarithm of |value| for numbers of any size; -inf for zero."""
+    """Return the decimal logarithm of |value| for numbers of any size; -inf for zero."""
     if not value:
         return -math.inf
-    # of integers of any length; their quotient as a float may not exist
+    # logarithms of long integers are floats, even if their quotient overflows
     return math.log10(abs(value.numerator)) - math.log10(value.denominator)
 
 
 def as_float(value: Fraction | float) -> float | None:
-    """The nearest float64, or None where float64 has none: 0 or infinity would be silently wrong."""
+    """Return the nearest float64, or None if the value overflows or would be subnormal."""
     try:
         number = float(value)
     except OverflowError:
         return None
-    if value and abs(number) < 2.2250738585072014e-308:  # subnormal: its last digits are lost
+    if value and abs(number) < 2.2250738585072014e-308:  # subnormal: it has fewer than 53 significant bits
         return None
     return number
 
 
 def decimal(value: Fraction, digits: int = 10) -> str:
-    """A number of any size in decimal notation.
+    """Format a number of any size in decimal notation.
 
     Parameters
     ----------
     value : Fraction
         The number.
     digits : int
-        Significant digits to which it is rounded.
+        Number of significant digits.
 
     Returns
     -------
     str
-        As the format `g` of a float.
+        The number in the format `g` of floats.
 
     Examples
     --------
@@ -97,7 +100,7 @@ def decimal(value: Fraction, digits: int = 10) -> str:
         return f"{number:.{digits}g}"
     exponent = math.floor(log10(value))
     mantissa = str(_scaled(abs(value), digits - 1 - exponent, digits))
-    # rounding may carry, and the logarithm be off beside a power of ten: the digits tell
+    # rounding may carry, and the logarithm may be inexact near a power of ten: the number of digits decides
     exponent += len(mantissa) - digits
     sign = "-" if value < 0 else ""
     rest = f".{mantissa[1:digits]}" if digits > 1 else ""
@@ -105,32 +108,32 @@ def decimal(value: Fraction, digits: int = 10) -> str:
 
 
 def _scaled(value: Fraction, power: int, digits: int) -> int:
-    """round(value * 10**power), a number of some `digits`, from the leading bits alone where they decide it."""
+    """Return round(value * 10**power), of about `digits` digits, from leading bits if these are sufficient."""
     with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
         near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
         off = near - near.to_integral_value()
-        # 30 digits more than are asked for: `off` is good to far less than 1e-10
+        # 30 guard digits: the error of `off` is far below 1e-10
         if abs(abs(off) - Decimal("0.5")) > Decimal("1e-10"):
             return int(near.to_integral_value())
     exact: Fraction = value * Fraction(10) ** power
-    return round(exact)  # a tie, or as good as one: all digits are needed
+    return round(exact)  # a tie, or almost one: all digits are needed
 
 
 def _leading(number: int) -> Decimal:
-    """A long positive integer to the precision of the context."""
+    """Return a long positive integer as a Decimal rounded to the precision of the context."""
     cut = max(number.bit_length() - 1024, 0)
     return Decimal(number >> cut) * Decimal(2) ** cut
 
 
 _PLAIN, _SHORT = 2000, 600
-"""Bits and digits of integers that Python itself writes and reads under any limit: none is below 640 digits."""
+"""Bits and digits of integers that Python converts itself; its limit on digits is never below 640."""
 
 
 def fraction_text(value: Fraction | int) -> str:
-    """All digits of a number, as `str` gives them, for numbers of any size.
+    """Format an integer or Fraction of any size with all digits, as `str` does.
 
-    Python refuses to write integers past 4300 digits, for it takes the square of their length. Decimals are put
-    together from halves instead, in little more than linear time; the limit of the process is neither met nor moved.
+    Python refuses to convert integers beyond 4300 digits, because its conversion takes quadratic time. Here decimals
+    are assembled from halves in almost linear time, and the limit of the process is not changed.
 
     >>> fraction_text(Fraction(-254, 19)), len(fraction_text(7**20_000))
     ('-254/19', 16902)
@@ -140,7 +143,7 @@ def fraction_text(value: Fraction | int) -> str:
 
 
 def read_fraction(text: str) -> Fraction:
-    """The number that `fraction_text` wrote, of any size.
+    """Parse the text of `fraction_text`, for numbers of any size.
 
     >>> read_fraction("-254/19"), read_fraction(fraction_text(7**20_000)) == 7**20_000
     (Fraction(-254, 19), True)
@@ -153,7 +156,7 @@ def read_fraction(text: str) -> Fraction:
 
 
 def abridged_text(value: Fraction | int, most: int = 40) -> str:
-    """All digits of a number up to `most` characters, above that their count.
+    """Format a number with all digits if these fit in `most` characters, else with the number of its digits.
 
     >>> abridged_text(Fraction(11, 10) ** 5), abridged_text(Fraction(11, 10) ** 5000)
     ('161051/100000', '(5207 digits)/(5001 digits)')
@@ -168,7 +171,7 @@ _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
 
 
 def watts_text(power: float) -> str:
-    """Watts with the prefix that keeps the number short.
+    """Format a power [W] with the SI prefix that keeps the number short.
 
     >>> watts_text(0.0025), watts_text(0)
     ('2.5 mW', '0 W')
@@ -180,7 +183,7 @@ def watts_text(power: float) -> str:
 
 
 def percent_text(part: Fraction | float, digits: int = 4) -> str:
-    """A share in percent; from ten times the whole on, as a multiple of it.
+    """Format a ratio as a percentage, or as a multiple from 10 on.
 
     >>> percent_text(Fraction(46, 47)), percent_text(Fraction(2588, 10))
     ('97.87 %', '258.8 times')
@@ -189,7 +192,7 @@ def percent_text(part: Fraction | float, digits: int = 4) -> str:
 
 
 def percent_of_text(part: Fraction, whole: str) -> str:
-    """A share of something named.
+    """Format a ratio as a percentage or multiple of a named whole.
 
     >>> percent_of_text(Fraction(1, 2), "the power in"), percent_of_text(Fraction(2588, 10), "the power in")
     ('50 % of the power in', '258.8 times the power in')
@@ -198,24 +201,24 @@ def percent_of_text(part: Fraction, whole: str) -> str:
 
 
 def plural(count: int, noun: str) -> str:
-    """`1 loop`, `2 loops`."""
+    """Format a count with its noun: `1 loop`, `2 loops`."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def is_short(value: Fraction | int, most: int) -> bool:
-    """True if all digits of a number take at most so many characters."""
+    """Return whether all digits of a number fit in `most` characters."""
     bits = value.numerator.bit_length() + value.denominator.bit_length()
     return bits < 4 * most + 8 and len(fraction_text(value)) <= most
 
 
 def count_digits(number: int) -> int:
-    """How many decimal digits an integer has, without writing it."""
+    """Count the decimal digits of an integer without converting it to text."""
     number = abs(number)
     if number < 10:
         return 1
     power = math.log10(number)
     nearest = round(power)
-    if abs(power - nearest) > 1e-9:  # the logarithm is good to 1e-15 of numbers of a million digits
+    if abs(power - nearest) > 1e-9:  # the relative error of the logarithm is 1e-15, also for a million digits
         return math.floor(power) + 1
     ten: int = 10**nearest
     return nearest + (number >= ten)
@@ -232,20 +235,20 @@ def _integer(digits: str) -> int:
 def _digits(number: int) -> str:
     if number.bit_length() <= _PLAIN:
         return str(number)
-    # `Inexact` is trapped: a digit lost would raise, and not be printed
+    # `Inexact` is trapped: rounding would raise an error, not print wrong digits
     with localcontext(Context(prec=MAX_PREC, Emax=MAX_EMAX, Emin=-MAX_EMAX, traps=[Inexact])):
-        return ("-" if number < 0 else "") + str(_joined(abs(number), abs(number).bit_length(), {}))
+        return ("-" if number < 0 else "") + str(_to_decimal(abs(number), abs(number).bit_length(), {}))
 
 
-def _joined(number: int, bits: int, powers: dict[int, Decimal]) -> Decimal:
-    """Divide and conquer: an integer of so many bits as a decimal, from its halves."""
+def _to_decimal(number: int, bits: int, powers: dict[int, Decimal]) -> Decimal:
+    """Convert an integer of the given number of bits to a Decimal by divide and conquer."""
     if bits <= _PLAIN:
         return Decimal(number)
     half = bits >> 1
     if half not in powers:
         powers[half] = _power_of_two(half, powers)
-    upper = _joined(number >> half, bits - half, powers)
-    return upper * powers[half] + _joined(number & ((1 << half) - 1), half, powers)
+    upper = _to_decimal(number >> half, bits - half, powers)
+    return upper * powers[half] + _to_decimal(number & ((1 << half) - 1), half, powers)
 
 
 def _power_of_two(exponent: int, powers: dict[int, Decimal]) -> Decimal:

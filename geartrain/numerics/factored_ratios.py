@@ -1,8 +1,9 @@
-"""Numbers that are each a short ratio times another one, kept so and multiplied out when they are read.
+"""Numbers stored as a short ratio to another number, and multiplied out when they are read.
 
-Along a train every speed is its neighbour's times a ratio of teeth. Where the ratio drifts, a speed a thousand links
-on has thousands of digits, and to keep them all costs the square of the train. So a number is held as a short ratio to
-one before it, and the whole of it is made from powers of the primes in all ratios on its way: one balanced product.
+Along a train every speed is its neighbour's times a ratio of teeth. Where the common factors do not cancel, a speed a
+thousand links on has thousands of digits, and storing all of them takes quadratic memory. Each number is therefore
+stored as a short ratio to an earlier one. Its value is a balanced product of powers of the primes in all ratios along
+its path.
 """
 
 from __future__ import annotations
@@ -17,24 +18,24 @@ from math import gcd
 from geartrain.numerics.exact import coprime, times
 
 _SHORT = 256
-"""Bits of numerator and denominator up to which a number is multiplied out at once."""
+"""Bits of numerator and denominator up to which a number is multiplied out immediately."""
 
 _HOPS = 64
-"""So many short ratios are multiplied one after the other; of more, the powers of their primes are counted."""
+"""Number of ratios that are multiplied one after another; longer paths count the powers of their primes."""
 
-_KEPT = 1 << 29
-"""Bits of long numbers that are remembered, for the next ones to be read are likely to be near: 64 MB."""
+_CACHE_BITS = 1 << 29
+"""Capacity [bit] of the cache of long numbers, 64 MB; numbers read next are likely to be near."""
 
-_SMALL = 1000  # primes up to here are divided out; what is left of a tooth count below the square is prime
-_MOST_ROUGH = 1000  # numbers without small primes: to part them from each other takes the square of how many they are
+_SMALL = 1000  # primes up to this are divided out; the cofactor of a number below its square is prime
+_MOST_ROUGH = 1000  # numbers without small primes: factor refinement takes quadratic time in their number
 
 
 class FactoredRatios:
-    """Numbers by position: roots, which are given, and others, each a ratio times one that is known already.
+    """Numbers by index: roots with given values, and numbers defined as a ratio times an earlier one.
 
-    parent, a, b     the number it was made from (-1: a root), and its ratio a / b to that
-    anchor           the number to which `top` / `bottom` is the ratio; -1 where that is the number itself
-    top, bottom      in lowest terms, bottom > 0; bottom 0: not known yet
+    parent, a, b     index of the number that it was derived from (-1 for a root), and its ratio a / b to that
+    anchor           index of the number to which `top` / `bottom` is the ratio; -1 if that is the value itself
+    top, bottom      ratio in lowest terms, bottom > 0; bottom is 0 if the number is not yet known
     """
 
     __slots__ = ("_bits", "_recent", "a", "anchor", "b", "bottom", "parent", "top")
@@ -47,11 +48,11 @@ class FactoredRatios:
         self._bits = 0
 
     def set_root(self, at: int, top: int, bottom: int = 1) -> None:
-        """Give a number, in lowest terms."""
+        """Set the value of a root, a fraction in lowest terms."""
         self.top[at], self.bottom[at] = top, bottom
 
     def follow(self, at: int, parent: int, a: int, b: int) -> None:
-        """Make a number a / b times a known one; a and b are short."""
+        """Define a number as a / b times a known one; a and b are short."""
         n, d = times(self.top[parent], self.bottom[parent], a, b)
         self.parent[at], self.a[at], self.b[at] = parent, a, b
         if n.bit_length() <= _SHORT and d.bit_length() <= _SHORT:
@@ -61,9 +62,9 @@ class FactoredRatios:
             self.top[at], self.bottom[at] = times(1, 1, a, b)
 
     def vanishes(self, terms: Iterable[tuple[int, int]]) -> bool:
-        """Whether a sum of numbers times coefficients is 0."""
+        """Return whether a linear combination of numbers, given as (index, coefficient), is 0."""
         terms = list(terms)
-        common = len({self.anchor[at] for at, _ in terms}) == 1  # all to one scale, which is not 0
+        common = len({self.anchor[at] for at, _ in terms}) == 1  # all are relative to the same number, which is not 0
         n, d = 0, 1
         for at, coefficient in terms:
             value = coprime(self.top[at], self.bottom[at]) if common else self.value(at)
@@ -72,47 +73,47 @@ class FactoredRatios:
         return n == 0
 
     def value(self, at: int) -> Fraction:
-        """A number multiplied out."""
+        """Return the value of a number, multiplied out."""
         if self.anchor[at] < 0:
             return coprime(self.top[at], self.bottom[at])
-        return coprime(*self._times(self._anchored(self.anchor[at]), at))
+        return coprime(*self._times(self._anchor_value(self.anchor[at]), at))
 
-    def _anchored(self, at: int) -> Fraction:
-        """The value of an anchor, which others near it will want too."""
+    def _anchor_value(self, at: int) -> Fraction:
+        """Return the value of an anchor and cache it for other numbers near it."""
         hops = []
         here = at
         while self.anchor[here] >= 0 and here not in self._recent:
             hops.append(here)
             here = self.anchor[here]
         if not hops:
-            return self._remembered(here)
+            return self._cached(here)
         if len(hops) > _HOPS:
-            value = self._counted(at)
+            value = self._value_from_powers(at)
         else:
-            value = self._remembered(here)
+            value = self._cached(here)
             for hop in reversed(hops):
                 value = coprime(*self._times(value, hop))
-        self._remember(at, value)
+        self._cache(at, value)
         return value
 
     def _times(self, value: Fraction, at: int) -> tuple[int, int]:
         return times(value.numerator, value.denominator, self.top[at], self.bottom[at])
 
-    def _remembered(self, at: int) -> Fraction:
+    def _cached(self, at: int) -> Fraction:
         if at not in self._recent:
             return coprime(self.top[at], self.bottom[at])
         self._recent.move_to_end(at)
         return self._recent[at]
 
-    def _remember(self, at: int, value: Fraction) -> None:
+    def _cache(self, at: int, value: Fraction) -> None:
         self._recent[at] = value
         self._bits += _bits(value)
-        while self._bits > _KEPT and len(self._recent) > 1:
+        while self._bits > _CACHE_BITS and len(self._recent) > 1:
             _, forgotten = self._recent.popitem(last=False)
             self._bits -= _bits(forgotten)
 
-    def _counted(self, at: int) -> Fraction:
-        """A number from the root's and the ratios on the way from there, each factor counted once for all."""
+    def _value_from_powers(self, at: int) -> Fraction:
+        """Compute a number from its root and the powers of all ratios along the path."""
         counts: dict[int, int] = {}
         while (parent := self.parent[at]) >= 0:
             a, b = self.a[at], self.b[at]
@@ -128,7 +129,7 @@ def _bits(value: Fraction) -> int:
 
 
 def product_of_powers(powers: dict[int, int]) -> Fraction:
-    """The product of integers to whole powers, reduced without a gcd of long numbers.
+    """Return the product of integer powers of integers, reduced without a gcd of long numbers.
 
     >>> product_of_powers({6: 2, -4: -1, 15: -3})
     Fraction(-1, 375)
@@ -144,18 +145,18 @@ def product_of_powers(powers: dict[int, int]) -> Fraction:
             if left > 1:
                 into = primes if left < _SMALL**2 else rough
                 into[left] = into.get(left, 0) + power
-    for factor, power in _parted(rough).items():
+    for factor, power in _coprime_factors(rough).items():
         primes[factor] = primes.get(factor, 0) + power
-    top = _balanced([factor**power for factor, power in primes.items() if power > 0])
-    bottom = _balanced([factor**-power for factor, power in primes.items() if power < 0])
-    if len(rough) > _MOST_ROUGH:  # they were not parted, and may have factors in common
+    top = _product_tree([factor**power for factor, power in primes.items() if power > 0])
+    bottom = _product_tree([factor**-power for factor, power in primes.items() if power < 0])
+    if len(rough) > _MOST_ROUGH:  # they were not refined, and may have common factors
         return Fraction(sign * top, bottom)
     return coprime(sign * top, bottom)
 
 
 @lru_cache(maxsize=1 << 16)
 def _small_primes(number: int) -> tuple[tuple[tuple[int, int], ...], int]:
-    """The primes below a thousand in a number with their powers, and what is left."""
+    """Factor out the primes below 1000; return them with their exponents, and the remaining cofactor."""
     found = []
     for prime in _PRIMES:
         if prime * prime > number:
@@ -172,8 +173,11 @@ def _small_primes(number: int) -> tuple[tuple[tuple[int, int], ...], int]:
 _PRIMES = [n for n in range(2, _SMALL) if all(n % k for k in range(2, int(n**0.5) + 1))]
 
 
-def _parted(powers: dict[int, int]) -> dict[int, int]:
-    """Factor refinement: large numbers' powers as those of numbers that share no factor; too many stay as they are."""
+def _coprime_factors(powers: dict[int, int]) -> dict[int, int]:
+    """Rewrite powers of large numbers as powers of pairwise coprime factors (factor refinement).
+
+    More than `_MOST_ROUGH` numbers are returned unchanged, because the refinement takes quadratic time.
+    """
     if len(powers) > _MOST_ROUGH:
         return powers
     base: list[int] = []
@@ -196,12 +200,12 @@ def _parted(powers: dict[int, int]) -> dict[int, int]:
     return found
 
 
-def _balanced(factors: list[int]) -> int:
-    """Product tree: the product of long numbers, the shortest first."""
+def _product_tree(factors: list[int]) -> int:
+    """Multiply long numbers by a product tree, the shortest first."""
     if not factors:
         return 1
     heapify(factors)
     while len(factors) > 1:
-        minimum = heappop(factors)  # factors of like length: fast multiplication pays for those alone
+        minimum = heappop(factors)  # factors of similar length: fast multiplication is efficient only for these
         heapreplace(factors, minimum * factors[0])
     return factors[0]

@@ -1,6 +1,7 @@
-"""Paths in a rooted forest, and groups of things that are joined: what several rooms ask of a small graph.
+"""Paths in a rooted forest, and disjoint sets (union-find), also with ratios.
 
-A forest is given by the vertex above each one; None above a root. It may be as deep as it likes: nothing recurs.
+A forest is given by a function that returns the parent of a vertex, and None for a root. All algorithms are iterative,
+so that the forest can have any depth.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ V = TypeVar("V", bound=Hashable)
 
 
 def chain_to_root(vertex: V, above: Callable[[V], V | None]) -> list[V]:
-    """A vertex and all that stand above it, up to its root."""
+    """Return a vertex and all its ancestors, up to its root."""
     chain = [vertex]
     while (vertex_above := above(chain[-1])) is not None:
         chain.append(vertex_above)
@@ -22,9 +23,9 @@ def chain_to_root(vertex: V, above: Callable[[V], V | None]) -> list[V]:
 
 
 def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple[list[V], list[V]]:
-    """The ways from two vertices of one tree up to the nearest vertex above both; each ends with that one.
+    """Return the paths from two vertices of one tree up to their lowest common ancestor, which ends both.
 
-    With the edge i j they make the fundamental cycle of that edge.
+    Together with the edge i j they form the fundamental cycle of that edge.
 
     >>> ways_to_common_ancestor("c", "d", {"c": "b", "b": "a", "d": "b"}.get)
     (['c', 'b'], ['d', 'b'])
@@ -37,38 +38,38 @@ def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple
 
 
 def tree_path(i: V, j: V, above: Callable[[V], V | None]) -> list[V]:
-    """The vertices on the way from i to j in one tree, both ends included."""
+    """Return the vertices on the path from i to j in one tree, including both ends."""
     up, down = ways_to_common_ancestor(i, j, above)
     return up + down[-2::-1]
 
 
 class DisjointSets(Generic[V]):
-    """Things in groups that only grow together (union-find); a thing not heard of before is a group by itself."""
+    """Disjoint sets that can only be merged (union-find); an element not seen before forms a set by itself."""
 
     def __init__(self) -> None:
         self._above: dict[V, V] = {}
 
     def find(self, thing: V) -> V:
-        """The head of a thing's group: the same for all of its members until the group grows."""
+        """Return the representative of an element's set, the same for all elements until the set is merged."""
         above = self._above
         while (head := above.setdefault(thing, thing)) != thing:
-            above[thing] = above[head]  # path halving: half the way for the next to ask
+            above[thing] = above[head]  # path halving
             thing = above[thing]
         return thing
 
     def join(self, first: V, second: V) -> None:
-        """Make one group of the groups of two things."""
+        """Merge the sets of two elements."""
         self._above[self.find(second)] = self.find(first)
 
     def are_apart(self, first: V, second: V) -> bool:
-        """True if two things are in different groups."""
+        """Return whether two elements are in different sets."""
         return self.find(first) != self.find(second)
 
 
 class RatioSets(Generic[V]):
-    """Things whose sizes are known multiples of one another: a union-find with exact weights.
+    """Sets of quantities with known ratios: a union-find with exact weights.
 
-    A thing not heard of before is known against itself only. What is said first counts: `join` changes no known ratio.
+    A quantity not seen before has a known ratio to itself only. `join` does not change ratios that are already known.
 
     >>> sizes = RatioSets()
     >>> sizes.join("inch", "foot", Fraction(12))
@@ -81,34 +82,34 @@ class RatioSets(Generic[V]):
         self._above: dict[V, tuple[V, Fraction]] = {}
 
     def root(self, thing: V) -> tuple[V, Fraction]:
-        """The head of a thing's group, and how many times the head's size its own is."""
+        """Return the representative of a quantity's set, and the ratio of the quantity to it."""
         way = []
         while (step := self._above.get(thing)) is not None:
             way.append((thing, step[1]))
             thing = step[0]
         times = Fraction(1)
-        for passed, factor in reversed(way):  # all on the way hang on the head from now on
+        for passed, factor in reversed(way):  # path compression
             times *= factor
             self._above[passed] = thing, times
         return thing, times
 
     def join(self, first: V, second: V, ratio: Fraction) -> None:
-        """Make the size of the second `ratio` times that of the first, where nothing says how large it is."""
+        """Set the second quantity to `ratio` times the first, unless their ratio is already known."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         if root != other:
             self._above[other] = root, ratio * times / multiple
 
     def ratio(self, first: V, second: V) -> Fraction | None:
-        """Size of the first over that of the second; None where it is not known."""
+        """Return the ratio of the first to the second quantity, or None if it is unknown."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         return times / multiple if root == other else None
 
 
 def joined_groups(things: Iterable[V], joints: Iterable[Iterable[V]]) -> list[list[V]]:
-    """The groups of things that joints, each between any number of things, hold together.
+    """Group elements that are connected by joints, each between any number of elements.
 
-    Groups stand in the order of their first members, and members in the order given. What a joint names beside the
-    things does not count.
+    Groups are in the order of their first members, and members in the given order. Names in a joint that are not among
+    the elements are ignored.
 
     >>> joined_groups("abcde", ["cax", "eb", "xd"])
     [['a', 'c'], ['b', 'e'], ['d']]

@@ -1,4 +1,4 @@
-"""Lattices of integer rows: a basis of all integer rows in a rational span, and integer columns dual to it."""
+"""Lattices of integer rows: a basis of all integer rows in a rational span, and its dual basis of integer columns."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ Row = dict[int, int]
 
 
 def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], list[Row], int]:
-    """Saturation: a basis of all integer rows in the span of some, columns dual to it, and the index of the rows in it.
+    """Return a basis of the saturated lattice of integer rows, its dual columns, and the index of the rows in it.
 
-    Whole operations on columns bring the rows to a triangle H, Y V = [H 0]: Hermite's form, its entries not reduced.
-    The basis is H^-1 Y, and the first columns of V are dual to it. The index is det H: 1 where the rows are a basis
-    already. Rows that depend on others drop out.
+    The saturated lattice consists of all integer rows in the rational span. Unimodular column operations bring the rows
+    to triangular form, Y V = [H 0], which is Hermite's normal form without reduction of its entries. The basis is H^-1
+    Y, and the first columns of V are dual to it. The index is det H, and is 1 if the rows are already a basis. Linearly
+    dependent rows are dropped.
     """
     columns: dict[int, Row] = {}
     for at, row in enumerate(rows):
@@ -33,7 +34,7 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
         rest = dict(row)
         for known, before in zip(basis, pivots, strict=True):
             add_into(rest, known, -before.get(at, 0))
-        basis.append({key: value // column[at] for key, value in rest.items()})  # divides without a rest
+        basis.append({key: value // column[at] for key, value in rest.items()})  # divides without remainder
         pivots.append(column)
         dual.append(move)
         index *= abs(column[at])  # the diagonal of H
@@ -41,10 +42,10 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
 
 
 def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | None:
-    """Euclid's algorithm on the entries of one row, until one column has all of it."""
+    """Reduce the entries of one row by Euclid's algorithm until at most one column is nonzero; return that column."""
     live = [key for key, column in columns.items() if at in column]
     while len(live) > 1:
-        # by the smallest entry: remainders, and the numbers in `moves`, stay short
+        # divide by the smallest entry: remainders, and the numbers in `moves`, stay short
         minimum = min(live, key=lambda key: abs(columns[key][at]))
         size = columns[minimum][at]
         for key in live:

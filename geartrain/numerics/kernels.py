@@ -1,16 +1,16 @@
-"""Kernels: functions of numbers and arrays in plain Python that can be compiled, once and for all processes to come.
+"""Kernels: numerical functions in plain Python that numba can compile and cache on disk.
 
-A kernel is written with `@kernel` and called like any function; it then runs as Python. `compiled` is the same function
-as machine code by numba, an optional library (the extra `fast`), which keeps it on disk: beside the package, or where
-that cannot be written in the user's cache or `NUMBA_CACHE_DIR`. numba is imported when a kernel is first compiled or
-loaded, never before.
+A function decorated with `@kernel` is called like any function and then runs as Python. Its attribute `compiled` is
+the same function as machine code, compiled by numba, an optional dependency (the extra `fast`). numba caches the
+machine code in the package's folder. If that is not writable, it uses the user's cache folder or `NUMBA_CACHE_DIR`.
+numba is imported only when a kernel is first compiled or loaded.
 
-A kernel may call other kernels by their names, and functions of `math`; what it calls is part of what the file on disk
-is known by, so that a change anywhere in it is compiled anew. Rounding is that of Python: no sums are reordered and no
-products fused. A division by zero gives an infinity, as in numpy, where Python's floats would raise. Arguments should
-keep their types, C-contiguous and writable arrays, for each new type is compiled anew.
+A kernel may call other kernels by name, and functions of `math`. The code of the called kernels is part of the cache
+key, so a change anywhere recompiles all callers. Rounding is as in Python: sums are not reordered and products are not
+fused. A division by zero returns an infinity, as in numpy, and does not raise an error as in Python. Arguments should
+keep their types and be C-contiguous writable arrays, because every new type requires a compilation.
 
-Compilation takes seconds: `telling` calls a function when it begins, and Ctrl-C ends it.
+Compilation takes seconds. `telling` calls a function when it begins, and Ctrl-C ends it.
 """
 
 from __future__ import annotations
@@ -28,35 +28,35 @@ from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from geartrain.errors import MissingExtraError
 
-_told: list[Callable[[], None]] = []  # called when a kernel is compiled; each once
+_listeners: list[Callable[[], None]] = []  # functions called once when a kernel is compiled
 
 
 @contextmanager
 def telling(say: Callable[[], None]) -> Iterator[None]:
-    """Call `say` before the first kernel that is compiled within, if any is: not for those loaded from disk."""
-    _told.append(say)
+    """Call `say` before the first kernel is compiled within the context; loading from disk does not count."""
+    _listeners.append(say)
     try:
         yield
     finally:
-        if say in _told:
-            _told.remove(say)
+        if say in _listeners:
+            _listeners.remove(say)
 
 
 @contextmanager
 def compilation() -> Iterator[None]:
-    """Around all that numba does before a kernel runs.
+    """Wrap all work that numba does before a kernel runs, so that Ctrl-C ends it.
 
-    Ctrl-C ends it. Python drops an interrupt that comes while a compiler calls back into Python, or while an object is
-    disposed of, and complains; here it is kept in silence, and raised as soon as the kernel is made.
+    Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is
+    finalised. Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
     """
-    with _hearing(), _interruptible():
+    with _compilation_events(), _interruptible():
         yield
 
 
 @contextmanager
-def _hearing() -> Iterator[None]:
-    """Tell those who want to know when numba really compiles."""
-    if not _told:
+def _compilation_events() -> Iterator[None]:
+    """Call the registered functions when numba begins to compile."""
+    if not _listeners:
         yield
         return
     event = import_module("numba.core.event")
@@ -66,28 +66,28 @@ def _hearing() -> Iterator[None]:
 
 
 class _Listener:
-    """What numba notifies when it begins and ends to compile a function."""
+    """Listener for numba's events at the start and end of a compilation."""
 
     def notify(self, event: Any) -> None:
-        """Pass the word on, once."""
-        while _told:
-            _told.pop(0)()
+        """Call all registered functions, each once."""
+        while _listeners:
+            _listeners.pop(0)()
 
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """Raise an interrupt within that Python could not raise where it came."""
-    if current_thread() is not main_thread():  # interrupts come to the main thread alone
+    """Raise a KeyboardInterrupt at the end of the context if Python had to ignore it within."""
+    if current_thread() is not main_thread():  # interrupts are delivered to the main thread only
         yield
         return
     before, dropped = sys.unraisablehook, False
 
-    def note(told: sys.UnraisableHookArgs) -> None:
+    def note(ignored: sys.UnraisableHookArgs) -> None:
         nonlocal dropped
-        if issubclass(told.exc_type, KeyboardInterrupt):
+        if issubclass(ignored.exc_type, KeyboardInterrupt):
             dropped = True
         else:
-            before(told)
+            before(ignored)
 
     sys.unraisablehook = note
     try:
@@ -101,52 +101,52 @@ def _interruptible() -> Iterator[None]:
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_PAYS = 5.0  # s of work: less is done before numba is imported and kernels are loaded, which takes some half a second
-_PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # values of globals that are compiled into a kernel
+_PAYS = 5.0  # s of work above which kernels pay off: importing numba and loading kernels takes about 0.5 s
+_PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # types of global constants that are compiled into a kernel
 
 
 class Kernel(Generic[P, R]):
-    """A function in plain Python, and the same compiled; made by `kernel`."""
+    """A function in plain Python together with its compiled form; created by `kernel`."""
 
     def __init__(self, function: Callable[P, R]) -> None:
         update_wrapper(self, function)
         self._function = cast(FunctionType, function)
 
     def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
-        """The function as Python runs it."""
+        """Call the function in plain Python."""
         return cast(R, self._function(*arguments, **named))
 
     @cached_property
     def compiled(self) -> Callable[P, R]:
-        """The function compiled, or loaded from disk when it is first called. Raises `MissingExtraError`."""
+        """Compiled function, loaded from disk if possible. Raises `MissingExtraError` without numba."""
         return self._made()
 
     @cached_property
     def _called(self) -> Callable[P, R]:
-        """The function compiled for other kernels alone, which takes less time."""
+        """The function compiled for calls from other kernels only, which takes less time."""
         return self._made(no_cpython_wrapper=True)
 
     def _made(self, **options: bool) -> Callable[P, R]:
         numba = _numba()
-        # a twin whose names of kernels stand for compiled ones; its own name holds all that it is compiled from
-        twin = self._twin({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
+        # a copy that calls compiled kernels; the hash in its name makes numba's cache key depend on all of its sources
+        twin = self._copy_with({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
         twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}{'_'.join(['', *options])}"
         made = numba.njit(twin, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)
-        with suppress(RuntimeError):  # where neither the package's folder nor a cache of the user's can be written
+        with suppress(RuntimeError):  # neither the package's folder nor the user's cache is writable
             made.enable_caching()
-        made.compile = compilation()(made.compile)  # what numba calls to compile or load it for some types
+        made.compile = compilation()(made.compile)  # called by numba to compile or load the kernel for some types
         return cast("Callable[P, R]", made)
 
     def chosen(self, fast: bool) -> Callable[P, R]:
-        """The function compiled if it is to be fast, or as Python runs it."""
+        """Return the compiled function if `fast`, else the function in plain Python."""
         return self.compiled if fast else self
 
     def replaced(self, **kernels: Kernel[..., Any]) -> Kernel[P, R]:
-        """The same function with other kernels for some of those that it calls, by name; not through others."""
-        return Kernel(cast("Callable[P, R]", self._twin(kernels)))
+        """Return the function with some of the kernels that it calls directly replaced, by name."""
+        return Kernel(cast("Callable[P, R]", self._copy_with(kernels)))
 
-    def _twin(self, names: Mapping[str, object]) -> FunctionType:
-        """The function with other things for some of the names of its module."""
+    def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
+        """Return a copy of the function with some global names bound to other objects."""
         own = self._function
         twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)
         twin.__annotations__ = own.__annotations__
@@ -154,16 +154,16 @@ class Kernel(Generic[P, R]):
 
     @property
     def _named(self) -> dict[str, Any]:
-        """What the names of the function stand for in its module."""
+        """Objects that the global names in the function refer to, by name."""
         known = self._function.__globals__
         return {name: known[name] for name in _names(self._function.__code__) if name in known}
 
     @cached_property
     def digest(self) -> str:
-        """Of all that the function is compiled from: its code, constants of its module, kernels it calls.
+        """Hash of the function's code, the constants of its module that it uses, and the kernels that it calls.
 
-        Also of the named tuples that its module knows: what is kept on disk holds them as types, and cannot be read
-        where one has gone.
+        The named tuples of its module are included too, because the cache on disk contains them as types and cannot be
+        loaded when one of them has been removed.
         """
         function = self._function
         found = sha256(f"{function.__module__} {function.__annotations__} {_text(function.__code__)}".encode())
@@ -179,16 +179,16 @@ class Kernel(Generic[P, R]):
 
 
 def kernel(function: Callable[P, R]) -> Kernel[P, R]:
-    """A function of numbers and arrays as one that can be compiled: a decorator."""
+    """Mark a function of numbers and arrays as one that can be compiled; a decorator."""
     return Kernel(function)
 
 
 def is_fast(fast: bool | None, seconds: float) -> bool:
-    """Whether kernels are compiled for work that takes Python and numpy some seconds.
+    """Return whether to compile kernels for work that takes `seconds` in Python and numpy.
 
-    fast   as the user asks; None compiles if numba is there and the work large enough to pay for loading it
+    fast   the user's choice; None compiles if numba is installed and the work is long enough to justify loading it
 
-    Raises `MissingExtraError` where numba is asked for and is not installed.
+    Raises `MissingExtraError` if `fast` is true and numba is not installed.
     """
     if fast is None:
         return seconds >= _PAYS and find_spec("numba") is not None and usable()
@@ -198,7 +198,7 @@ def is_fast(fast: bool | None, seconds: float) -> bool:
 
 
 def usable() -> bool:
-    """Whether numba is installed and can be imported."""
+    """Return whether numba is installed and can be imported."""
     try:
         _numba()
     except MissingExtraError:
@@ -209,7 +209,7 @@ def usable() -> bool:
 def _numba() -> ModuleType:
     try:
         return import_module("numba")
-    except ImportError as error:  # or one that does not know this Python or numpy yet
+    except ImportError as error:  # also raised by a version that does not support this Python or numpy
         raise MissingExtraError("numba", "fast", "compiling kernels") from error
 
 

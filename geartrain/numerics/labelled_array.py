@@ -1,4 +1,4 @@
-"""Read-only arrays with names on their axes."""
+"""Read-only arrays with named axes and labelled positions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _MOST = 40  # labels of an axis that are shown whole
 class LabelledArray(Tabular, Result):
     """A read-only array whose every axis has a name and a label for each position.
 
-    `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels; `KeyError` for one there is not.
+    `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels. An unknown label raises `KeyError`.
 
     Examples
     --------
@@ -33,11 +33,11 @@ class LabelledArray(Tabular, Result):
     KEYS = ("axes", "labels", "values")
 
     values: NDArray[Any]
-    """The numbers, of any shape, read-only."""
+    """The numbers, an array of any shape, read-only."""
     axes: tuple[str, ...]
-    """A name for each axis, such as ("link", "case")."""
+    """Name of each axis, such as ("link", "case")."""
     labels: tuple[tuple[str, ...], ...]
-    """A label for each position of each axis."""
+    """Label of each position, for each axis."""
 
     def __post_init__(self) -> None:
         if self.values.shape != tuple(len(names) for names in self.labels):
@@ -45,13 +45,17 @@ class LabelledArray(Tabular, Result):
         self.values.flags.writeable = False
 
     def __getitem__(self, key: str | tuple[str, ...]) -> Any:
-        """The value (or sub-array) at the given labels, one an axis, in order."""
+        """Return the value or sub-array at the given labels, one for each axis in order."""
         keys = (key,) if isinstance(key, str) else key
         return self.values[tuple(self._position(axis, label) for axis, label in enumerate(keys))]
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """A row for each label of the last axis, and a column for each of the first; of more axes a row a number."""
+        """Table with a row for each label of the second axis and a column for each of the first.
+
+        An array with one axis has a column of labels and one of values. An array with three or more axes has a row for
+        each value.
+        """
         if len(self.axes) == 1:
             return {self.axes[0]: self.labels[0], "value": self.values.tolist()}
         if len(self.axes) == 2:
@@ -78,7 +82,7 @@ class LabelledArray(Tabular, Result):
         return "Value at the labels." if column == "value" else f"Value at {self.axes[0]} {column}."
 
     def __str__(self) -> str:
-        """The values as numpy prints them, with names and labels of the axes."""
+        """Return the values as numpy prints them, with the names and labels of the axes."""
         labels = ", ".join(_names(each) for each in self.labels)
         return f"LabelledArray(values={self.values!r}, axes={self.axes!r}, labels=({labels}))"
 
@@ -97,7 +101,7 @@ class LabelledArray(Tabular, Result):
 
 
 def _shown(count: int) -> list[int | None]:
-    """Which positions of an axis are shown: all, or some from both ends about None."""
+    """Return the displayed positions of an axis: all, or some from both ends around None."""
     if count <= _MOST:
         return list(range(count))
     return [*range(_MOST // 2), None, *range(count - _MOST // 2, count)]
@@ -114,5 +118,5 @@ def _names(names: Sequence[str]) -> str:
 
 
 def labelled_array(values: NDArray[Any], **axes: Sequence[str]) -> LabelledArray:
-    """A `LabelledArray` with one keyword an axis: `labelled_array(speeds, link=names, case=cases)`."""
+    """Create a `LabelledArray` with one keyword per axis: `labelled_array(speeds, link=names, case=cases)`."""
     return LabelledArray(values, tuple(axes), tuple(tuple(names) for names in axes.values()))

@@ -1,7 +1,7 @@
-"""A networkx multigraph some of whose attributes are made when they are first read.
+"""A networkx multigraph with attributes that are computed when they are first read.
 
-What an edge knows may cost more than the graph: it is put in as `Lazy(make)`, and whoever reads the attribute, in any
-of networkx's ways, finds what `make` gave.
+Attributes of an edge may cost more than the graph. Such an attribute is stored as `Lazy(make)`, and any of networkx's
+ways to read it returns the result of `make`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import networkx as nx
 
 
 class Lazy:
-    """A value that is made once, when first asked for."""
+    """A value that is computed once, on first access."""
 
     __slots__ = ("_make", "_value")
 
@@ -22,15 +22,15 @@ class Lazy:
         self._value: Any = None
 
     def __call__(self) -> Any:
-        """The value."""
+        """Return the value, computing it on the first call."""
         if self._make is not None:
             self._value = self._make()
-            self._make = None  # what it held may go
+            self._make = None  # releases the memory of the function
         return self._value
 
 
 class LazyDict(dict[str, Any]):
-    """A dictionary that makes its `Lazy` values when they are read; others see plain values only.
+    """A dictionary that computes its `Lazy` values when they are read; callers see plain values only.
 
     >>> requested = []
     >>> data = LazyDict(id="a", cost=Lazy(lambda: requested.append("cost") or 7))
@@ -47,35 +47,35 @@ class LazyDict(dict[str, Any]):
         return value() if isinstance(value, Lazy) else value
 
     def __iter__(self) -> Iterator[str]:
-        # its own, for dict(...) and update(...) copy what is stored, unread, from a dictionary that keeps dict's
+        # needed: dict(...) and update(...) copy stored values directly from a dictionary with the inherited __iter__
         return super().__iter__()
 
     def get(self, key: str, default: Any = None) -> Any:
-        """The value, or `default` where there is none."""
+        """Return the value of a key, or `default` if the key is missing."""
         if key not in self:
             return default
         return self[key]
 
     def pop(self, key: str, *default: Any) -> Any:
-        """Take a value out."""
+        """Remove a key and return its value."""
         value = super().pop(key, *default)
         return value() if isinstance(value, Lazy) else value
 
     def setdefault(self, key: str, default: Any = None) -> Any:
-        """The value, put in first where there is none."""
+        """Return the value of a key, inserting `default` first if the key is missing."""
         super().setdefault(key, default)
         return self[key]
 
     def values(self) -> Any:
-        """All values, made."""
+        """Return all values, computing lazy ones."""
         return self._made().values()
 
     def items(self) -> Any:
-        """All items, their values made."""
+        """Return all items, computing lazy values."""
         return self._made().items()
 
     def copy(self) -> dict[str, Any]:
-        """A plain dictionary of the same values, made."""
+        """Return a plain dictionary of all values, computing lazy ones."""
         return self._made()
 
     def __eq__(self, other: object) -> bool:
@@ -108,11 +108,11 @@ else:
 
 
 class LazyGraph(_MultiGraph):
-    """A multigraph whose nodes and edges carry `LazyDict`s."""
+    """A multigraph whose nodes and edges store attributes in `LazyDict` objects."""
 
     node_attr_dict_factory = LazyDict
     edge_attr_dict_factory = LazyDict
 
     def __repr__(self) -> str:
-        """The line of networkx, which has names and numbers."""
+        """Return networkx's summary line with name and numbers of nodes and edges."""
         return f"<{self}>"

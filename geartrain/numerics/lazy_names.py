@@ -1,4 +1,4 @@
-"""Public names of a package that are imported when they are first asked for (PEP 562), so that none waits for all."""
+"""Public names of a package that are imported on first access (PEP 562), so that no import loads all modules."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 
 def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
-    """The `__getattr__` of a package.
+    """Return the `__getattr__` function of a package.
 
     homes   name -> the module below `package` that defines it; with leading dots, relative to a package above it
     """

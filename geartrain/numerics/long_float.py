@@ -1,4 +1,4 @@
-"""Floats whose exponent has no end: a mantissa as of float64, and a power of two beside it."""
+"""Floats with an unbounded exponent: a float64 mantissa and an integer power of two."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from typing import Any, Self
 from geartrain.numerics.exact import decimal
 
 LOWEST, HIGHEST = -1021, 1024
-"""Exponents of mantissas from 1/2 to 1 that float64 holds with all its bits."""
+"""Range of exponents with which float64 represents mantissas from 1/2 to 1 with all 53 bits."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LongFloat(Rational):
-    """mantissa * 2**exponent, a number rounded to 53 bits that float64 has no exponent for.
+    """A number mantissa * 2**exponent with 53 bits whose exponent is out of the range of float64.
 
-    Arithmetic rounds as that of floats does, and gives a float again wherever one holds the result. Mixed with floats,
-    integers and Fractions; `Fraction(value)` is its value, which like that of any float is not the exact answer.
+    Arithmetic rounds like that of floats, and returns a float wherever one can represent the result. Operands may also
+    be floats, integers and Fractions. `Fraction(value)` is its exact value, which like that of any float is rounded.
 
     Examples
     --------
@@ -30,33 +30,33 @@ class LongFloat(Rational):
     """
 
     mantissa: float
-    """From 1/2 to 1, 1 left out, or the negative of that."""
+    """Mantissa, from 1/2 (included) to 1 (excluded), or the negative of such a number."""
     exponent: int
-    """Of two."""
+    """Exponent of two."""
 
     @classmethod
     def make(cls, mantissa: float, exponent: int) -> Any:
-        """A number from any mantissa: a float if float64 holds it.
+        """Return the number mantissa * 2**exponent, as a float if float64 can represent it.
 
         Parameters
         ----------
         mantissa : float
             Any finite number.
         exponent : int
-            Of two.
+            Exponent of two.
         """
         return scaled(mantissa, exponent)
 
     @property
     def numerator(self) -> int:
-        """Of the value in lowest terms."""
+        """Numerator of the value in lowest terms."""
         top, bottom = self.mantissa.as_integer_ratio()
         shift = self.exponent - (bottom.bit_length() - 1)
         return top << max(shift, 0)
 
     @property
     def denominator(self) -> int:
-        """Of the value in lowest terms."""
+        """Denominator of the value in lowest terms."""
         _, bottom = self.mantissa.as_integer_ratio()
         return 1 << max(bottom.bit_length() - 1 - self.exponent, 0)
 
@@ -64,11 +64,13 @@ class LongFloat(Rational):
         parts = _parts(other)
         if parts is None:
             return NotImplemented
-        # the greater exponent first: the other number is shifted down, which cannot overflow
+        # larger exponent first: the other number is shifted down, which cannot overflow
         (high, top), (low, bottom) = sorted(((self.mantissa, self.exponent), parts), key=lambda each: -each[1])
-        if not high or not low:  # a zero has no exponent to go by
+        if not high or not low:  # the exponent of a zero is meaningless
             return self.make(low or high, top if high else bottom)
-        return self.make(high + math.ldexp(low, max(bottom - top, -1000)), top)  # beyond 1000 bits all is lost
+        return self.make(
+            high + math.ldexp(low, max(bottom - top, -1000)), top
+        )  # beyond 1000 bits the smaller number has no effect
 
     __radd__ = __add__
 
@@ -156,29 +158,29 @@ class LongFloat(Rational):
         return rounded(Fraction(self) ** power) if isinstance(power, int) else NotImplemented
 
     def __rpow__(self, base: Any) -> Any:
-        raise OverflowError(f"nothing is raised to the power of {self}")
+        raise OverflowError(f"the exponent {self} is out of range")
 
     def __float__(self) -> float:
-        raise OverflowError(f"float64 does not hold {self}")
+        raise OverflowError(f"{self} is out of the range of float64")
 
     def __str__(self) -> str:
         return format(self, ".10g")
 
     def __format__(self, spec: str) -> str:
-        """As floats are written, with a sign and a number of digits."""
+        """Format the number like a float, with an optional sign and number of digits."""
         found = re.fullmatch(r"(\+?)(?:\.(\d+))?([eg]?)", spec)
         if found is None:
-            raise ValueError(f"'{spec}' is no format for long floats; use one as '.10g'")
+            raise ValueError(f"'{spec}' is not a format for long floats; use one such as '.10g'")
         digits = int(found[2] or 10) + (found[3] == "e")
         return ("+" if found[1] and self.mantissa > 0 else "") + decimal(Fraction(self), digits)
 
 
 Real = float | LongFloat
-"""A number of 53 bits, whatever its exponent."""
+"""A number of 53 bits with any exponent."""
 
 
 def scaled(mantissa: float, exponent: int) -> Real:
-    """mantissa * 2**exponent: a float if float64 holds it, else a `LongFloat`."""
+    """Return mantissa * 2**exponent, as a float if float64 can represent it, else as a `LongFloat`."""
     if not exponent:
         return mantissa
     part, shift = math.frexp(mantissa)
@@ -189,22 +191,22 @@ def scaled(mantissa: float, exponent: int) -> Real:
 
 
 def rounded(value: Fraction) -> Real:
-    """The nearest number of 53 bits."""
+    """Return the nearest number of 53 bits."""
     part, power = split(value)
     return scaled(part, power)
 
 
 def split(value: Fraction | int) -> tuple[float, int]:
-    """Mantissa, 1/2 to 1, and exponent of two nearest to an exact number; (0, 0) of 0."""
+    """Split an exact number into the nearest mantissa, 1/2 to 1, and exponent of two; (0, 0) for 0."""
     top, bottom = value.numerator, value.denominator
     power = top.bit_length() - bottom.bit_length()
-    # shifted to like length the quotient is between 1/2 and 2, and Python rounds that of two integers once
+    # shifted to equal length, the quotient is between 1/2 and 2, and Python rounds a quotient of integers only once
     part, shift = math.frexp((top << max(-power, 0)) / (bottom << max(power, 0)))
     return part, (power + shift if part else 0)
 
 
 def as_plain(value: Real | None) -> float | None:
-    """A float, or None where float64 has none."""
+    """Return a value that is a float; None for a `LongFloat` or None."""
     return value if isinstance(value, float) else None
 
 

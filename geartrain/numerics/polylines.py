@@ -1,4 +1,4 @@
-"""Lines of points in a plane."""
+"""Simplification of polylines in a plane."""
 
 from __future__ import annotations
 
@@ -11,16 +11,19 @@ if TYPE_CHECKING:
 
 
 def simplified(points: Floats, tolerance: float) -> list[int]:
-    """Ramer-Douglas-Peucker: which of a line's points (n, 2) are kept, so that all others are near the line of those.
+    """Return the indices of the points of a polyline (n, 2) that remain after Ramer-Douglas-Peucker simplification.
 
-    Both ends are kept; where they are one point, distances are counted from it. Ramer, Computer Graphics and Image
-    Processing 1 (1972) 244; Douglas and Peucker, Cartographica 10 (1973) 112.
+    All other points are within `tolerance` of the simplified line. Both ends are kept. If they coincide, distances are
+    measured from that point. Ramer, Computer Graphics and Image Processing 1 (1972) 244; Douglas and Peucker,
+    Cartographica 10 (1973) 112.
 
     >>> simplified(np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.1], [3.0, 5.0], [4.0, 6.0]]), 0.5)
     [0, 2, 3, 4]
     """
     kept = {0, len(points) - 1}
-    waiting = [(0, len(points) - 1)]  # no recursion: a flank may have thousands of points
+    waiting = [
+        (0, len(points) - 1)
+    ]  # a stack, because recursion could be too deep for a flank with thousands of points
     while waiting:
         first, last = waiting.pop()
         if last - first < 2:

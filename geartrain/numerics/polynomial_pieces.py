@@ -1,6 +1,7 @@
-"""Smooth curves as polynomials of one degree on short pieces: fitting, values, extremes and moments, many at once.
+"""Smooth curves as piecewise polynomials of one degree: fitting, evaluation, extremes and moments, vectorised.
 
-A piece is a polynomial in u, which runs from -1 to 1 along it; coefficients are (COUNT, pieces), by powers of u.
+A piece is a polynomial in u, which runs from -1 to 1 along it. Coefficients have shape (COUNT, pieces), by ascending
+powers of u.
 """
 
 from __future__ import annotations
@@ -18,22 +19,22 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
 COUNT = 16  # coefficients of a piece
-FINE = 2e-15  # of the size: as good as given
-_NOISE = 1e-10  # of the size: less may be the rounding of what is given, if halving does not lessen it
-_DEEPEST = 40  # halvings: a piece is 1e-12 of the curve then
-_TAIL = 3  # coefficients that tell whether a piece is short enough
+FINE = 2e-15  # relative size of negligible coefficients
+_NOISE = 1e-10  # relative size below which coefficients may be noise, if bisection does not reduce them
+_DEEPEST = 40  # bisections: a piece is then 1e-12 of the curve
+_TAIL = 3  # last coefficients, by which convergence is judged
 _NODES, _SERIES = points(COUNT)
-# between the nodes, where a piece is off most
+# points between the nodes, where the error is largest
 _BETWEEN = -np.cos(np.pi * (np.arange(COUNT - 1) + 0.5) / (COUNT - 1))
-# Chebyshev coefficients as powers, for Horner's rule: the sums of T_k's factors grow by 2.4 a degree, and coefficients
-# that reach `FINE` fall by some 10, so that nothing cancels
+# Chebyshev polynomials as powers, for Horner's rule: coefficients of T_k grow by a factor of 2.4 per degree, and those
+# of a converged series fall by about 10, so that cancellation is harmless
 POWERS = np.array([np.pad(cheb.cheb2poly(row[: at + 1]), (0, COUNT - 1 - at)) for at, row in enumerate(np.eye(COUNT))])
 
 _GAUSS = np.polynomial.legendre.leggauss(20)  # exact to degree 39; squares of pieces have degree 30
 
 
 class PolynomialPiece(NamedTuple):
-    """A piece of a curve: parameters of its ends, coefficients of u in [-1, 1] (COUNT, k), greatest error found (k)."""
+    """A piece of a curve: end parameters, coefficients of powers of u in [-1, 1] (COUNT, k), maximum errors (k)."""
 
     start: float
     end: float
@@ -42,9 +43,9 @@ class PolynomialPiece(NamedTuple):
 
 
 def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: int = 0) -> list[PolynomialPiece]:
-    """Adaptive Chebyshev interpolation of a curve of k coordinates, t (n,) -> (k, n): pieces, halved down to rounding.
+    """Fit a curve of k coordinates, t (n,) -> (k, n), by adaptive Chebyshev interpolation down to rounding.
 
-    Raises `RangeError` where the curve is not smooth.
+    Pieces are bisected until their last coefficients are negligible. Raises `RangeError` if the curve is not smooth.
     """
     piece, tail = _piece(curve, start, end)
     if tail <= FINE:
@@ -52,38 +53,38 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
     middle = start + (end - start) / 2
     halves = [_piece(curve, *ends) for ends in ((start, middle), (middle, end))]
     if tail <= _NOISE and min(half[1] for half in halves) > tail / 4:
-        return [piece]  # halving a smooth curve lessens the tail by far more: what is left is noise of the curve
+        return [piece]  # bisecting a smooth curve reduces the tail far more: the rest is noise
     if depth == _DEEPEST or not np.isfinite(tail):
         raise RangeError(
             Problem(
-                f"a curve cannot be followed near parameter {start:.6g}",
+                f"a curve cannot be interpolated near parameter {start:.6g}",
                 "it is not smooth there, or not finite",
-                "cut it into curves at its corners, or give it another parameter",
+                "split it into curves at its kinks, or use another parameter",
             )
         )
     return fitted(curve, start, middle, depth + 1) + fitted(curve, middle, end, depth + 1)
 
 
 def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple[PolynomialPiece, float]:
-    """The piece through the curve's points at Chebyshev nodes, and how far its last coefficients have fallen."""
+    """Interpolate the curve at Chebyshev nodes; return the piece and the relative size of its last coefficients."""
     half, middle = (end - start) / 2, start + (end - start) / 2
     t = middle + half * np.concatenate([_NODES, _BETWEEN])
-    t[0], t[COUNT - 1] = start, end  # rounding must not put a node outside, where the curve may not be defined
+    t[0], t[COUNT - 1] = start, end  # rounding must not move a node outside, where the curve may be undefined
     with np.errstate(all="ignore"):
         values = np.asarray(curve(t), dtype=float).T
         series = _SERIES @ values[:COUNT]
         coefficients = POWERS.T @ series
         error = np.abs(np.polynomial.polynomial.polyval(_BETWEEN, coefficients).T - values[COUNT:]).max(axis=0)
-        size = np.maximum(np.abs(values).max(axis=0), 0.1)  # an azimuth is known to rounding of a tenth of a radian
+        size = np.maximum(np.abs(values).max(axis=0), 0.1)  # angles are accurate to the rounding of a tenth of a radian
         tail = float((np.abs(series[-_TAIL:]).max(axis=0) / size).max())
     return PolynomialPiece(start, end, coefficients, error), tail
 
 
 def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floats]:
-    """Value and derivative at u of the given pieces; coefficients (COUNT, pieces)."""
+    """Return value and derivative of the given pieces at u, with coefficients of shape (COUNT, pieces)."""
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
-    for row in coefficients[::-1]:  # Horner's rule in place, value and derivative together
+    for row in coefficients[::-1]:  # Horner's rule in place for value and derivative
         slope *= u
         slope += found
         found *= u
@@ -92,7 +93,7 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
 
 
 def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
-    """The value of `value`, bit for bit, without the work of the derivative."""
+    """Return only the value of `value`, identical in every bit."""
     single = coefficients.shape[1] == 1
     found = np.zeros(u.shape)
     for row in coefficients[::-1]:
@@ -102,17 +103,17 @@ def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
 
 
 def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
-    """By Gauss's rule the mean over all pieces, and the root mean square about it; `halves` are their half lengths."""
+    """Return mean and standard deviation over all pieces of the given half lengths, by Gauss quadrature."""
     nodes, weights = _GAUSS
     values = np.polynomial.polynomial.polyval(nodes, coefficients)
     share = halves / halves.sum() / 2
     mean = float(share @ values @ weights)
-    # about the mean found first: the mean of squares less the square of the mean would cancel
+    # two passes: the mean of squares minus the square of the mean would cancel
     return mean, float(np.sqrt(share @ (values - mean) ** 2 @ weights))
 
 
 def extremes(coefficients: Floats) -> tuple[float, float]:
-    """Least and greatest value over all pieces; those that are NaN are left out."""
+    """Return minimum and maximum over all pieces, ignoring pieces that are NaN."""
     held = coefficients[:, ~np.isnan(coefficients[0])]
     values = np.concatenate([ends(held).ravel(), *(_polynomial(column, _turns(column)) for column in held.T)])
     return float(values.min()), float(values.max())
@@ -123,13 +124,15 @@ def _polynomial(column: Floats, u: Floats) -> Floats:
 
 
 def ends(coefficients: Floats) -> Floats:
-    """Values at both ends of the pieces, (2, pieces)."""
+    """Return the values at both ends of the pieces, shape (2, pieces)."""
     signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
     return np.stack([signs @ coefficients, coefficients.sum(axis=0)])
 
 
 def _turns(column: Floats) -> Floats:
-    """Where the slope of a polynomial changes its sign; being off by a little changes little there."""
+    """Return approximate stationary points u of a polynomial; an error in u has only a second-order effect on its
+    value.
+    """
     slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
     u = np.linspace(-1, 1, 257)
     at = _polynomial(slope, u)

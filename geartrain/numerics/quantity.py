@@ -1,4 +1,4 @@
-"""Numbers and quantities as people write them: "254/19", "1:30", "13.3684", "9.6 mm", "30 deg", "100 rpm"."""
+"""Numbers and quantities as written by people: "254/19", "1:30", "13.3684", "9.6 mm", "30 deg", "100 rpm"."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from geartrain.errors import nearest_names
 TURN = "turn"
 RADIANS_PER_TURN = 6.283185307179586
 
-# unit -> (dimension, how many base units one of it is); every scale is exact
+# unit -> (dimension, size in base units); every size is exact
 UNITS: dict[str, tuple[str, Fraction]] = {
     "m": ("length", Fraction(1)),
     "cm": ("length", Fraction(1, 100)),
@@ -70,15 +70,15 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "%": ("fraction", Fraction(1, 100)),
     "ppm": ("fraction", Fraction(1, 10**6)),
 }
-# a radian is no rational part of a turn: these two scales hold to 50 digits, and say so by being apart
+# a radian is an irrational fraction of a turn: these two scales have 50 digits, so they are in a table of their own
 _TURNS_PER_RADIAN = 1 / (2 * Fraction("3.14159265358979323846264338327950288419716939937511"))
 IRRATIONAL: dict[str, tuple[str, Fraction]] = {
     "rad": ("angle", _TURNS_PER_RADIAN),
     "rad/s": ("speed", _TURNS_PER_RADIAN),
 }
 _EXACT = Fraction(0), Fraction("1e300")
-_FLOATS = Fraction(1, 10**30), Fraction(10**30)  # up to the tenth power such a measure is a float
-_SIZES = Fraction(1, 10**12), Fraction(10**6)  # of bodies, in m or as plain numbers: what can be laid out and drawn
+_FLOATS = Fraction(1, 10**30), Fraction(10**30)  # the tenth power of such a number is still a float
+_SIZES = Fraction(1, 10**12), Fraction(10**6)  # lengths of bodies, in m or plain: sizes that can be laid out and drawn
 _BOUNDS = {"length": _SIZES, "length or fraction": (_FLOATS[0], _SIZES[1])} | {
     dimension: _FLOATS
     for one, other in (("torsional stiffness", "stiffness"), ("torsional damping", "damping"))
@@ -115,23 +115,23 @@ SPELT = {
 
 
 def scale(unit: str) -> tuple[str, Fraction]:
-    """The dimension of a unit, and how many base units one of it is."""
+    """Return the dimension of a unit, and its size in base units."""
     return UNITS.get(unit) or IRRATIONAL[unit]
 
 
 def turns_in(unit: str) -> Fraction:
-    """Turns in one unit of time at a speed of 1: 1/360 for deg/s, 1 for rpm and for plain numbers."""
+    """Return the turns in one unit of time at a speed of 1: 1/360 for deg/s, 1 for rpm and for plain numbers."""
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
 
 
 def same_kind(first: str | None, second: str | None) -> bool:
-    """True if one unit is a rational multiple of the other: a radian of no unit but a radian."""
+    """Return whether one unit is a rational multiple of the other; a radian is one of radians only."""
     return (first in IRRATIONAL) == (second in IRRATIONAL)
 
 
 def nearest_unit(unit: str, dimension: str) -> str:
-    """What may be meant by an unknown unit: `rpm` for RPM."""
+    """Suggest known units for an unknown one, such as `rpm` for RPM."""
     known = units_of(dimension)
     spelt = {name.casefold(): name for name, meant in SPELT.items() if meant in known.split(", ")}
     names = spelt | {name.casefold(): name for name in known.split(", ")}
@@ -140,13 +140,13 @@ def nearest_unit(unit: str, dimension: str) -> str:
 
 
 def units_of(dimension: str) -> str:
-    """All units of a dimension, or of several joined by `or`, for a reader."""
+    """List all units of a dimension, or of several joined by `or`, as text."""
     known = [*UNITS.items(), *IRRATIONAL.items()]
     return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
 
 
 def base_unit(dimension: str) -> str:
-    """The unit in which quantities of a dimension are counted.
+    """Return the base unit of a dimension.
 
     >>> base_unit("length"), base_unit("angle")
     ('m', 'turn')
@@ -155,23 +155,24 @@ def base_unit(dimension: str) -> str:
 
 
 def bounds_of(dimension: str) -> tuple[Fraction, Fraction]:
-    """Least and greatest magnitude of a quantity other than 0, in base units; "time or length" allows both.
+    """Return the minimum and maximum magnitude of a nonzero quantity in base units; "time or length" allows both.
 
-    Sizes of bodies have the narrowest, all that is computed with in floats narrow ones.
+    Lengths of bodies have the narrowest bounds. Dimensions that are computed in floats have narrower bounds than
+    others.
     """
     return _BOUNDS.get(dimension, _EXACT)
 
 
-_MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them would take minutes
+_MOST_DIGITS = 400  # longer numbers are typing errors or attacks, and squaring them would take minutes
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
-_MOST = Fraction("1e300")  # what a float holds, as its inverse does, with room for units
+_MOST = Fraction("1e300")  # such a number and its inverse are floats, with a margin for units
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
 
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A number with the digits it was written with.
+    """A number together with the digits it was written with.
 
     Examples
     --------
@@ -185,41 +186,41 @@ class Figure:
     half: Fraction | None
     """Half a unit of the last decimal written; None for an integer or fraction, which is exact."""
     text: str
-    """As it was written."""
+    """The number as written."""
 
     def __str__(self) -> str:
         return self.text
 
     def _brief(self) -> str:
-        """The text, in the line of an object that has it."""
+        """Return the text, for the summary line of an object that contains it."""
         return self.text
 
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
-        """True if a number agrees with what was written.
+        """Return whether a number agrees with the written one.
 
         Parameters
         ----------
         value : Fraction
             The number.
         tolerance : Fraction, optional
-            Greatest difference that still agrees, 0 or more; default half a unit of the last decimal written.
+            Maximum difference, 0 or more; default half a unit of the last decimal written.
         """
         bound = tolerance if tolerance is not None else self.half or Fraction(0)
         return abs(value - self.value) <= bound if bound else bool(value == self.value)
 
     @classmethod
     def parse(cls, raw: object) -> Figure:
-        """A figure from text or a Python number.
+        """Parse a figure from text or a Python number.
 
         Parameters
         ----------
         raw : str, int, float, Fraction or Figure
-            Such as "254/19", "1:30", "13.3684"; up to 1e300 and 400 digits.
+            A number such as "254/19", "1:30", "13.3684"; up to 1e300 and 400 digits.
 
         Raises
         ------
         ValueError
-            If it is no such number.
+            If it is not such a number.
 
         Examples
         --------
@@ -269,7 +270,7 @@ def _not_a_number(raw: object) -> PydanticCustomError:
 
 def _within(value: Fraction, text: str) -> Fraction:
     if value and not 1 / _MOST <= abs(value) <= _MOST:
-        raise _beyond_measure(text, "a number here is 0, or from 1e-300 to 1e300", "write a number in that range")
+        raise _out_of_range(text, "a number must be 0, or from 1e-300 to 1e300", "write a number in that range")
     return value
 
 
@@ -281,30 +282,30 @@ def _half_unit(text: str) -> Fraction | None:
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 
 
-def _pushing_nothing(figure: Figure) -> Figure:
+def _not_negative(figure: Figure) -> Figure:
     if figure.value < 0:
         raise PydanticCustomError(
             "friction",
-            "a friction of {text} would push",
-            {"text": figure.text, "fix": "a coefficient of friction is 0 or more"},
+            "the coefficient of friction {text} is negative",
+            {"text": figure.text, "fix": "give a coefficient of 0 or more"},
         )
     return figure
 
 
 def parse_friction(raw: object) -> Figure:
-    """A coefficient of friction, 0 or more."""
-    return _pushing_nothing(Figure.parse(raw))
+    """Parse a coefficient of friction, 0 or more."""
+    return _not_negative(Figure.parse(raw))
 
 
-Friction = Annotated[Figure, AfterValidator(_pushing_nothing)]
+Friction = Annotated[Figure, AfterValidator(_not_negative)]
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
     """A number with its unit as written.
 
-    What is compared or computed with is always `base`, never `value`, so that two units of one dimension mean the same.
-    Units are those of `UNITS`, and rad and rad/s: a radian is no rational part of a turn, and holds to 50 digits.
+    Comparisons and computations use `base`, never `value`, so that two units of one dimension mean the same. Units are
+    those of `UNITS`, and rad and rad/s. A radian is an irrational fraction of a turn, rounded to 50 digits.
 
     Examples
     --------
@@ -318,28 +319,28 @@ class Quantity:
     unit: str | None
     """The unit; None for a plain number."""
     text: str
-    """As it was written."""
+    """The quantity as written."""
 
     def __str__(self) -> str:
         return self.text
 
     def _brief(self) -> str:
-        """The text, in the line of an object that has it."""
+        """Return the text, for the summary line of an object that contains it."""
         return self.text
 
     @property
     def dimension(self) -> str | None:
-        """length, angle, time, speed, torque and what else `UNITS` knows, or None for a plain number."""
+        """Dimension, such as length, angle, time, speed or torque (see `UNITS`); None for a plain number."""
         return None if self.unit is None else scale(self.unit)[0]
 
     @property
     def base(self) -> Fraction:
-        """Value in m, turn, s, turn/s, N m and what else `units` names; a plain number as it is."""
+        """Value in base units (m, turn, s, turn/s, N m and others in `UNITS`); a plain number is unchanged."""
         return self.value if self.unit is None else self.value * scale(self.unit)[1]
 
     @property
     def si(self) -> float:
-        """Value in m, rad, s, rad/s, N m and what else `units` names, radians for turns."""
+        """Value in SI units (m, rad, s, rad/s, N m and others); a plain number is unchanged."""
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
@@ -347,22 +348,22 @@ class Quantity:
 
     @classmethod
     def parse(cls, raw: object, dimension: str, plain: bool) -> Quantity:
-        """A quantity from text or a Python number.
+        """Parse a quantity from text or a Python number.
 
         Parameters
         ----------
         raw : str, int, float, Fraction or Quantity
-            Such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
+            A quantity such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
             length, angle, time, speed, velocity, torque, inertia, mass, density, pressure, torsional stiffness,
             stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
-            Whether a plain number will do. 0 always does.
+            Whether a plain number is allowed. 0 is always allowed.
 
         Raises
         ------
         ValueError
-            If it is no number, or its unit is unknown, of another dimension, or missing.
+            If it is not a number, or its unit is unknown, of another dimension, or missing.
         """
         if isinstance(raw, Quantity):
             return raw
@@ -372,7 +373,7 @@ class Quantity:
             figure = Figure.parse(raw)
             if not plain and figure.value:
                 raise _no_unit(text, dimension)
-            return _measured(cls(figure.value, None, text), dimension)
+            return _in_range(cls(figure.value, None, text), dimension)
         unit = " ".join(match[2].split())
         if re.fullmatch(r"[eE][+-]?\d+", unit):
             raise _not_a_number(raw)
@@ -387,39 +388,39 @@ class Quantity:
         if quantity.dimension not in dimension.split(" or "):
             raise PydanticCustomError(
                 "unit",
-                "'{text}' is {found}, and {dimension} belongs here",
+                "'{text}' is {found}, but {dimension} is required",
                 {
                     "text": text,
-                    "found": _one(quantity.dimension or "number"),
-                    "dimension": " or ".join(map(_one, dimension.split(" or "))),
+                    "found": _with_article(quantity.dimension or "number"),
+                    "dimension": " or ".join(map(_with_article, dimension.split(" or "))),
                     "fix": f"use one of: {units_of(dimension)}",
                 },
             )
-        return _measured(quantity, dimension)
+        return _in_range(quantity, dimension)
 
 
-def _measured(quantity: Quantity, dimension: str) -> Quantity:
-    """What is computed with in floats, where products and squares of it must be floats too."""
+def _in_range(quantity: Quantity, dimension: str) -> Quantity:
+    """Return a quantity that is in the range of its dimension, so that its products and squares are floats too."""
     low, high = bounds_of(dimension)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity
-    noun = _one(quantity.dimension or dimension)
+    noun = _with_article(quantity.dimension or dimension)
     unit = "" if quantity.unit is None else f" {base_unit(scale(quantity.unit)[0])}"
-    why = f"{noun} here is from {float(low):g}{unit} to {float(high):g}{unit}"
-    raise _beyond_measure(quantity.text, why, f"write {noun} in that range")
+    why = f"{noun} must be from {float(low):g}{unit} to {float(high):g}{unit}"
+    raise _out_of_range(quantity.text, why, f"write {noun} in that range")
 
 
-def _beyond_measure(text: str, why: str, fix: str) -> PydanticCustomError:
-    return PydanticCustomError("number", "{text} is beyond all measure", {"text": text, "why": why, "fix": fix})
+def _out_of_range(text: str, why: str, fix: str) -> PydanticCustomError:
+    return PydanticCustomError("number", "{text} is out of range", {"text": text, "why": why, "fix": fix})
 
 
 def in_unit(speed: Quantity, unit: str) -> Fraction:
-    """A quantity counted in a unit of its dimension; in its own unit as written, so that radians stay exact there."""
+    """Return the number of units in a quantity; in its own unit as written, so that radians stay exact."""
     return speed.value if speed.unit == unit else speed.base / scale(unit)[1]
 
 
 def millimetres(length: Quantity) -> Fraction:
-    """A length in mm, exact; a plain number counts as mm.
+    """Return a length [mm], exact; a plain number is a length in mm.
 
     >>> millimetres(Quantity.parse("1.5 cm", "length", plain=True))
     Fraction(15, 1)
@@ -436,14 +437,14 @@ def _no_unit(text: str, dimension: str) -> PydanticCustomError:
     )
 
 
-def _one(noun: str) -> str:
-    """`a length`, `an angle`."""
+def _with_article(noun: str) -> str:
+    """Return a noun with its indefinite article: `a length`, `an angle`."""
     return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
 
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """Pydantic annotation: this field is a quantity of one dimension."""
+    """Pydantic annotation for a field that is a quantity of one dimension."""
 
     name: str
     plain: bool = False
@@ -461,7 +462,7 @@ class Dimension:
 
 Length = Annotated[Quantity, Dimension("length", plain=True)]
 MeasuredLength = Annotated[Quantity, Dimension("length")]
-"""A length that needs its unit."""
+"""A length with an obligatory unit."""
 Angle = Annotated[Quantity, Dimension("angle")]
 Time = Annotated[Quantity, Dimension("time")]
 Span = Annotated[Quantity, Dimension("time or length")]
@@ -480,7 +481,7 @@ Share = Annotated[Quantity, Dimension("fraction", plain=True)]
 
 
 def above_zero(fix: str) -> AfterValidator:
-    """A number or quantity is above 0."""
+    """Return a validator that requires a number or quantity above 0."""
 
     def check(given: Figure | Quantity) -> Figure | Quantity:
         if given.value <= 0:
@@ -491,18 +492,18 @@ def above_zero(fix: str) -> AfterValidator:
 
 
 def below_right_angle(fix: str) -> AfterValidator:
-    """An angle is less than 90 degrees."""
+    """Return a validator that requires an angle below 90 degrees."""
 
     def check(given: Quantity) -> Quantity:
         if given.si >= pi / 2:
-            raise PydanticCustomError("bound", "{text} is no less than 90 deg", {"text": given.text, "fix": fix})
+            raise PydanticCustomError("bound", "{text} is not less than 90 deg", {"text": given.text, "fix": fix})
         return given
 
     return AfterValidator(check)
 
 
 def not_below_zero(fix: str) -> AfterValidator:
-    """A number or quantity is 0 or more."""
+    """Return a validator that requires a number or quantity of 0 or more."""
 
     def check(given: Figure | Quantity) -> Figure | Quantity:
         if given.value < 0:
@@ -512,8 +513,8 @@ def not_below_zero(fix: str) -> AfterValidator:
     return AfterValidator(check)
 
 
-PairStiffness = Annotated[MeshStiffness, above_zero("teeth yield: give for example 20 N/um")]
-"""Torque on the driven wheel for each radian, or force along the line of action for each length."""
+PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, such as 20 N/um")]
+"""Torque on the driven wheel per radian, or force along the line of action per length."""
 
-PairDamping = Annotated[MeshDamping, not_below_zero("it takes energy: give 0 or more")]
-"""The same by speed."""
+PairDamping = Annotated[MeshDamping, not_below_zero("give a damping of 0 or more")]
+"""Torque on the driven wheel per angular velocity, or force along the line of action per velocity."""

@@ -1,4 +1,4 @@
-"""Angles as parts of a turn: which are rational for certain, and which their digits allow to be taken for rational."""
+"""Recognition of rational angles, in turns: exactly for integer vectors, and from the digits of a float."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ from fractions import Fraction
 
 from geartrain.numerics.vectors import IntegerVector, dot
 
-_CHANCE = 1e-3  # an angle drawn at random is taken for a fraction at most this often
-_DENSITY = 3 / math.pi**2  # reduced fractions below 1 with a denominator up to q number some q squared times this
+_CHANCE = 1e-3  # maximum probability that a random angle is taken for a fraction
+_DENSITY = 3 / math.pi**2  # about this times q squared reduced fractions below 1 have a denominator up to q
 
 
 def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction | None:
-    """The angle from u to v as a part of a turn, if it is a rational one; certain, for vectors of whole numbers.
+    """Return the angle [turn] from u to v if it is a rational number, else None; exact for integer vectors.
 
     The square of the cosine, (u.v)^2 / (u.u v.v), is rational. By Niven's theorem (cos 2x rational and x a rational
-    part of a turn only for cos 2x = 0, +-1/2, +-1) it must then be 0, 1/4, 1/2, 3/4 or 1: the angle is a multiple
-    of a 24-th of a turn or no rational part of one. `turn` is the angle in floats, good to 1/48.
+    fraction of a turn only for cos 2x = 0, +-1/2, +-1) it must then be 0, 1/4, 1/2, 3/4 or 1. The angle is therefore a
+    multiple of 1/24 turn or irrational. `turn` is the angle in floats, with an error below 1/48.
     """
     along = dot(u, v)
     square = dot(u, u) * dot(v, v)
-    if 4 * along * along % square:  # the square of the cosine is no multiple of 1/4
+    if 4 * along * along % square:  # the square of the cosine is not a multiple of 1/4
         return None
     return Fraction(round(24 * turn) % 24, 24)
 
 
 def recognised_angle(turn: float, slack: float) -> Fraction | None:
-    """The fraction within `slack` of an angle (both in turns), if it is too simple to be an accident.
+    """Return the fraction within `slack` of an angle [turn], or None if such a fraction could be a coincidence.
 
-    Fractions with denominators up to q leave room for an accident with probability 0.6 q^2 slack, which bounds q. There
-    is one such fraction at most, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
+    Fractions with denominators up to q match a random angle with probability 0.6 q^2 slack, which bounds q. At most one
+    such fraction exists, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
 
     >>> recognised_angle(0.3333, 1e-4), recognised_angle(0.3679, 1e-4)
     (Fraction(1, 3), None)
@@ -44,10 +44,10 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
             return None
         if abs(turn - last[0] / last[1]) <= slack:
             return Fraction(last[0] % last[1], last[1])
-        # a rest of 0 ends above: the convergent is then the angle itself, to rounding
+        # the remainder is not 0 here: the convergent would be the angle to rounding, and the loop has ended above
         rest = 1 / (rest - whole)
 
 
 def centred_residue(value: Fraction) -> Fraction:
-    """A number less the whole number nearest to it: above -1/2, up to 1/2."""
+    """Reduce a number modulo 1 to the interval above -1/2 up to 1/2."""
     return value - math.ceil(value - Fraction(1, 2))

@@ -1,10 +1,11 @@
-"""Base classes of results: what the prompt and notebooks show, plain data for JSON, tables and figures.
+"""Base classes of results: display at the prompt and in notebooks, plain data for JSON, tables and figures.
 
-`Shown` results have a `repr` of one line, print the text of the command that computes them, and are tables in a
-notebook. `Result` writes each key once, as a field's name or in the `KEYS` of a class. Exact numbers become text with
-every digit, arrays and tuples lists, results objects; None stays None. `Tabular` results have columns: a pandas
-DataFrame, a numpy record array, a table of HTML. `Pictured` results name the function that draws them, which is
-imported when it is called."""
+`Shown` results have a `repr` of one line, print the text of the command that computes them, and appear as tables in a
+notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become text with
+every digit, arrays and tuples become lists, and results become objects. None remains None. `Tabular` results have
+columns, which can be converted to a pandas DataFrame, a numpy record array or an HTML table. `Pictured` results name
+the function that draws them, which is imported when it is called.
+"""
 
 from __future__ import annotations
 
@@ -31,45 +32,47 @@ _SHOWN = 20
 
 
 class Shown:
-    """A result that Python shows as its command does: `repr` is one line, `print` gives the text of the command.
+    """A result whose `repr` is one line and whose `str` is the text that its command prints.
 
-    Notebooks show the tables of its HTML page. Nothing is computed for the line.
+    Notebooks show the tables of its HTML page. The line contains only values that are already computed.
     """
 
     __slots__ = ()
 
     PAGE: ClassVar[str] = ""
-    """The function that describes the result as a document, `package.module:function`; it returns None for a result
-    that it cannot describe. "" where no command prints such a result."""
+    """Function `package.module:function` that describes the result as a document, or returns None if it cannot.
+
+    The name is "" if no command prints such a result.
+    """
     TEXT: ClassVar[str] = ""
-    """The function that returns the text of the command, where it is not that of the document."""
+    """Function that returns the text of the command, if it differs from the text of the document."""
 
     def __init_subclass__(cls, **options: Any) -> None:
-        """Keep the inherited `__repr__` of a class, in place of which `dataclass` would write its own."""
+        """Keep the inherited `__repr__` of a class, which `dataclass` would otherwise replace."""
         super().__init_subclass__(**options)
         if "__repr__" not in vars(cls):
             cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
 
     def _summary(self) -> str:
-        """The main figures in one line, of what is already computed."""
+        """Return the main figures in one line, from values that are already computed."""
         return fields_summary(self)
 
     def __repr__(self) -> str:
         return summary_line(type(self).__name__, self._summary())
 
     def __dir__(self) -> list[str]:
-        """The members without the constants of the class, which are for the package."""
+        """List the members, without class constants, which are for internal use."""
         return [name for name in super().__dir__() if not name.isupper()]
 
     def __str__(self) -> str:
-        """The text that the command prints for the result; the line of `repr` where there is no command."""
+        """Return the text that the command prints for the result, or `repr` if it has no command."""
         found = _described(self, self.TEXT or self.PAGE)
         if found is None:
             return repr(self)
         return found if isinstance(found, str) else _text_of(found)
 
     def _repr_html_(self) -> str:
-        """The result on its HTML page; its text where jinja2, the extra `report`, is not installed."""
+        """Return the HTML page of the result, or its text if jinja2, the extra `report`, is not installed."""
         page = _described(self, self.PAGE)
         if page is not None:
             try:
@@ -81,7 +84,7 @@ class Shown:
 
 
 def _described(result: object, name: str) -> Any:
-    """What the function `package.module:function` returns for a result; None without a name."""
+    """Return the result of the function `package.module:function` for `result`; None without a name."""
     if not name:
         return None
     module, _, function = name.partition(":")
@@ -94,9 +97,9 @@ def _text_of(document: Any) -> str:
 
 
 _LONGEST_LINE = 160
-"""Characters of a summary."""
+"""Maximum number of characters of a summary."""
 _LONGEST_VALUE = 40
-"""Characters of one value in it."""
+"""Maximum number of characters of one value in a summary."""
 
 
 def summary_line(name: str, summary: str) -> str:
@@ -112,16 +115,16 @@ def summary_line(name: str, summary: str) -> str:
 
 
 def fields_summary(result: Any) -> str:
-    """Return the public fields of a dataclass or named tuple that hold a value, each as `name=value`.
+    """Return the public fields of a dataclass or named tuple, each as `name=value`, without fields that are None.
 
-    Numbers have 6 digits; of containers only the length is shown, of mappings that are not made yet nothing.
+    Numbers have 6 digits. Only the length of containers is shown. Mappings that are not yet created are omitted.
     """
     own = [each.name for each in fields(result)] if is_dataclass(result) else ()
     return values_summary(result, getattr(result, "_fields", own))
 
 
 def values_summary(result: Any, names: Iterable[str]) -> str:
-    """Return some attributes that hold a value, each as `name=value`."""
+    """Return some attributes, each as `name=value`, without attributes that are None."""
     found: list[str] = []
     length = 0
     for name in names:
@@ -138,17 +141,17 @@ def values_summary(result: Any, names: Iterable[str]) -> str:
 
 
 def short_repr(result: Any) -> str:
-    """Return the line of a named tuple, which has no base class to inherit it from."""
+    """Return the summary line of a named tuple, which cannot inherit it from a base class."""
     return summary_line(type(result).__name__, fields_summary(result))
 
 
 def brief(value: object) -> str | None:
-    """Return a value in a few characters; None for what a summary leaves out.
+    """Return a value in a few characters; None for a value that a summary omits.
 
     >>> brief(Fraction(2, 7)), brief(0.12345678), brief(["a", "b", "c", "d", "e"]), brief("two words")
     ('2/7', '0.123457', '5 items', "'two words'")
     """
-    if value is None or callable(value) or hasattr(value, "_made"):  # a mapping that is made when it is read
+    if value is None or callable(value) or hasattr(value, "_made"):  # a mapping that is created when it is read
         return None
     if isinstance(value, bool | int):
         return str(value)
@@ -174,7 +177,7 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
     try:
         if not len(values):
             return None
-    except OverflowError:  # more items than an index can count
+    except OverflowError:  # more items than `len` can return
         return None
     if isinstance(values, tuple) and len(values) <= 4 and not hasattr(values, "_fields"):
         parts = [brief(each) for each in values]
@@ -186,24 +189,26 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
 
 
 class Tabular(Shown):
-    """A result with rows of one kind.
+    """A result with columns, which can be exported as a table.
 
-    Notebooks show its first rows, where it has no page of its own.
+    Notebooks show its first rows, unless it has a page.
     """
 
     __slots__ = ()
 
     MEANINGS: ClassVar[Mapping[str, str]] = {}
-    """Meaning of each column that is not a field, with its unit in brackets; `*` in a name stands for any text."""
+    """Meaning of each column that is not a field, with its unit in brackets; `*` in a name matches any text."""
 
     ROW: ClassVar[str] = ""
-    """The class in the module of the result whose fields are columns."""
+    """Name of the class, in the module of the result, whose fields are the columns."""
     ROWS: ClassVar[str] = ""
-    """The function that returns the rows, each as a dictionary by column; "" for a class with columns of its own."""
+    """Function that returns the rows, each as a dictionary by column; "" for a class with its own `columns`."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of one length by name: numbers as floats, exact ones as text beside them, None where nothing is."""
+        """Columns of equal length by name: numbers as floats, exact numbers as text next to them, None for missing
+        values.
+        """
         rows = _described(self, self.ROWS) or ()
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
 
@@ -213,7 +218,7 @@ class Tabular(Shown):
         return {name: text for name in self.columns if (text := self._meaning(name))}
 
     def _meaning(self, column: str) -> str:
-        """The meaning of one column; "" where none is known."""
+        """Return the meaning of one column, or "" if it is unknown."""
         own: Any = type(self)
         row = getattr(modules[own.__module__], self.ROW or own.__name__)
         known = {**field_docs(own), **field_docs(row), **self.MEANINGS}
@@ -223,17 +228,18 @@ class Tabular(Shown):
     def to_frame(self) -> Any:
         """Return the table as a pandas DataFrame.
 
-        `attrs["meanings"]` has the meaning of each column, `attrs["units"]` the unit of each column that has one.
+        `attrs["meanings"]` contains the meaning of each column, and `attrs["units"]` the unit of each column that has
+        one.
 
         Raises
         ------
         MissingExtraError
-            Without pandas, which the extra `tables` brings.
+            If pandas, which the extra `tables` installs, is missing.
         """
         try:
             import pandas
         except ImportError:
-            raise MissingExtraError("pandas", "tables", "a table of its kind") from None
+            raise MissingExtraError("pandas", "tables", "a DataFrame") from None
         frame = pandas.DataFrame(dict(self.columns))
         meanings = self.meanings
         frame.attrs["meanings"] = dict(meanings)
@@ -241,7 +247,7 @@ class Tabular(Shown):
         return frame
 
     def to_records(self) -> Any:
-        """The table as a numpy record array, `records["link"]` a column; numbers that are not there are NaN."""
+        """Return the table as a numpy record array, `records["link"]` being a column; missing numbers are NaN."""
         import numpy as np
 
         columns = {name: np.array(_without_gaps(values)) for name, values in self.columns.items()}
@@ -249,7 +255,7 @@ class Tabular(Shown):
         return np.rec.fromarrays(list(columns.values()), dtype=kinds)
 
     def __str__(self) -> str:
-        """The text that the command prints for the result; without a command, its first rows as a table."""
+        """Return the text that the command prints for the result, or its first rows as a table if it has no command."""
         found = _described(self, self.TEXT or self.PAGE)
         if found is None:
             table = picture_maker("report.document", "table_document")(self.columns, _SHOWN)
@@ -269,19 +275,19 @@ class Tabular(Shown):
 
 
 def _property_doc(member: object) -> str:
-    """The first paragraph of a property's docstring; "" for what is not a property."""
+    """Return the first paragraph of a property's docstring; "" for other members."""
     maker = member if isinstance(member, property) else getattr(member, "func", None)
     return " ".join((getattr(maker, "__doc__", None) or "").split("\n\n")[0].split())
 
 
 def _unit(meaning: str) -> str:
-    """The unit in the brackets of a meaning; "" without one."""
+    """Return the unit in the brackets of a meaning; "" without one."""
     found = search(r"\[([^\]]+)\]", meaning)
     return found[1] if found else ""
 
 
 def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:
-    """NaN for None among numbers, nothing for None among texts."""
+    """Replace None by NaN in columns of numbers, and by "" in columns of text."""
     if not any(value is None for value in values):
         return values
     texts = any(isinstance(value, str) for value in values)
@@ -295,20 +301,20 @@ def _cell(value: object) -> str:
 
 
 def picture_maker(room: str, name: str) -> Callable[..., Any]:
-    """A function that draws or describes, by its name, for a method that hands itself to it.
+    """Import the function that draws or describes a result, by name.
 
-    Rooms that draw stand above those that calculate. A result reaches up to them here alone, by name, and when it is
-    asked to show itself: nothing that draws is imported before.
+    Modules that draw depend on modules that calculate. Results call them only here, by name and when they are
+    displayed, so that drawing code is not imported earlier.
 
-    room   where it is, by the name below `geartrain`
-    name   of the function or class, public there
+    room   module or package below `geartrain`
+    name   name of the public function or class in it
     """
     found: Callable[..., Any] = getattr(import_module(f"geartrain.{room}"), name)
     return found
 
 
 class Pictured:
-    """A result with a picture of its own: the function `FIGURE` of the package `DRAWN_IN` makes it."""
+    """A result with a picture, drawn by the function `FIGURE` of the package `DRAWN_IN`."""
 
     __slots__ = ()
 
@@ -316,42 +322,44 @@ class Pictured:
     DRAWN_IN: ClassVar[str] = "drawing"
 
     def plot(self, *how: Any) -> Any:
-        """The result as a figure of matplotlib, which notebooks show.
+        """Plot the result as a matplotlib figure, which notebooks show.
 
         Parameters
         ----------
         *how
-            What the function that draws such results takes after the result itself.
+            Further arguments of the function that draws such results.
 
         Returns
         -------
         matplotlib.figure.Figure
-            For `geartrain.drawing.render`, or to be drawn on.
+            The figure, for `geartrain.drawing.render` or further drawing.
 
         Raises
         ------
         MissingExtraError
-            Without matplotlib, which the extra `plot` brings.
+            If matplotlib, which the extra `plot` installs, is missing.
         """
         return picture_maker(self.DRAWN_IN, self.FIGURE)(self, *how)
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """A key of a result's plain data that is more than the attribute of that name."""
+    """A key of a result's plain data that differs from the attribute of that name."""
 
     name: str
-    """In the data; "" puts the keys of a part in among those of the whole."""
+    """Name in the data; "" merges the keys of a part into those of the result."""
     of: str = ""
-    """The attribute, `part.attribute` for one of a part, "." the object itself; by default that called `name`."""
+    """Path of the attribute, `part.attribute` for one of a part, "." for the object itself; default `name`."""
     to: Callable[[Any], Any] | None = None
-    """What is made of each number or object in it, at any depth; the kind of that is in its return annotation."""
+    """Conversion of each number or object in the attribute, at any depth; its return annotation is the type in the
+    data.
+    """
     keys: tuple[str | Key, ...] = ()
-    """The keys of each object in it, where they are not those of its class."""
+    """Keys of each object in the attribute, if they are not those of its class."""
 
     @property
     def path(self) -> str:
-        """The attribute that is told; "" for the result itself."""
+        """Path of the attribute; "" for the result itself."""
         return "" if self.of == _ITSELF else self.of or self.name
 
 
@@ -359,37 +367,39 @@ _ITSELF = "."
 
 
 def group(name: str, *keys: str | Key) -> Key:
-    """Keys of a result that stand in an object of their own."""
+    """Return a key whose value is an object with further keys of the same result."""
     return Key(name, _ITSELF, keys=keys)
 
 
 class Result(Shown):
-    """A result that is plain data for JSON: what `KEYS` names, or all its fields."""
+    """A result that can be converted to plain data for JSON: the keys in `KEYS`, or all its fields."""
 
     __slots__ = ()
     KEYS: ClassVar[tuple[str | Key, ...]] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; the keys are stable (docs/json.md)."""
-        return _told(self)
+        """Return plain data for JSON; the keys are stable (docs/json.md)."""
+        return _plain_data(self)
 
 
 @dataclass(frozen=True, slots=True)
 class TrainResult(Result):
-    """A result of a train, which keeps the declaration of the train: its text and its tables need it."""
+    """A result for a train that keeps the declaration of the train, which its text and its tables need."""
 
     _declaration: Any = field(default=None, kw_only=True, repr=False, compare=False)
 
     @property
     def _named(self) -> str:
-        """The name of the train with the state, as far as they are known."""
+        """Name of the train and the state, as far as they are known."""
         name = "" if self._declaration is None else self._declaration.name
         state = getattr(self, "state", None)
         return name if state is None else f"{name} state {state}".strip()
 
 
 def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Any:
-    """What JSON can hold of a value; `to` and `keys`, as in `Key`, are for whatever in it is no mapping, list or None.
+    """Convert a value to plain data for JSON.
+
+    `to` and `keys`, as in `Key`, apply to everything in it except mappings, lists and None.
 
     >>> plain({"ratio": Fraction(254, 19), "teeth": (20, 30)})
     {'ratio': '254/19', 'teeth': [20, 30]}
@@ -397,7 +407,7 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
     if value is None:
         return None
     if hasattr(value, "_asdict"):  # a named tuple
-        return _told(value, keys) if keys else plain(value._asdict(), to)
+        return _plain_data(value, keys) if keys else plain(value._asdict(), to)
     if isinstance(value, Mapping):
         return {str(key): plain(each, to, keys) for key, each in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, str):
@@ -407,24 +417,24 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
     if to is not None:
         return to(value)
     if keys:
-        return _told(value, keys)
+        return _plain_data(value, keys)
     if isinstance(value, str | bool | int | float):
         return value
     if isinstance(value, Fraction):
         return fraction_text(value)
     if isinstance(value, LongFloat):
-        return None  # float64 has no such number
+        return None  # out of the range of float64
     if hasattr(value, "model_dump"):  # a part of a declaration
         return value.model_dump(mode="json")
-    return value.to_dict() if hasattr(value, "to_dict") else _told(value)
+    return value.to_dict() if hasattr(value, "to_dict") else _plain_data(value)
 
 
 def finite(value: float) -> float | None:
-    """None for what is infinite or undetermined: JSON has neither."""
+    """Return a finite number, or None for infinity and NaN, which JSON cannot represent."""
     return value if isfinite(value) else None
 
 
-def _told(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]:
+def _plain_data(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]:
     kind: Any = type(result)
     found: dict[str, Any] = {}
     for key in whole(keys) if keys else keys_of(kind):
@@ -438,17 +448,17 @@ def _told(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]:
 
 @cache
 def keys_of(kind: Any) -> tuple[Key, ...]:
-    """The keys of a class's plain data, in order. Raises `TypeError` for a class that has none."""
+    """Return the keys of a class's plain data in order. Raises `TypeError` for a class without any."""
     named: tuple[str | Key, ...] = getattr(kind, "KEYS", ())
     if not named and is_dataclass(kind):
         named = tuple(each.name for each in fields(kind) if not each.name.startswith("_"))
     if not named:
-        raise TypeError(f"{kind.__name__} has no plain data: it is no dataclass, and has no KEYS")
+        raise TypeError(f"{kind.__name__} has no plain data: it is not a dataclass and has no KEYS")
     return whole(named)
 
 
 def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
-    """Keys, where a name stands for the attribute of that name."""
+    """Convert names in a list of keys to keys of the attributes of that name."""
     return tuple(each if isinstance(each, Key) else Key(each) for each in keys)
 
 
@@ -457,9 +467,9 @@ def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
 
 @cache
 def field_docs(kind: type) -> Mapping[str, str]:
-    """The docstrings below the fields of a class and of its bases, by field, on one line each.
+    """Return the docstrings of the fields of a class and its bases, by field, each on one line.
 
-    Python discards these docstrings, so they are read from the source; a unit stands in brackets: `Angle [rad].`
+    Python discards these docstrings, so they are read from the source. Units are in brackets: `Angle [rad].`
     """
     found: dict[str, str] = {}
     for base in reversed(kind.__mro__):
@@ -470,7 +480,7 @@ def field_docs(kind: type) -> Mapping[str, str]:
 
 @cache
 def _docs_of_classes(module: str) -> Mapping[str, Mapping[str, str]]:
-    """By qualified name of a class in a module, the docstrings of its fields."""
+    """Return the docstrings of the fields of all classes in a module, by qualified class name."""
     import ast
     import inspect
     import sys

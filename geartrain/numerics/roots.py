@@ -1,7 +1,7 @@
-"""Bracketed roots of smooth functions, one by one and many at once.
+"""Bracketed roots of smooth functions, one by one and vectorised.
 
-`roots_by_false_position` keeps each root inside its own bracket by false position in the variant of Anderson and
-Bjorck, which takes few evaluations where functions are smooth and the values at both ends are known.
+`roots_by_false_position` keeps each root inside its own bracket by the Anderson-Bjorck variant of false position. It
+takes few evaluations if functions are smooth and the values at both ends are known.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
-_MOST_SIMULTANEOUS_STEPS = 100  # halving alone needs some 55 where the root is not near 0
-_PATIENCE = 4  # steps without half the bracket: halve it
+_MOST_SIMULTANEOUS_STEPS = 100  # bisection only needs about 55 unless the root is near 0
+_PATIENCE = 4  # steps without halving the bracket after which it is bisected
 
 
 def roots_by_false_position(
@@ -25,13 +25,16 @@ def roots_by_false_position(
     at_high: Floats,
     fine: float = 1e-15,
 ) -> Floats:
-    """False position: where each function changes its sign between low and high; steps end below `fine`.
+    """Find a root of each function between `low` and `high` by the Anderson-Bjorck variant of false position.
 
-    value(x, which)   the functions numbered `which` at x
-    Anderson's and Bjorck's variant, from the values at both ends; where one is stuck, halving. A bracket without a
-    change of sign gives its end with the lesser value.
+    value(x, which)   function that returns the values at x of the functions with the indices `which`
+    at_low, at_high   values at both ends
+    fine              step length at which the iteration stops
+
+    An iteration that stalls is continued by bisection. A bracket without a change of sign returns its end with the
+    smaller absolute value.
     """
-    import numpy as np  # scalar roots do without
+    import numpy as np  # scalar root finders do not need numpy
 
     found = np.where(np.abs(at_low) < np.abs(at_high), low, high)
     which = np.flatnonzero(np.sign(at_low) * np.sign(at_high) < 0)
@@ -40,7 +43,7 @@ def roots_by_false_position(
     for _ in range(_MOST_SIMULTANEOUS_STEPS):
         if not len(which):
             break
-        with np.errstate(invalid="ignore", divide="ignore"):  # f = g: nan is not inside, and the bracket is halved
+        with np.errstate(invalid="ignore", divide="ignore"):  # f = g: NaN is not inside, and the bracket is bisected
             x = b - g * (b - a) / (g - f)
         inside = (x - a) * (x - b) < 0
         x = np.where(inside & (stuck < _PATIENCE), x, a + (b - a) / 2)
@@ -49,7 +52,7 @@ def roots_by_false_position(
         crossed = np.sign(at) != np.sign(g)
         with np.errstate(invalid="ignore", divide="ignore"):
             share = 1 - at / g
-        # an end that stays has its value lessened (Anderson and Bjorck), so that the next step goes past the root
+        # the value at an end that stays is reduced (Anderson and Bjorck), so that the next step passes the root
         f = np.where(crossed, g, f * np.where(share > 0, share, 0.5))
         a = np.where(crossed, b, a)
         b, g = x, at
@@ -63,20 +66,20 @@ def roots_by_false_position(
 
 
 Function = Callable[[float], float]
-_MOST_STEPS = 200  # halving alone needs some 60 where the root is not near 0
-_DEEPEST = 40  # halvings of a bracket in which the slope keeps changing its sign
+_MOST_STEPS = 200  # bisection only needs about 60 unless the root is near 0
+_DEEPEST = 40  # bisections of a bracket whose slope keeps changing sign
 
 
 def bracketed_root(value: Function, slope: Function, low: float, high: float) -> float:
-    """Newton's method kept inside a bracket: the root of `value` between `low` and `high`, where it changes sign.
+    """Find the root of `value` between `low` and `high`, where it changes sign, by Newton's method with bisection.
 
-    Ends when the bracket is two neighbouring floats, or a step no longer moves either end.
+    The iteration ends when the bracket consists of two neighbouring floats, or a step no longer moves either end.
     """
     at_low = value(low)
     if at_low == 0:
         return low
     rising = at_low < 0
-    x = (low + high) / 2  # Newton from the middle: an end may be where the slope vanishes
+    x = (low + high) / 2  # Newton starts in the middle, because the slope may vanish at an end
     for _ in range(_MOST_STEPS):
         here = value(x)
         if here == 0:
@@ -86,14 +89,14 @@ def bracketed_root(value: Function, slope: Function, low: float, high: float) ->
         else:
             high = x
         steep = slope(x)
-        step = x - here / steep if steep else low  # an end of the bracket: it is halved
+        step = x - here / steep if steep else low  # an end of the bracket leads to bisection
         width = high - low
-        if not low < step < high or abs(step - x) > width / 2:  # halving does better than such a step
+        if not low < step < high or abs(step - x) > width / 2:  # bisection is better than such a step
             step = low + width / 2
         elif abs(step - x) < 1e-8 * width:
-            # the step is finer than the bracket: go a little too far, so that the other end comes in too
+            # the step is much smaller than the bracket: overshoot a little, so that the other end moves too
             step = min(max(step + 4 * (step - x), low), high)
-        if step in (low, high):  # neighbouring floats: no step is left
+        if step in (low, high):  # neighbouring floats: no further step exists
             break
         x = step
     return x
@@ -102,10 +105,11 @@ def bracketed_root(value: Function, slope: Function, low: float, high: float) ->
 def sign_changes(
     value: Function, bounds: Callable[[float, float], tuple[float, float]], low: float, high: float, depth: int = 0
 ) -> Iterator[tuple[float, float]]:
-    """Bisection by bounds on the slope: brackets of one root each; `bounds(a, b)` are the least and greatest slope.
+    """Yield brackets that contain one root each, by bisection with bounds on the slope.
 
-    A bracket whose slope has one sign holds one root or none; others are halved. Where function and slope vanish
-    together (a touch, no change of sign) halving ends without a bracket.
+    `bounds(a, b)` returns the minimum and maximum slope. A bracket whose slope has one sign contains at most one root,
+    and others are bisected. Where function and slope vanish together without a change of sign, bisection ends without a
+    bracket.
     """
     at_low, at_high = value(low), value(high)
     minimum, maximum = bounds(low, high)
@@ -114,7 +118,7 @@ def sign_changes(
         if crosses:
             yield low, high
         return
-    # the lowest and the highest that the function can come to between its end values with such slopes (Piyavskii)
+    # bounds on the function between its end values from the bounds on its slope (Piyavskii)
     width, spread = high - low, maximum - minimum
     below = at_low + minimum * (at_low - at_high + maximum * width) / spread
     above = at_low + maximum * (at_high - at_low - minimum * width) / spread
@@ -130,10 +134,10 @@ def sign_changes(
 
 
 def root(value: Function, low: float, high: float, at_low: float, at_high: float) -> float:
-    """Chandrupatla's method: the root of a continuous `value` between `low` and `high`, without slopes.
+    """Find the root of a continuous `value` between `low` and `high` by Chandrupatla's method, without derivatives.
 
-    Inverse quadratic steps where three points allow it, else halving. T. R. Chandrupatla, Advances in Engineering
-    Software 28 (1997) 145-149.
+    Steps are by inverse quadratic interpolation where its condition is satisfied, else by bisection. T. R.
+    Chandrupatla, Advances in Engineering Software 28 (1997) 145-149.
     """
     a, b, at_a, at_b = low, high, at_low, at_high
     share = 0.5
@@ -146,7 +150,7 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
             c, at_c, b, at_b = b, at_b, a, at_a
         a, at_a = x, here
         nearest = a if abs(at_a) < abs(at_b) else b
-        # the least share of the bracket that moves a float: nearer to an end a step would be lost
+        # minimum fraction of the bracket that changes a float: a smaller step would be lost to rounding
         narrow = 2 * ulp(nearest) / abs(b - c) if b != c else 1.0
         if here == 0 or narrow > 0.5:
             return nearest
@@ -156,7 +160,7 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
 
 
 def _quadratic_share(a: float, b: float, c: float, at_a: float, at_b: float, at_c: float) -> float:
-    """How far from a to b the inverse quadratic has its root; a half where it cannot be trusted."""
+    """Return the root of the inverse quadratic as a fraction of the way from a to b; 1/2 if it is unreliable."""
     if not all(map(isfinite, (at_a, at_b, at_c))) or at_b == at_c or at_a in (at_b, at_c):
         return 0.5
     xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)

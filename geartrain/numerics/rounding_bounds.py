@@ -1,8 +1,8 @@
-"""Rounding in float64: error-free transformations of sums and products, and a priori bounds on longer ones.
+"""Rounding in float64: error-free transformations of sums and products, and a priori error bounds.
 
-n roundings in a term change it by at most n u / (1 - n u) of itself (Higham, Accuracy and Stability of Numerical
-Algorithms, section 3.1); the bounds are of first order in u, times `SLACK`. They hold where nothing nears the ends of
-float64, which the caller must ensure.
+n roundings change a term by at most n u / (1 - n u) of itself (Higham, Accuracy and Stability of Numerical Algorithms,
+section 3.1). The bounds are of first order in u, times `SLACK`. They are valid without underflow and overflow, which
+the caller must ensure.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", float, "Floats")
 
-SPLITTER = 134217729.0  # 2^27 + 1: cuts a float64 into two halves of 26 bits, whose products are exact
+SPLITTER = 134217729.0  # 2^27 + 1: splits a float64 into two halves of 26 bits, whose products are exact
 
 
 def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """a + b = s + e exactly (Knuth 1969)."""
+    """Return s and e with a + b = s + e exactly (Knuth 1969)."""
     s = a + b
-    part = s - a  # what of b arrived in s; without a branch on which of the two is larger
+    part = s - a  # part of b that is in s; no comparison of a and b is needed
     return s, (a - (s - part)) + (b - part)
 
 
 def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """a b = p + e exactly, barring underflow and overflow (Dekker 1971)."""
+    """Return p and e with a b = p + e exactly, without underflow and overflow (Dekker 1971)."""
     p = a * b
     a_high, a_low = split(a)
     b_high, b_low = split(b)
@@ -34,32 +34,32 @@ def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 
 def split(a: F) -> tuple[F, F]:
-    """A float as the sum of two of 26 bits (Dekker 1971; Veltkamp)."""
+    """Split a float into a sum of two floats of 26 bits (Dekker 1971; Veltkamp)."""
     big = SPLITTER * a
     high = big - (big - a)  # overflows beyond about 2^996
     return high, a - high
 
 
 UNIT_ROUNDOFF = 2.0**-53
-"""The most by which rounding to float64 changes a number, over its size."""
+"""Maximum relative error of rounding to float64."""
 
 SLACK = 1 + 1e-6
-"""Covers the roundings of the bounds themselves, and the squares that first-order bounds leave out."""
+"""Safety factor for the roundings of the bounds themselves and for the terms of second order."""
 
 
 def sum_error(roundings: int, size: Floats) -> Floats:
-    """Bound on the error of a sum.
+    """Bound the absolute error of a sum.
 
-    roundings   in one term, at most, and one for each term of the sum
-    size        the same sum with all signs plus
+    roundings   maximum number of roundings of one term, plus one for each term of the sum
+    size        sum of the absolute terms
     """
     return SLACK * roundings * UNIT_ROUNDOFF * size
 
 
 def quotient_error(value: Floats, off: Floats, room: Floats, beside: Floats) -> Floats:
-    """Bound on the error of a quotient as computed, `value`, whose parts have errors themselves.
+    """Bound the absolute error of a computed quotient `value` whose numerator and denominator have errors.
 
-    off, beside   bounds on the errors above and below
-    room          size of what is below, less its bound: no digit is sure where it is not positive
+    off, beside   bounds on the errors of numerator and denominator
+    room          absolute denominator less its error bound; no digit is certain if it is not positive
     """
     return SLACK * ((off + abs(value) * beside) / room + 2 * UNIT_ROUNDOFF * abs(value))

@@ -1,4 +1,4 @@
-"""Least squares on a matrix with a few entries a row."""
+"""Least squares with a matrix that has a few entries per row."""
 
 from __future__ import annotations
 
@@ -11,26 +11,29 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
 
-_REST = 1e-4  # of the gradient, where conjugate gradients stop
-_STEPS = 1000  # of conjugate gradients
-_DENSE = 250_000  # entries up to which least squares are solved by a dense matrix
+_REST = 1e-4  # reduction of the gradient at which conjugate gradients stop
+_STEPS = 1000  # maximum number of conjugate gradient steps
+_DENSE = 250_000  # entries up to which a dense matrix is used
 
 
 @dataclass(frozen=True)
 class SparseRows:
-    """A matrix with a few entries a row: their columns and factors."""
+    """A matrix with a fixed small number of entries per row, given by their columns and coefficients."""
 
     columns: Indices
     factors: Floats
     width: int
 
     def small(self, height: int) -> bool:
-        """True if a matrix of this height is cheap to solve."""
+        """Return whether a matrix with this number of rows is solved as a dense matrix."""
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
-        """x with the least |A x - right|: dense by singular values if small, else by conjugate gradients (CGLS)."""
-        # columns of like size: tooth counts from 8 to 10^6 side by side would slow the gradients down and skew `rcond`
+        """Return x that minimises |A x - right|.
+
+        Small systems are solved by singular value decomposition, others by conjugate gradients (CGLS).
+        """
+        # scale the columns: tooth counts from 8 to 10^6 would slow down conjugate gradients and distort `rcond`
         size = np.zeros(self.width)
         np.maximum.at(size, self.columns.ravel(), np.abs(self.factors).ravel())
         size[size == 0] = 1.0
@@ -38,15 +41,15 @@ class SparseRows:
         return (even._dense(right) if self.small(len(right)) else even._gradients(right)) / size
 
     def times(self, x: Floats) -> Floats:
-        """The matrix times a vector."""
+        """Return the product of the matrix and a vector."""
         product: Floats = (self.factors * x[self.columns]).sum(axis=1)
         return product
 
     def _dense(self, right: Floats) -> Floats:
         matrix = np.zeros((len(right), self.width))
-        # a row may hold a column twice: `add.at` counts both, where an assignment would keep one
+        # a row may contain a column twice: `add.at` adds both, an assignment would keep only one
         np.add.at(matrix, (np.arange(len(right))[:, None], self.columns), self.factors)
-        # free motions make the matrix singular up to rounding: 1e-11 of the greatest singular value counts as 0
+        # free motions make the matrix singular up to rounding: singular values below 1e-11 of the maximum count as 0
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-11)[0], float)
 
     def _gradients(self, right: Floats) -> Floats:
@@ -55,10 +58,10 @@ class SparseRows:
         way, power = gradient.copy(), float(gradient @ gradient)
         minimum = _REST**2 * power
         for _ in range(_STEPS):
-            if power <= minimum:  # of a start at rest, too
+            if power <= minimum:  # also true of a zero right-hand side
                 break
             along = self.times(way)
-            # not 0: `way` is a sum of rows, and only the zero vector among those is taken to 0
+            # not 0: `way` is in the row space, where only the zero vector has the image 0
             step = power / float(along @ along)
             x += step * way
             rest -= step * along

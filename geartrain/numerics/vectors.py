@@ -1,7 +1,7 @@
 """Vectors in space as plain tuples of three numbers.
 
-`dot`, `cross`, `minus`, `across_whole` and `parallel` are exact where the numbers are (integers, Fractions); what takes
-a length or a direction of length 1 is for floats.
+`dot`, `cross`, `minus`, `across_whole` and `parallel` are exact for exact numbers (integers, Fractions). Functions
+that need a length or a unit vector are for floats.
 """
 
 from __future__ import annotations
@@ -18,75 +18,75 @@ N = TypeVar("N", int, float, Fraction)
 
 
 def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
-    """The scalar product."""
+    """Return the scalar product."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
-    """The vector product."""
+    """Return the vector product."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
 def minus(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
-    """The way from v to u."""
+    """Return the difference u - v."""
     return u[0] - v[0], u[1] - v[1], u[2] - v[2]
 
 
 def parallel(u: tuple[N, N, N], v: tuple[N, N, N]) -> bool:
-    """True if two vectors have one direction or opposite ones; decided without a tolerance, so for exact numbers."""
+    """Return whether two vectors are parallel or antiparallel, tested exactly, without a tolerance."""
     return not any(cross(u, v))
 
 
 def across_whole(v: IntegerVector, n: IntegerVector) -> IntegerVector:
-    """The part of v across n, lengthened by the square of n so that it stays whole."""
+    """Return the component of v perpendicular to n, multiplied by n.n so that it remains integer."""
     square, along = dot(n, n), dot(v, n)
     return square * v[0] - along * n[0], square * v[1] - along * n[1], square * v[2] - along * n[2]
 
 
 def plus(u: Vector, v: Vector, factor: float = 1.0) -> Vector:
-    """u + factor v: the point that lies `factor` times a way v from a point u."""
+    """Return the sum u + factor v."""
     return u[0] + factor * v[0], u[1] + factor * v[1], u[2] + factor * v[2]
 
 
 def scaled(u: Vector, factor: float) -> Vector:
-    """u times a number."""
+    """Multiply a vector by a number."""
     return u[0] * factor, u[1] * factor, u[2] * factor
 
 
 def turned(u: Vector, way: Vector, angle: float) -> Vector:
-    """u turned about a unit vector by an angle (rad), right-handed: Rodrigues' formula."""
+    """Rotate u about a unit vector by an angle [rad], right-handed, by Rodrigues' formula."""
     along = scaled(way, dot(way, u) * (1 - cos(angle)))
     return plus(plus(scaled(u, cos(angle)), scaled(cross(way, u), sin(angle))), along)
 
 
 def size(v: Vector) -> float:
-    """The length of a vector."""
+    """Return the length of a vector."""
     return sqrt(dot(v, v))
 
 
 def unit(v: Vector) -> Vector:
-    """The direction of a vector other than zero."""
-    top = max(abs(part) for part in v)  # first: squares of what is left neither overflow nor vanish
+    """Normalise a nonzero vector to length 1."""
+    top = max(abs(part) for part in v)  # scale first, so that squares neither overflow nor underflow
     x, y, z = (part / top for part in v)
     length = sqrt(x * x + y * y + z * z)
     return x / length, y / length, z / length
 
 
 def across(v: Vector, n: Vector) -> Vector:
-    """The part of v across a unit vector n."""
+    """Return the component of v perpendicular to a unit vector n."""
     return plus(v, n, -dot(v, n))
 
 
 def frame(n: Vector) -> tuple[Vector, Vector]:
-    """Two unit vectors across n that make a right-handed frame with it: x and y where n is z."""
-    # x, unless it lies so near to n that its part across n is mostly rounding
+    """Return two unit vectors perpendicular to n that form a right-handed frame with it: x and y where n is z."""
+    # x, unless it is so close to n that its perpendicular component is mostly rounding
     start: Vector = (1.0, 0.0, 0.0) if abs(n[0]) < 0.9 else (0.0, 1.0, 0.0)
     first = unit(across(start, n))
     return first, cross(n, first)
 
 
 def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector, Vector]:
-    """The points of two lines (a point and a unit vector each) that are nearest to each other; not for parallels."""
+    """Return the nearest points of two lines that are not parallel, each given by a point and a unit vector."""
     apart, turn = minus(other, point), dot(way, cut)
     square = 1.0 - turn * turn
     near = (dot(apart, way) - turn * dot(apart, cut)) / square
@@ -95,21 +95,21 @@ def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector
 
 
 def unit_or_z(u: Vector) -> Vector:
-    """The same direction, of length 1; z where there is none."""
+    """Normalise a vector to length 1; return z for a zero vector."""
     length = size(u)
     return scaled(u, 1 / length) if length > 1e-12 else (0.0, 0.0, 1.0)
 
 
 def beside(axis: Vector) -> Vector:
-    """A unit vector across an axis: y for z, so that a zero mark stands upwards."""
+    """Return a unit vector perpendicular to an axis; y for the axis z, so that a zero mark points upwards."""
     for way in ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)):
         flat = across(way, axis)
-        # across any axis y or z is left with 0.7 at least, so that nothing cancels
+        # y or z has a perpendicular component of at least 0.7, so that cancellation is harmless
         if size(flat) > 0.5:
             return unit_or_z(flat)
     return (1.0, 0.0, 0.0)
 
 
 def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
-    """Angle (rad) of u about a unit vector, counted from a unit vector across it."""
-    return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # not acos, which loses half the digits near 0
+    """Return the angle [rad] of u about the unit vector `axis`, measured from a perpendicular unit vector."""
+    return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # acos would lose half of the digits near 0

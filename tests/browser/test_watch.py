@@ -145,4 +145,4 @@ def test_it_answers_this_machine_alone(served: tuple[str, subprocess.Popen[str]]
         timeout=PATIENCE,
     )
     assert taken.returncode == 2
-    assert "there is no file" in taken.stderr
+    assert "does not exist" in taken.stderr

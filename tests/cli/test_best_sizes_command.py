@@ -41,7 +41,7 @@ def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
         (("--best", "error", "--free", "depth"), "not a free parameter"),
         (("--best", "error", "--free", "window=0.5"), "NAME=LOW:HIGH"),
         (("--best", "error", "--within", "depth=1"), "NAME=LIMIT"),
-        (("--best", "error", "--within", "error=1 m"), "an angle belongs here"),
+        (("--best", "error", "--within", "error=1 m"), "an angle is required"),
         (("--best", "error", "--within", "stops=5%"), "needs errors"),
         (("--best", "error", "--clearance-factor", "1.01"), "cannot be combined with --best"),
         (("--best", "error", "--vary", "window=0.1:0.9:3"), "cannot be combined with --best"),

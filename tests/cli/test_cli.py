@@ -316,7 +316,7 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true() ->
         (["graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),
         (["report", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
         (["compare", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
-        (["schema", "--as", "yaml"], ["'yaml'", "json or markdown"]),
+        (["schema", "--as", "yaml"], ["'yaml'", "json, markdown or answers"]),
         (["periods", "month_synodik"], ["no name contains 'month_synodik'", "month_synodic"]),
     ],
 )

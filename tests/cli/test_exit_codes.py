@@ -81,8 +81,8 @@ def test_a_fault_of_any_command_is_exit_3_one_line_and_a_file_to_send(
     assert code == 3, err
     assert out == ""
     assert len(err.splitlines()) == 1, err
-    assert err.startswith("internal error: RuntimeError: a \\x1b[31mwheel; this is a fault of geartrain: please report")
-    (kept,) = tmp_path.glob("geartrain-fault-*.txt")
+    assert err.startswith("internal error: RuntimeError: a \\x1b[31mwheel; this is an error in geartrain: attach")
+    (kept,) = tmp_path.glob("geartrain-error-*.txt")
     assert str(kept) in err
     text = kept.read_text(encoding="utf-8")
     assert "Traceback" in text
@@ -214,7 +214,7 @@ def test_a_run_with_nothing_to_resume_says_that_it_begins_anew(
     code, _, err = run(*words, "--resume")
     assert code == 0
     assert "nothing to resume" in err
-    assert "begins anew" in err
+    assert "starting a new run" in err
     assert "nothing to resume" not in run(*words)[2]
 
 
@@ -231,7 +231,7 @@ def test_a_journal_of_another_question_is_refused_and_kept(
     text = kept.read_bytes()
     code, out, err = run(*CUT, "--trials", "2", "--seed", "8", "--resume")
     assert (code, out) == (2, "")
-    assert "the journal is of another question" in err
+    assert "the journal belongs to another question" in err
     assert "seed is 7 there and 8 here" in err
     assert kept.name in err
     assert kept.read_bytes() == text

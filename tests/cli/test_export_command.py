@@ -79,7 +79,7 @@ def test_what_stops_half_way_leaves_nothing_behind(stop: type[BaseException], tm
 
 def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
     (tmp_path / "x").write_text("", encoding="utf-8")
-    with pytest.raises(GearTrainError, match="no folder"):
+    with pytest.raises(GearTrainError, match="not a folder"):
         check_folder(tmp_path / "x", ["a"])
 
 
@@ -94,7 +94,7 @@ def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
         (("-o", "x.svg", "--wheel", "nobody"), "no wheel 'nobody'"),
         (("--to", "d", "--as", "svg,pdf"), "'pdf' is not a kind of export"),
         (("--to", "d", "--wheel", "s"), "only to one file"),
-        (("-o", "x.glb", "--turns", "many"), "no number of turns"),
+        (("-o", "x.glb", "--turns", "many"), "not a valid number of turns"),
         (("-o", "x.stl", "--module", "0mm"), "a module of 0 mm"),
         (("-o", "x.stl", "--module", "1 m"), "a module of 1000 mm cannot be made"),
         (("-o", "x.stl", "--module", "0.01 mm"), "a module of 0.01 mm cannot be made"),

@@ -103,9 +103,9 @@ REFUSED = [
     (["--teeth", 48, 96, "--vary", "clearence=1:2:3"], "cannot be varied"),
     (["--teeth", 48, 96, "--vary", "clearance-factor=1:2"], "FIRST:LAST:COUNT"),
     (["--teeth", 48, 96, "--clearance-factor", 1.01, "--plot", "x.bmp"], "'.bmp'"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--profile", "w.svg"], "there is no module"),
-    (["--teeth", 48, 96, "--module", "1mm", "--clearance-factor", 1.01, "--profile", "w.stl"], "no form of outline"),
-    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "leave --vary out"),
+    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--profile", "w.svg"], "the module is missing"),
+    (["--teeth", 48, 96, "--module", "1mm", "--clearance-factor", 1.01, "--profile", "w.stl"], "not an outline format"),
+    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "omit --vary"),
 ]
 
 
@@ -201,7 +201,7 @@ def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None
     assert "clearance_factor 1.000801478: jam (approach+recess) -> runs (approach+recess)" in said
     assert "runs (astride) -> dwell" in said
     assert "clearance_factor 1.01172" in said
-    assert "greatest mean efficiency, 0.9944" in said
+    assert "maximum mean efficiency, 0.9944" in said
 
 
 def test_a_sweep_of_two_has_every_combination() -> None:
@@ -284,12 +284,12 @@ def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_d
 TRANSMISSION = "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s"
 REFUSED_TRANSMISSIONS = [
     (["--friction", "dokos"], "give --rate and --module"),
-    (["--friction", "dokos", "--rate", "1 rpm"], "nothing says how large it is"),
-    (["--friction", "dokos", "--module", "1mm"], "nothing says how fast it is"),
+    (["--friction", "dokos", "--rate", "1 rpm"], "unknown: the module"),
+    (["--friction", "dokos", "--module", "1mm"], "unknown: the speed of the driver"),
     (["--friction", "stribek,static=1"], "'stribeck'"),
     (["--friction", "stribeck,static=0.2"], "kinetic: Field required"),
-    (["--friction", "dokos", "--vary", "window=0.1:0.9:3"], "asks for friction as a number"),
-    (["--friction", "dokos", "--best", "loss"], "asks for friction as a number"),
+    (["--friction", "dokos", "--vary", "window=0.1:0.9:3"], "needs a coefficient of friction"),
+    (["--friction", "dokos", "--best", "loss"], "needs a coefficient of friction"),
 ]
 
 

@@ -184,7 +184,7 @@ def test_what_is_no_regular_file_is_refused_by_name_and_stays_what_it_is(
         assert "a socket" in refused(ask(command, option, plug.name, *force))
         said = refused(ask(command, option, link.name, *force))
         assert "a device" in said
-        assert "- is standard output" in said
+        assert "- for standard output" in said
     assert {path.name: (path.lstat().st_ino, path.lstat().st_mode) for path in here.iterdir()} == before
     assert (os.stat("/dev/null").st_mode, os.stat("/dev/null").st_ino) == (device.st_mode, device.st_ino)
 
@@ -247,7 +247,7 @@ def test_two_results_of_one_command_never_share_a_file(here: Path) -> None:
     (here / "b.svg").symlink_to("a.svg")
     requested = ("mesh", "triangular", *PAIR, "--window", "0.5", "--plot", "a.svg", "--teeth-plot")
     for second in ("a.svg", "b.svg", "./a.svg"):
-        assert "two results go into one file" in refused(call(*requested, second, "--force"))
+        assert "two results have the same file" in refused(call(*requested, second, "--force"))
     assert [path.name for path in here.iterdir()] == ["b.svg"]
 
 
@@ -260,7 +260,7 @@ def test_a_link_to_nothing_leads_to_the_new_file(here: Path) -> None:
     assert (here / "link.md").is_symlink()
     assert (here / "new.md").read_bytes() == b"new"
     (here / "round.md").symlink_to("round.md")
-    with pytest.raises(GearTrainError, match="no name for a file"):
+    with pytest.raises(GearTrainError, match="not a valid file name"):
         destination(here / "round.md", force=True)
 
 
@@ -298,14 +298,14 @@ def test_what_is_written_is_on_the_disk_before_it_takes_its_name(here: Path, mon
     assert done == ["sync", "name", "sync"] * 2
 
 
-@pytest.mark.parametrize(("names", "words"), [("a", "'a' exists"), ("ab", "'a' and 1 other file exist"),
-                                              ("abcd", "'a' and 3 other files exist")])  # fmt: skip
+@pytest.mark.parametrize(("names", "words"), [("a", "'a' is"), ("ab", "'a' and 1 other file are"),
+                                              ("abcd", "'a' and 3 other files are")])  # fmt: skip
 def test_files_that_are_there_are_counted_in_one_sentence(here: Path, names: str, words: str) -> None:
     for name in names:
         (here / name).write_text("mine", encoding="utf-8")
     with pytest.raises(GearTrainError) as found:
         check_folder(here, [*names, "z"])
-    assert found.value.problems[0].what == f"{words} there already"
+    assert found.value.problems[0].what == f"{words} already in the folder"
 
 
 def test_a_folder_of_results_follows_the_same_rule(here: Path) -> None:
@@ -314,7 +314,7 @@ def test_a_folder_of_results_follows_the_same_rule(here: Path) -> None:
     (here / "away").write_text("mine", encoding="utf-8")
     (to / "graph.dot").symlink_to(here / "away")
     requested = ("export", "planetary-24-18-60", "--to", to, "--as", "dot")
-    assert "'graph.dot' exists there already" in refused(call(*requested))
+    assert "'graph.dot' is already in the folder" in refused(call(*requested))
     assert call(*requested, "--force").exit_code == 0
     assert (to / "graph.dot").is_symlink()
     assert "graph" in (here / "away").read_text(encoding="utf-8")

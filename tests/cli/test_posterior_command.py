@@ -138,5 +138,5 @@ def test_an_interrupted_exact_run_prints_a_short_sample_and_keeps_nothing(
     found = json.loads(result.stdout)
     assert (found["ended"], found["method"], found["ranked"]) == ("interrupted", "sample", False)
     assert any("has no partial result" in remark for remark in found["remarks"])
-    assert "stopped before anything was done that could be kept" in result.stderr
+    assert "stopped before any work was finished" in result.stderr
     assert not list(train.parent.glob("*.partial.jsonl"))

@@ -341,7 +341,7 @@ def test_what_cannot_be_ranked_is_told_before_the_search(given: tuple[str, ...],
     result = ended("reconstruct", "back-train", *given)
     assert result.returncode == 2
     assert told in " ".join(result.stderr.split())
-    assert "asked:" not in result.stderr
+    assert "command:" not in result.stderr
 
 
 def test_trains_are_not_ranked_on_a_carrier() -> None:
@@ -371,4 +371,4 @@ def test_the_report_is_written(tmp_path: Path) -> None:
     assert call("reconstruct", "metonic-l-m", "-o", "-").stdout.startswith("# Trains that explain metonic-l-m")
     same = tmp_path / "one.html"
     result = ended("reconstruct", "metonic-l-m", "-o", same, "--page", same)
-    assert (result.returncode, "two results go into one file" in result.stderr) == (2, True)
+    assert (result.returncode, "two results have the same file" in result.stderr) == (2, True)

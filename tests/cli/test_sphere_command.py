@@ -100,8 +100,8 @@ def test_a_user_s_own_solid_and_graph(tmp_path: Path) -> None:
         (("icosidodecaedron",), "did you mean 'icosidodecahedron'"),
         (("cube", "--teeth", "5=20"), "5"),
         (("icosidodecahedron", "--teeth", "5=20,3=12", "--plot", "x.gif"), "gif"),
-        (("icosidodecahedron", "--radius", "6=1"), "kinds are 5, 3"),
-        ((), "name a solid"),
+        (("icosidodecahedron", "--radius", "6=1"), "use 5, 3"),
+        ((), "give a solid"),
     ],
 )
 def test_refusals_say_what_to_do(arguments: tuple[str, ...], message: str) -> None:

@@ -91,7 +91,7 @@ def test_another_link_can_be_requested_and_a_period_followed(pin: Path) -> None:
     assert json.loads(turned.output)["over_turn"]["turns"] == 1
     requested = call("torques", "norton-planetary", "--turns", "period")
     assert requested.exit_code == 2
-    assert "nothing ripples" in requested.stderr
+    assert "no torque ripples" in requested.stderr
 
 
 @pytest.mark.parametrize("words", [("--csv",), ("--input", "a")])

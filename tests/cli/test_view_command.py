@@ -155,11 +155,11 @@ def refusal(*arguments: object) -> str:
     ("name", "said"),
     [
         (".", "folder"),
-        ("missing/train.html", "no such folder"),
-        ("train.txt", "no suffix of a page"),
-        ("train.png", "pictures and films are saved from the page"),
+        ("missing/train.html", "the folder does not exist"),
+        ("train.txt", "not a suffix of an HTML page"),
+        ("train.png", "pictures and films can be saved from the page"),
         ("train", "no suffix"),
-        ("x" * 300 + ".html", "no name for a file"),
+        ("x" * 300 + ".html", "not a valid file name"),
     ],
 )
 def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> None:
@@ -170,12 +170,12 @@ def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> 
 @pytest.mark.parametrize(
     ("requested", "said"),
     [
-        (("--embed", "--kiosk"), "--embed and --kiosk at once"),
+        (("--embed", "--kiosk"), "--embed and --kiosk are given together"),
         (("planetary", "--embed"), "two trains"),
         (("planetary", "--kiosk"), "two trains"),
-        (("--skip", "1"), "options of motion in time"),
-        (("--turns", "2"), "options of motion in time"),
-        (("planetary", "--dynamics"), "motion in time of two trains"),
+        (("--skip", "1"), "options of --dynamics are given without it"),
+        (("--turns", "2"), "options of --dynamics are given without it"),
+        (("planetary", "--dynamics"), "two trains are given with --dynamics"),
     ],
 )
 def test_what_does_not_go_together_is_refused(here: Path, requested: tuple[str, ...], said: str) -> None:

@@ -521,9 +521,9 @@ def test_the_name_of_a_train_never_leads_out_of_the_folder(here: Path) -> None:
     [
         ("", "a folder"),
         ("folder", "a folder"),
-        ("nowhere/x.svg", "no such folder"),
-        ("x\x07.svg", "no name for a file"),
-        ("y" * 300 + ".svg", "no name for a file"),
+        ("nowhere/x.svg", "the folder does not exist"),
+        ("x\x07.svg", "not a valid file name"),
+        ("y" * 300 + ".svg", "not a valid file name"),
         ("/dev/null", "this is a device"),
     ],
 )

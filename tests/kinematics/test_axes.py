@@ -79,7 +79,7 @@ def test_without_axes_all_axes_are_parallel_and_the_default_direction_is_z() -> 
         ("{C: {direction: [1, 0, 0]}}", "no turning pair with the axis 'C'"),
         ("{A: {direction: [0, 0, 0]}}", "zero vector"),
         ("{A: {direction: [1, 0]}}", "direction"),
-        ("{A: {position: [0 mm, 1 mm, 0 kg]}}", "is a mass, and a length belongs here"),
+        ("{A: {position: [0 mm, 1 mm, 0 kg]}}", "is a mass, but a length is required"),
         ("{A: {position: [0 mm, 1 mm, 0 parsec]}}", "unknown unit"),
         ("{A: {position: [1 mm, 0, 0]}, B: {position: [1, 0, 0]}}", "lengths mix"),
     ],

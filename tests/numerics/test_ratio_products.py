@@ -118,7 +118,7 @@ def test_memory_grows_with_a_drifting_train_not_with_its_square(question: Callab
 
 
 def test_reading_all_of_a_drifting_train_keeps_few_long_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.numerics.factored_ratios._KEPT", 1 << 20)
+    monkeypatch.setattr("geartrain.numerics.factored_ratios._CACHE_BITS", 1 << 20)
     train = GearTrain.declare(drift(6000))
     assert train.circuits
     assert peak(lambda: read_all(train)) < 6000 * 1200, "short ratios and a megabit, not six thousand long numbers"

@@ -270,7 +270,7 @@ def test_a_unit_names_what_one_turn_takes() -> None:
 @pytest.mark.parametrize(
     ("rest", "said"),
     [
-        ("inputs: {a: 2 mm}", "a length, and a speed belongs here"),
+        ("inputs: {a: 2 mm}", "a length, but a speed is required"),
         ("inputs: {a: 2 furlongs}", "unknown unit"),
         ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is not a unit"),
         ("inputs: {a: 1}\nunit: {per: 7}", "is not a unit"),

@@ -43,7 +43,7 @@ def test_an_efficiency_is_a_part_or_a_percentage(efficiency: str, forward: str, 
         ("-0.5", "transmits no power in either direction", "above 0"),
         ("0 %", "transmits no power in either direction", "above 0"),
         ("{forward: 0, backward: -1}", "transmits no power in either direction", "above 0"),
-        ("0.98 rpm", "is a speed, and a fraction belongs here", "%"),
+        ("0.98 rpm", "is a speed, but a fraction is required", "%"),
     ],
 )
 def test_no_efficiency_makes_power_or_passes_none(efficiency: str, said: str, fix: str) -> None:

@@ -141,13 +141,13 @@ def test_a_child_replaces_friction_bearing_and_drive_whole(tmp_path: Path) -> No
 
 
 SLIPS = {
-    "friction: -0.1": "`friction`: a friction of -0.1 would push",
+    "friction: -0.1": "`friction`: the coefficient of friction -0.1 is negative",
     "friction: {sliding: 0.2, static: 0.1}": "a static friction of 0.1 is below the sliding friction of 0.2",
     "friction: {slidign: 0.2}": "did you mean 'sliding'",
     "friction: {static: 0.2, kinetic: 0.1, speed: 1 m/s}": "add `law:`",
     "links: {a: {bearing: {sliding: 1, static: 0.5}}}": "0.5 is below the sliding friction torque 1",
     "links: {a: {bearing: {sliding: 1, static: 2 N m}}}": "mix a plain number and a torque with a unit",
-    "links: {a: {drag: 1 N m}}": "is a torque, and a torsional damping belongs here",
+    "links: {a: {drag: 1 N m}}": "is a torque, but a torsional damping is required",
     "restitution: 1.01": "a restitution of 1.01 is out of range",
     "stiffness: 0 N/m": "0 N/m is not above 0",
     "density: 8.7": "'8.7' has no unit",
@@ -218,7 +218,7 @@ def test_teeth_yield_as_their_form_says_where_their_pair_does_not() -> None:
 
 
 @pytest.mark.parametrize(
-    ("keys", "fix"), [("stiffness: 0 N m/rad", "give for example"), ("damping: -1 N m s/rad", "give 0 or more")]
+    ("keys", "fix"), [("stiffness: 0 N m/rad", "above 0, such as"), ("damping: -1 N m s/rad", "0 or more")]
 )
 def test_a_form_that_does_not_yield_is_refused_as_a_pair_is(keys: str, fix: str) -> None:
     with pytest.raises(GearTrainError, match=fix):

@@ -1,6 +1,6 @@
-"""`geartrain mesh`: what the teeth of one pair do, without a train.
+"""`geartrain mesh`: analysis of one pair of wheels without a train.
 
-Any tooth form has the same command, with the fields of its model as options; triangular teeth have one of their own.
+All tooth forms have the same command, with the fields of their models as options. Triangular teeth have their own.
 """
 
 from __future__ import annotations
@@ -22,13 +22,16 @@ _FORMS = [name for name in TOOTH_FORMS if name not in (*_OWN, "ideal")]
 
 
 class PairGroup(LazyGroup):
-    """What can be asked of one pair, and the forms of its teeth."""
+    """The commands for one pair of wheels, one for each tooth form."""
 
     verbs = Verbs(_OWN, {name: partial(any_form.command, name) for name in _FORMS})
 
 
 app = typer.Typer(
-    cls=PairGroup, add_completion=False, help="What the teeth of one pair do within a pitch.", no_args_is_help=True
+    cls=PairGroup,
+    add_completion=False,
+    help="Analyse one pair of wheels over a pitch, without a train.",
+    no_args_is_help=True,
 )
 
 

@@ -1,5 +1,6 @@
-"""`geartrain mesh FORM` for any tooth form: verdict, motion and losses of a pair, and its wheels to cut. `geartrain
-mesh pin`: the transmission function of a pin in a slot or in a follower.
+"""`geartrain mesh FORM`: verdict, motion and losses of a pair, and outlines of its wheels, for any tooth form.
+
+`geartrain mesh pin`: the transmission function of a pin in a slot or in a follower.
 """
 
 from __future__ import annotations
@@ -57,18 +58,20 @@ if TYPE_CHECKING:
 
 
 _CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
-"""Options of conjugate forms: for a ring, for cones, and for the root that their path of contact leaves open."""
+"""Options only of conjugate forms: for rings, for bevel wheels, and for the root, which their path of contact leaves
+open.
+"""
 
-_LEANING = ("helix",)
-"""Options of the form whose teeth may lean."""
+_HELICAL = ("helix",)
+"""Options only of the form whose teeth can be helical."""
 
 
 def command(name: str) -> Callable[..., None]:
-    """The command of a form: the options all have, and its own."""
+    """Create the command of a form from the common options and its own."""
     model = tooth_form(name)
-    kind = "Costs, faults and outlines" if model.conjugate else "Motion, losses and outlines"
-    words = f"{kind} of a pair with {name.replace('_', '-')} teeth."
-    without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _LEANING))
+    kind = "losses, stresses, faults and outlines" if model.conjugate else "motion, losses and outlines"
+    words = f"Compute {kind} of a pair with {name.replace('_', '-')} teeth."
+    without = (*(() if model.conjugate else _CONJUGATE), *(() if name == "involute" else _HELICAL))
     return form_command(model, partial(_run, model), words, without=without)
 
 
@@ -76,35 +79,37 @@ def _run(
     model: type[ToothForm],
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
     internal: Internal = False,
-    bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
+    bevel: Annotated[str | None, typer.Option("--bevel", help="Shaft angle of bevel wheels, such as 90deg.")] = None,
     helix: Annotated[
-        str | None, typer.Option("--helix", help="Helix angle, such as 20deg; modules are then normal ones.")
+        str | None, typer.Option("--helix", help="Helix angle, such as 20deg; modules are then normal modules.")
     ] = None,
     friction: Friction = "0",
     rate: Rate = None,
-    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
+    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,
     backlash: Annotated[
-        str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
+        str | None, typer.Option("--backlash", help="Backlash on the pitch circle, in modules or with a unit.")
     ] = None,
-    module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
+    module: Annotated[
+        str | None, typer.Option("--module", help="Module (pitch diameter over tooth count), such as 2mm.")
+    ] = None,
     profile: Profile = None,
     wheel: WheelNumber = 1,
     clearance: Annotated[
-        str | None, typer.Option("--clearance", help="With --profile: root to mate's tip; default module/4.")
+        str | None, typer.Option("--clearance", help="With --profile: bottom clearance; default module/4.")
     ] = None,
     fillet: Annotated[
-        str | None, typer.Option("--fillet", help="With --profile: radius at the root; default 0.38 module, or less.")
+        str | None, typer.Option("--fillet", help="With --profile: root fillet radius; default 0.38 module, or less.")
     ] = None,
     bore: Bore = None,
     rim: Annotated[
-        str | None, typer.Option("--rim", help="With --profile: how much material is left around a ring or a lantern.")
+        str | None, typer.Option("--rim", help="With --profile: radial thickness of the rim of a ring or lantern.")
     ] = None,
     tolerance: Tolerance = FINE,
     plot: Annotated[
         Path | None,
         typer.Option(
             "--plot",
-            help="Draw flanks, path of contact and costs, or of teeth without a path their motion, to this file.",
+            help="Draw flanks, path of contact and losses to this file; without such a path, the motion.",
         ),
     ] = None,
     json: Json = False,
@@ -126,6 +131,7 @@ def _run(
         mesh = rub.of(pair_in_mesh(form, wheels, angle, driver), rate)
     except GearTrainError as error:
         raise at_option(error, "--teeth") from None
+    # the option is that of the form if the form has one, else that of the profile
     root = None if "clearance" in model.model_fields else clearance
     blank = {"clearance": root, "fillet": fillet, "bore": bore, "rim": rim, "tolerance": tolerance}
     outlines = write_profile(mesh, wheel, blank, outlined)
@@ -136,7 +142,11 @@ def _run(
 
 
 def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, backlash: str | None) -> ToothForm:
-    """The form; a clearance may be its own and not that of a profile's root, and play what it makes of it."""
+    """Parse the form.
+
+    A clearance can be an option of the form or the clearance at the root of a profile. A form without a field for
+    backlash is thinned.
+    """
     if "clearance" in model.model_fields:
         own = own | {"clearance": clearance}
     if "backlash" in model.model_fields or backlash is None:
@@ -145,7 +155,7 @@ def _read(model: type[ToothForm], own: dict[str, Any], clearance: str | None, ba
 
 
 def _figure(mesh: GearMesh) -> Figure:
-    """Flanks and costs along the path of contact where there is one, else the motion over a pitch."""
+    """Plot flanks and losses along the path of contact, or the motion over a pitch for forms without a path."""
     from geartrain.drawing import shapes_figure, transmission_figure
 
     if mesh.path is not None:
@@ -155,15 +165,15 @@ def _figure(mesh: GearMesh) -> Figure:
 
 
 def pin(
-    pin_radius: Annotated[str, typer.Option("--pin-radius", help="Distance of the pin from its own axis.")],
-    offset: Annotated[str, typer.Option("--offset", help="Distance of the two axes.")],
-    friction: Annotated[str, typer.Option("--friction", help="Friction of the pin along the slot.")] = "0",
-    driver: Annotated[str, typer.Option("--driver", help="Which drives: pin or slot.")] = "pin",
+    pin_radius: Annotated[str, typer.Option("--pin-radius", help="Distance of the pin from the axis of its wheel.")],
+    offset: Annotated[str, typer.Option("--offset", help="Distance between the two axes.")],
+    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction between pin and slot.")] = "0",
+    driver: Annotated[str, typer.Option("--driver", help="Driving member: pin or slot.")] = "pin",
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
+    """Compute mean ratio, amplitude and extreme speeds of a pin in a slot or in a follower."""
     from geartrain.report.pair_page import describe_pin
     from geartrain.teeth.pair_results import pin_figures
     from geartrain.teeth.pin_coupling import pin_transmission

@@ -1,4 +1,4 @@
-"""`geartrain mesh compare`: what several tooth forms cost, beside the 20 degree involute of the same pair and arcs."""
+"""`geartrain mesh compare`: tooth forms compared with the 20 degree involute of the same pair and arcs."""
 
 from __future__ import annotations
 
@@ -29,25 +29,34 @@ if TYPE_CHECKING:
 
 def run(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the driving and the driven wheel.")],
-    forms: Annotated[str, typer.Option("--forms", help=f"With commas, of {', '.join(comparable_forms())}.")] = ",".join(
-        USUAL
-    ),
+    forms: Annotated[
+        str, typer.Option("--forms", help=f"Tooth forms, separated by commas: {', '.join(comparable_forms())}.")
+    ] = ",".join(USUAL),
     pressure_angle: Annotated[
         str | None,
-        typer.Option("--pressure-angle", help="Of involute, uniform_stress and least_friction; default 20, 20, 25deg."),
+        typer.Option(
+            "--pressure-angle",
+            help="Pressure angle of involute, uniform_stress, least_friction; default 20, 20, 25deg.",
+        ),
     ] = None,
-    arcs: Annotated[str, typer.Option("--arcs", help="Approach and recess in pitches.")] = "0.5,0.5",
-    bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
-    internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
+    arcs: Annotated[
+        str,
+        typer.Option("--arcs", help="Arcs of approach and recess in pitches: one value, or two separated by a comma."),
+    ] = "0.5,0.5",
+    bevel: Annotated[str | None, typer.Option("--bevel", help="Shaft angle of bevel wheels, such as 90deg.")] = None,
+    internal: Annotated[bool, typer.Option("--internal", help="Make the second wheel a ring.")] = False,
     plot: Annotated[
-        Path | None, typer.Option("--plot", help="Draw flanks, paths of contact and costs of all forms to this file.")
+        Path | None, typer.Option("--plot", help="Draw flanks, paths of contact and losses of all forms to this file.")
     ] = None,
     json: Json = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
+    """Compare loss, stress, heat, flash temperature and depth of tooth forms with the 20 degree involute.
+
+    All forms have the same pair and the same arcs of approach and recess.
+    """
     from geartrain.report.conjugate_pair_page import describe_form_comparison
 
     to, picture = sink(out, force, (".md", ".html", ".json")), picture_sink(plot, force, theme)
@@ -64,7 +73,7 @@ def run(
 
 
 def _arcs(text: str) -> tuple[float, float]:
-    """Approach and recess in pitches; one number for both."""
+    """Parse arcs of approach and recess [pitch]; one number sets both."""
     parts = text.split(",")
     try:
         first, second = float(parts[0]), float(parts[-1])

@@ -6,6 +6,7 @@ function of speed with `--rate`. `--profile` writes the outline of a whole wheel
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from inspect import Parameter, Signature
@@ -34,21 +35,26 @@ if TYPE_CHECKING:
 
 
 FormOptions = dict[str, str | bool | None]
-Internal = Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")]
+
+_PER_WHEEL = ("shift", "addendum", "dedendum", "radius", "thickness")
+"""Fields with one value for each wheel; other pairs of values are for approach and recess."""
+
+Internal = Annotated[bool, typer.Option("--internal", help="Make the second wheel a ring.")]
 
 
 def option_name(field: str) -> str:
-    """`--centre-distance` of `centre_distance`."""
+    """Return the option of a field: `--centre-distance` for `centre_distance`."""
     return f"--{field.replace('_', '-')}"
 
 
 def own_options(model: type[ToothForm]) -> dict[str, tuple[type, str]]:
-    """The options of a form by the names of its fields: of which type, and what the field says of itself.
+    """Return type and help text of the options of a form, by the names of its fields.
 
-    Of forms that keep their design at any distance there is none for the distance; none for how teeth yield in time.
+    Forms that keep their design at any centre distance have no option for it. Fields for the time domain have no
+    option.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
-    return {name: _option(field) for name, field in model.model_fields.items() if name not in hidden}
+    return {name: _option(name, field) for name, field in model.model_fields.items() if name not in hidden}
 
 
 def form_command(
@@ -58,11 +64,11 @@ def form_command(
     defaults: Mapping[str, str] | None = None,
     without: Collection[str] = (),
 ) -> Callable[..., None]:
-    """The command of a form: the options of `run` with the form's own after the first of them.
+    """Create the command of a form: the options of `run`, with the form's own options after the first.
 
-    run        takes them all by name, and those of the form that it does not name as `own`
-    words      what `--help` says
-    defaults   of the form's own options, where the form itself has none
+    run        function that takes the options by name, and those of the form that it does not name as `own`
+    words      help text
+    defaults   default values of the form's own options, if the form has none
     without    options of `run` that the form does not have
     """
     first, *rest = Signature.from_callable(run, eval_str=True).parameters.values()
@@ -82,27 +88,33 @@ def form_command(
     def command(**given: Any) -> None:
         run(**given)
 
+    # typer reads the options from the signature and their types from the annotations
     command.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {each.name: each.annotation for each in parameters}
     command.__doc__ = words
     return command
 
 
-def _option(field: FieldInfo) -> tuple[type, str]:
-    text = (field.description or "").replace("a list of two", "two with a comma")
+def _option(name: str, field: FieldInfo) -> tuple[type, str]:
+    # a declaration takes a list where an option takes two values separated by a comma
+    text = re.sub("[,;] one or one a wheel", "", field.description or "").replace(
+        "a list of two", "a pair of values with a comma"
+    )
     if isinstance(field.default, bool):
         return bool, f"{text}."
     if any(each not in text for each in _words(field.annotation)):
         text += f": {', '.join(_words(field.annotation))}"
+    if _is_pair(field.annotation) and "comma" not in text:
+        pair = "; one value, or two separated by a comma" + (" (first, second wheel)" if name in _PER_WHEEL else "")
+        before, *default = re.split(r"(?=[;.] [Dd]efault )", text, maxsplit=1)
+        text = before + pair + "".join(default)
     if field.default is not None and not field.is_required():
         text += f"; default {field.default}"
-    if _is_pair(field.annotation) and "two with a comma" not in text:
-        text += "; two with a comma"
     return str, f"{text}."
 
 
 def _words(annotation: Any) -> list[str]:
-    """The words among which one can be chosen."""
+    """Return the words among which the value of a field is chosen."""
     if get_origin(annotation) is Literal:
         return [each for each in get_args(annotation) if isinstance(each, str)]
     return [word for each in get_args(annotation) for word in _words(each)]
@@ -113,9 +125,9 @@ def _is_pair(annotation: Any) -> bool:
 
 
 def read_form(model: type[ToothForm], given: FormOptions, place: str = "") -> ToothForm:
-    """The tooth form with the options given.
+    """Create the tooth form from options.
 
-    Raises `GearTrainError` for options it cannot have, at `place` where none alone is at fault.
+    Raises `GearTrainError` for invalid options, at `place` if no single option is at fault.
     """
     fields = model.model_fields
     (form,) = get_args(fields["form"].annotation)
@@ -126,7 +138,7 @@ def read_form(model: type[ToothForm], given: FormOptions, place: str = "") -> To
 
 
 def as_options(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
-    """The error with its places, which are names of parameters, as options; `place` and `fix` where it names none."""
+    """Convert the parameter names in an error to options; `place` and `fix` are used where it has none."""
     return GearTrainError(
         replace(each, place=option_name(each.place) if each.place else place, fix=each.fix or fix)
         for each in error.problems
@@ -134,7 +146,7 @@ def as_options(error: GearTrainError, place: str, fix: str = "") -> GearTrainErr
 
 
 def _value(field: FieldInfo, given: str | bool) -> Any:
-    """What an option says, as a declaration would: a list where there is a comma, a number where one can be chosen."""
+    """Convert the value of an option as in a declaration: a list if it has a comma, an integer if one can be chosen."""
     if isinstance(given, bool):
         return given
     if given.isdigit() and int(given) in get_args(field.annotation):
@@ -143,30 +155,33 @@ def _value(field: FieldInfo, given: str | bool) -> Any:
 
 
 def read_shaft_angle(internal: bool, bevel: str | None) -> float | None:
-    """The angle (rad) under which axes meet; None where they are parallel. Raises `GearTrainError`."""
+    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
     if internal and bevel is not None:
-        why = "a ring's axis is parallel to its pinion's"
-        raise GearTrainError(Problem("a ring is no bevel wheel", why, "give --internal or --bevel", "--bevel"))
+        why = "a ring and its pinion have parallel axes"
+        raise GearTrainError(Problem("a ring is not a bevel wheel", why, "give --internal or --bevel", "--bevel"))
     return None if bevel is None else quantity("--bevel", bevel, "angle")
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """The helix angle of a pair on parallel axes (rad); 0 of straight teeth. Raises `GearTrainError`."""
+    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels. Raises `GearTrainError`."""
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
-        why = "teeth that lean are known of wheels on parallel axes"
+        why = "helical teeth are implemented for parallel axes only"
         raise GearTrainError(Problem("bevel wheels have no helix angle", why, "give --bevel or --helix", "--helix"))
     if not 0 <= angle < pi / 2:
         what = f"a helix angle of {helix} is outside 0 to 90 deg"
-        raise GearTrainError(Problem(what, "it is counted from the axis", "give for example --helix 20deg", "--helix"))
+        raise GearTrainError(Problem(what, "it is measured from the axis", "give for example --helix 20deg", "--helix"))
     return angle
 
 
 def read_module(module: str | None, backlash: str | None = None) -> float | None:
-    """The module (m), None if not given. Raises `GearTrainError`, too where a backlash with a unit would need one."""
+    """Parse the module [m]; None if not given.
+
+    Raises `GearTrainError`, also if a backlash with a unit is given without a module.
+    """
     size = None if module is None else quantity("--module", module, "length")
     if size is not None and size <= 0:
-        raise GearTrainError(Problem(f"a module of {module} is no size", "", "give a module above 0", "--module"))
+        raise GearTrainError(Problem(f"the module {module} is not positive", "", "give a module above 0", "--module"))
     if size is None and backlash is not None and quantity("--backlash", backlash, "length", plain=True):
         _check_plain(backlash)
     return size
@@ -176,13 +191,15 @@ def _check_plain(backlash: str) -> None:
     from geartrain.numerics.quantity import Quantity
 
     if Quantity.parse(backlash, "length", True).unit is not None:
-        why = "forms are in modules, and nothing says how long one is"
+        why = "sizes of a tooth form are in modules"
         fix = "give for example --module 2mm, or the backlash as a plain number of modules"
-        raise GearTrainError(Problem(f"a backlash of {backlash} has nothing to be compared with", why, fix, "--module"))
+        raise GearTrainError(
+            Problem(f"the backlash {backlash} has a unit, but the module is unknown", why, fix, "--module")
+        )
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, bevel: str | None) -> WheelPair:
-    """Two wheels without a size, that conjugate teeth can be made for. Raises `GearTrainError`."""
+    """Create two wheels without a size for conjugate teeth. Raises `GearTrainError`."""
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, bevel))
@@ -194,14 +211,14 @@ def read_wheels(teeth: tuple[int, int], internal: bool, bevel: str | None) -> Wh
 
 
 def pair_in_mesh(form: ToothForm, wheels: MeshingWheels, shaft_angle: float | None, driver: int) -> GearMesh:
-    """Two wheels in mesh, of which the first or the second drives.
+    """Create the mesh of two wheels, driven by the first or the second.
 
-    Raises `GearTrainError` where the form gives no such pair.
+    Raises `GearTrainError` if the form cannot mesh in this pair.
     """
     from geartrain.teeth.meshing_wheels import MeshDriver
 
     mesh = form.mesh(wheels, lambda: shaft_angle)
-    assert mesh is not None  # ideal teeth are no form to ask about
+    assert mesh is not None  # ideal teeth have no command
     return mesh.driven_by(MeshDriver(wheels.gear.pair[driver - 1], ""))
 
 
@@ -213,13 +230,15 @@ def two_wheels(
     shaft_angle: float | None = None,
     helix: float = 0.0,
 ) -> MeshingWheels:
-    """The wheels of a pair without a train; `module`, the normal one, in m, `helix` of the first wheel in rad."""
+    """Create the wheels of a pair without a train; normal module in m, helix angle of the first wheel in rad."""
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
 
     kind = "helical" if helix else "spur" if shaft_angle is None else "bevel"
+    # the transverse module is the normal module divided by the cosine of the helix angle
     distance = None if module is None else module / cos(helix) * sum(teeth) / 2
     pair = GearPair(pair=("wheel 1", "wheel 2"))
+    # external helical wheels have opposite hands, a ring has the hand of its pinion
     lean = (helix, helix if internal else -helix)
     return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance, helix=lean)
 
@@ -230,26 +249,31 @@ def two_wheels(
 Profile = Annotated[
     Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
 ]
-WheelNumber = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")]
-Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")]
-Tolerance = Annotated[str, typer.Option("--tolerance", help="With --profile: how far chords may leave a flank.")]
+WheelNumber = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: number of the wheel, 1 or 2.")]
+Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the bore, such as 5mm.")]
+Tolerance = Annotated[
+    str, typer.Option("--tolerance", help="With --profile: maximum deviation of chords from a flank.")
+]
 FINE = "0.001mm"
-"""The tolerance where none is given."""
+"""Default chord tolerance of outlines."""
 
 
 def profile_sink(profile: Path | None, force: bool) -> Sink:
-    """Where an outline goes; what cannot be written is refused before the work. Raises `GearTrainError`."""
+    """Return the destination of an outline, after checking that it can be written. Raises `GearTrainError`."""
     from geartrain.drawing.flat_files import OUTLINES
 
     to = sink(profile, force, option="--profile")
     if to.path is not None and to.suffix not in OUTLINES:
-        what = f"'{to.suffix}' is no form of outline"
+        what = f"'{to.suffix}' is not an outline format"
         raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
     return to
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], to: Sink) -> list[WheelOutline]:
-    """The outline of a wheel, written; none where no file is named. `blank` has its sizes as options give them."""
+    """Write the outline of a wheel and return it; empty if no file is named.
+
+    `blank` contains the sizes of the wheel as given by options.
+    """
     if to.path is None:
         return []
     from geartrain.drawing import outline_text
@@ -260,12 +284,12 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str | None], t
 
 
 def _blank_sizes(module: float | None, sizes: Mapping[str, str | None]) -> BlankSizes:
-    """Sizes in mm, the module in m."""
+    """Parse the sizes of a wheel [mm]; `module` is in m."""
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
-        why = "an outline is to scale, and nothing gives these wheels a size"
-        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+        why = "an outline is written to scale"
+        raise GearTrainError(Problem("the module is missing", why, "give for example --module 2mm", "--module"))
     given = {name: 1000 * quantity(f"--{name}", text, "length") for name, text in sizes.items() if text is not None}
     return BlankSizes(1000 * module, **given)
 
@@ -277,48 +301,53 @@ Friction = Annotated[
     str,
     typer.Option(
         "--friction",
-        help="Coefficient of friction, or a law of speed: buckingham, dokos, "
+        help="Coefficient of friction, or a friction law: buckingham, dokos, "
         "'stribeck,static=0.2,kinetic=0.08,speed=10 mm/s', or a table.",
     ),
 ]
-Rate = Annotated[str | None, typer.Option("--rate", help="Speed of the driver, such as '1 turn/s'.")]
+Rate = Annotated[str | None, typer.Option("--rate", help="Speed of the driving wheel, such as '1 turn/s'.")]
 
 
 @dataclass(frozen=True)
 class PairFrictionOption:
-    """What `--friction` says."""
+    """Value of `--friction`: a coefficient, or a friction law."""
 
     coefficient: float
-    """0 where a law is given."""
+    """Coefficient of friction; 0 if a law is given."""
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """The coefficient. Raises `GearTrainError` where a law is given to an option that asks for a number."""
+        """Return the coefficient. Raises `GearTrainError` if a friction law is given with an option that needs a
+        number.
+        """
         if self.law is not None:
-            what = f"{option} asks for friction as a number"
-            raise GearTrainError(Problem(what, "a law of speed was given", "give a coefficient", "--friction"))
+            what = f"{option} needs a coefficient of friction"
+            raise GearTrainError(
+                Problem(what, "a friction law is given", "give for example --friction 0.1", "--friction")
+            )
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """The mesh with that friction, at the speed of its driver. Raises `GearTrainError` where none is known."""
+        """Return the mesh with this friction at the speed of its driver. Raises `GearTrainError` if that is unknown."""
         if self.law is None:
             return mesh
         radius = mesh.pitch_radius
         if radius is None or rate is None:
-            missing = {"--rate": ("fast", rate), "--module": ("large", radius)}
+            missing = {"--rate": ("the speed of the driver", rate), "--module": ("the module", radius)}
             lacking = {option: word for option, (word, value) in missing.items() if value is None}
-            what = f"friction by the law '{self.law.law}' depends on the speed of the pair"
-            why = f"nothing says how {' or '.join(lacking.values())} it is"
+            what = f"the friction law '{self.law.law}' depends on the sliding speed"
+            why = f"unknown: {' and '.join(lacking.values())}"
             raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts
+            # the pitch radius is that of the first wheel, the speed that of the driver
             radius *= second / first
         speed = quantity("--rate", rate, "speed", minimum="above 0") * radius
         return replace(mesh, wheels=replace(mesh.wheels, friction=None, friction_law=self.law, pitch_line=speed))
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """A coefficient, or the law that a text names. Raises `GearTrainError`."""
+    """Parse a coefficient of friction or the friction law that a text names. Raises `GearTrainError`."""
     name = text.split(",")[0].strip()
     if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
         return PairFrictionOption(read_coefficient(text))
@@ -337,7 +366,7 @@ def _problem(item: Any) -> Problem:
         from geartrain.train.validation import unknown_tag
 
         given = item["ctx"]["tag"]
-        return Problem(f"there is no law of friction '{given}'", "", suggest(given, unknown_tag(item)[1]), "--friction")
+        return Problem(f"'{given}' is not a friction law", "", suggest(given, unknown_tag(item)[1]), "--friction")
     key = ".".join(str(step) for step in item["loc"][1:])
     what = f"{key}: {item['msg']}" if key else item["msg"]
     return Problem(what, "", str((item.get("ctx") or {}).get("fix", "see docs/shapes.md, section 15")), "--friction")

@@ -1,6 +1,6 @@
-"""`geartrain mesh triangular`: contact, law, collisions and losses of a pair with triangular teeth.
+"""`geartrain mesh triangular`: contact, transmission function, impacts and losses of a pair with triangular teeth.
 
-With `--vary`, a table over one parameter or two.
+With `--vary`, the result is a table over one or two parameters.
 """
 
 from __future__ import annotations
@@ -66,21 +66,21 @@ VARIED = (
     "z1",
     "z2",
 )
-"""What can be varied: what the form declares by one number, and what a pair has besides."""
+"""Parameters that can be varied: numbers of the form's declaration, friction and tooth counts."""
 _KEPT = ("half_angle", "radii")
-"""Of the form, what stays as it is where a clearance is varied."""
+"""Options of the form that keep their values when a clearance is varied."""
 _PAIR = ("friction", "z1", "z2")
 
 
 @dataclass(frozen=True)
 class TriangularOptions:
-    """A pair as options describe it; any of them can be varied."""
+    """A pair as described by options, any of which can be varied."""
 
     teeth: tuple[int, int]
     own: FormOptions
-    """Of the form, by the names of its fields."""
+    """Options of the form, by the names of its fields."""
     module: float | None
-    """M; None where it is not given."""
+    """Module [m]; None if not given."""
     friction: str
     driver: int
     backwards: bool
@@ -88,9 +88,10 @@ class TriangularOptions:
     internal: bool = False
 
     def mesh(self, **varied: str) -> TriangularMesh:
-        """The pair in mesh, with some options replaced by what is varied."""
+        """Create the pair in mesh, with some options replaced by varied values."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
+        # tooth counts in a sweep are floats
         z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
         rub = read_pair_friction(varied.get("friction", self.friction))
         wheels = two_wheels((z1, z2), rub.coefficient, self.module, self.internal)
@@ -106,13 +107,14 @@ class TriangularOptions:
         return replace(mesh, transmission=mesh.transmission.reversed_motion()) if self.backwards else mesh
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
-        """The tooth form with some options replaced; one clearance that is varied replaces whatever is given."""
+        """Create the tooth form with some options replaced; a varied clearance replaces all given clearances."""
+        # only one of the options for the clearance can be given
         fixed = _KEPT if set(varied) - {*_KEPT} else tuple(self.own)
         return read_form(Triangular, {name: self.own[name] for name in fixed} | dict(varied), "--radii")
 
 
 def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """The table of a sweep, as text and as a picture."""
+    """Run a parameter sweep and write it as a table and as a picture."""
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
 
@@ -122,7 +124,7 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     def make(**values: float) -> TriangularTransmission:
         return pair.mesh(**{name: f"{value!r}{units[name]}" for name, value in values.items()}).transmission
 
-    # a unit or an option that no point of a sweep can have is complained of before it begins
+    # a unit or option that is invalid at every point is reported before the sweep begins
     pair.form({name: f"{values[0]!r}{units[name]}" for name, values in ranges.items() if name not in _PAIR})
     count = 1
     for values in ranges.values():
@@ -134,7 +136,7 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     else:
         emit(csv_text(found.header, map(_plain, found.rows())).rstrip("\n"), to)
     if len(ranges) == 1:
-        _tell_changes(make, next(iter(ranges)), found, units)
+        _report_changes(make, next(iter(ranges)), found, units)
     if picture.path is not None:
         from geartrain.drawing.parameter_sweep_plot import parameter_name, sweep_figure
 
@@ -145,9 +147,9 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """The values of each varied parameter, and the unit they were given in."""
+    """Parse the values of each varied parameter, and the unit in which they were given."""
     if len(vary) > 2:
-        raise typer.BadParameter("vary one parameter or two", param_hint="--vary")
+        raise typer.BadParameter("at most two parameters can be varied", param_hint="--vary")
     ranges: dict[str, list[float]] = {}
     units: dict[str, str] = {}
     for text in vary:
@@ -167,7 +169,7 @@ def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
 
 
 def _number(text: str) -> tuple[float, str]:
-    """A number and the unit behind it."""
+    """Parse a number and the unit that follows it."""
     import math
     import re
 
@@ -182,65 +184,79 @@ def _number(text: str) -> tuple[float, str]:
 
 
 def _plain(row: tuple[object, ...]) -> list[object]:
-    """NaN becomes nothing."""
+    """Replace NaN by None in a row."""
     return [None if value != value else value for value in row]
 
 
-def _tell_changes(make: Any, name: str, found: ParameterSweep, units: dict[str, str]) -> None:
+def _report_changes(make: Any, name: str, found: ParameterSweep, units: dict[str, str]) -> None:
     from geartrain.teeth.triangular.parameter_sweep import best, changes
 
     for change in changes(make, name, found) if name not in ("z1", "z2") else ():
         tell(f"{name} {change.value:.10g}{units[name]}: {change.before} -> {change.after}")
     top = best(make, name, found) if name not in ("z1", "z2", "friction") else None
     if top is not None:
-        tell(f"{name} {top[0]:.8g}{units[name]}: greatest mean efficiency, {top[1]:.8f}")
+        tell(f"{name} {top[0]:.8g}{units[name]}: maximum mean efficiency, {top[1]:.8f}")
 
 
 def _run(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
     internal: Internal = False,
     module: Annotated[
-        str | None, typer.Option("--module", help="Pitch diameter over tooth count, which gives the wheels a size.")
+        str | None, typer.Option("--module", help="Module (pitch diameter over tooth count), such as 2mm.")
     ] = None,
     friction: Friction = "0",
-    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
-    backwards: Annotated[bool, typer.Option("--backwards", help="Turn backwards, on the back flanks.")] = False,
+    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,
+    backwards: Annotated[
+        bool, typer.Option("--backwards", help="Turn the driver backwards, on the back flanks.")
+    ] = False,
     inertia: Annotated[
-        str | None, typer.Option("--inertia", help="Moment of inertia of all that turns with the driven wheel.")
+        str | None,
+        typer.Option("--inertia", help="Moment of inertia on the axis of the driven wheel, such as '1 kg mm2'."),
     ] = None,
     rate: Rate = None,
-    load: Annotated[str | None, typer.Option("--load", help="Torque that resists the driven wheel.")] = None,
+    load: Annotated[
+        str | None, typer.Option("--load", help="Load torque on the driven wheel, such as '1 N mm'.")
+    ] = None,
     vary: Annotated[
         list[str] | None,
-        typer.Option("--vary", help=f"NAME=FIRST:LAST:COUNT, once or twice; NAME is one of {', '.join(VARIED)}."),
+        typer.Option("--vary", help=f"Vary one or two parameters, NAME=FIRST:LAST:COUNT of {', '.join(VARIED)}."),
     ] = None,
     best: Annotated[
         str | None,
         typer.Option(
-            "--best", help="Find the sizes best in loss, error, impact or jam; of two with a comma the front."
+            "--best",
+            help="Minimise loss, error or impact, or maximise the jam margin (jam); one or two, separated by a comma.",
         ),
     ] = None,
     free: Annotated[
         list[str] | None,
-        typer.Option("--free", help="With --best: NAME or NAME=LOW:HIGH of radii, window, half_angle; default radii."),
+        typer.Option(
+            "--free",
+            help="With --best: free parameter NAME or NAME=LOW:HIGH: radii, window, half_angle; default radii.",
+        ),
     ] = None,
     within: Annotated[
         list[str] | None,
         typer.Option(
-            "--within", help="With --best: NAME=LIMIT of loss, error, impact, jam, window_width, play, stops."
+            "--within", help="With --best: limit NAME=LIMIT of loss, error, impact, jam, window_width, backlash, stops."
         ),
     ] = None,
     set_: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'pitch_deviation=1 %'."
+            "--set", help="With --within stops=5%: wheel errors KIND=SIZE as in montecarlo: 'pitch_deviation=1 %'."
         ),
     ] = None,
     plot: Annotated[
-        Path | None, typer.Option("--plot", help="Draw the law, the sweep, or the designs of --best to this file.")
+        Path | None,
+        typer.Option(
+            "--plot", help="Plot the transmission function, the sweep, or the designs of --best to this file."
+        ),
     ] = None,
     teeth_plot: Annotated[Path | None, typer.Option("--teeth-plot", help="Draw the wheels in contact.")] = None,
-    at: Annotated[str | None, typer.Option("--at", help="alpha_1 at which the wheels are drawn.")] = None,
+    at: Annotated[
+        str | None, typer.Option("--at", help="With --teeth-plot: angle alpha_1 at which the wheels are drawn.")
+    ] = None,
     profile: Profile = None,
     wheel: WheelNumber = 1,
     bore: Bore = None,
@@ -290,7 +306,7 @@ def _run(
 def _check_one_pair(files: Mapping[str, Path | None]) -> None:
     for option, path in files.items():
         if path is not None:
-            raise typer.BadParameter("one pair is drawn, and a sweep has many: leave --vary out", param_hint=option)
+            raise typer.BadParameter("only one pair can be drawn: omit --vary", param_hint=option)
 
 
 def _operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
@@ -307,6 +323,6 @@ def _operation(inertia: str | None, rate: str | None, load: str | None) -> PairO
 run = form_command(
     Triangular,
     _run,
-    "Contact, law, collisions and losses of a pair with triangular teeth, or a sweep over its parameters as CSV.",
+    "Compute contact, transmission function, impacts and losses of a pair with triangular teeth, or a sweep as CSV.",
     {"half_angle": "30deg"},
 )

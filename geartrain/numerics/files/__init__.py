@@ -1,4 +1,4 @@
-"""The only door to disk: YAML in, with line marks and `extends` merged; finished text out, atomically."""
+"""Atomic output of files, tables as CSV and Parquet, and input of points and edges."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""Results to disk: whole or not at all, only where a regular file may stand, and over none that is there unasked.
+"""Atomic output of results: a file is written completely or not at all, and overwrites another file only on request.
 
-Every file that geartrain makes for a user goes through here. `destination` says where it is put, or why it cannot be;
-`write_bytes` and `place` put it there under one rule: what is written stands beside its place first, is safe on the
-disk, and takes the name in one step, so that a reader sees the old file or the new one. `write_folder` does the same
-for many files: all of them, or none.
+Every file that geartrain creates for a user is written here. `destination` returns the path of the file, or raises an
+error if it cannot be written. `write_bytes` and `place` write a temporary file next to it, flush it to disk, and
+rename it in one step, so that a reader sees either the old or the new file. `write_folder` does the same for many
+files.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ _KINDS = (
 
 
 def destination(path: Path, force: bool = False) -> Path:
-    """The file that a result for `path` is put into: at the end of all symbolic links, which stay as they are.
+    """Return the file to which a result for `path` is written, after resolving symbolic links.
 
-    Only a regular file is written over, only with `force`, and never one whose permissions say read-only: root is
-    bound by them too. Raises `GearTrainError` for all else, before anything is worked out or touched.
+    Only regular files are overwritten, only with `force`, and never files with read-only permissions, even by root.
+    Raises `GearTrainError` otherwise. Nothing is changed on the disk.
     """
     try:
-        real, mode = _look(path)
+        real, mode = _target(path)
         trouble = _kind(path, mode) or _name(path) or _folder(path, real)
         if trouble is None and mode is not None:
-            trouble = _old(path, real, mode, force)
+            trouble = _protection(path, real, mode, force)
     except (OSError, ValueError, RuntimeError) as error:
-        trouble = _unnamed(path, getattr(error, "strerror", None) or str(error))
+        trouble = _invalid_name(path, getattr(error, "strerror", None) or str(error))
     if trouble is not None:
         raise GearTrainError(trouble)
     return real
@@ -52,7 +52,7 @@ def write_text(path: Path, text: str, force: bool = False) -> None:
 
 
 def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
-    """Write `data` to where `destination` says, atomically. Raises `GearTrainError`."""
+    """Write `data` to the `destination` of a path, atomically. Raises `GearTrainError`."""
     real = destination(path, force)
     try:
         handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name[:64]}.")
@@ -60,7 +60,7 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(data)
-            temporary.chmod(0o666 & ~umask())  # `mkstemp` lets the owner alone read what is to be a plain file
+            temporary.chmod(0o666 & ~umask())  # `mkstemp` makes the file readable by its owner only
             place(temporary, path, force)
         finally:
             temporary.unlink(missing_ok=True)
@@ -69,30 +69,32 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
 
 
 def place(temporary: Path, path: Path, force: bool = False) -> None:
-    """Let a finished file on the disk of `path`'s folder take that name, by the rule of `destination`.
+    """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`.
 
-    The permissions of a file that is written over are kept. Raises `GearTrainError`, and `OSError` as the disk does.
+    The permissions of an overwritten file are kept. Raises `GearTrainError`, and `OSError` for errors of the disk.
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
-        os.fsync(file.fileno())  # before it takes the name: or a power failure leaves the new name with no content
+        os.fsync(
+            file.fileno()
+        )  # before renaming: a power failure could otherwise leave the new name with an empty file
     if real.exists():
-        _inherit(real, temporary)
+        _copy_permissions(real, temporary)
     if force or not _link(temporary, real, path):
         os.replace(temporary, real)
-    _settle(real.parent)
+    _sync_folder(real.parent)
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
-    """A disk's own word on what could not be written."""
+    """Convert an error of the disk to a `GearTrainError` for a file that could not be written."""
     why = getattr(error, "strerror", None) or str(error)
-    fix = "make room, or check the folder and its permissions"
+    fix = "free disk space, or check the folder and its permissions"
     return GearTrainError(Problem("the file cannot be written", why, fix, str(path)))
 
 
 def umask() -> int:
-    """Permissions that new files do without."""
-    mask = os.umask(0)  # it can be read by setting it only
+    """Return the permission bits that are removed from new files."""
+    mask = os.umask(0)  # it can only be read by setting it
     os.umask(mask)
     return mask
 
@@ -100,31 +102,31 @@ def umask() -> int:
 # ------------------------------------------------------------------------------------------------------- what is there
 
 
-def _look(path: Path) -> tuple[Path, int | None]:
-    """What stands at the end of the links from a path, and its mode; None where nothing does."""
+def _target(path: Path) -> tuple[Path, int | None]:
+    """Return the target of the symbolic links of a path, and its mode, None if it does not exist."""
     try:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
-        mode = None  # or a link to a file that is still to be made
+        mode = None  # also a link to a file that does not exist yet
     except NotADirectoryError:
-        mode = None  # the check of the folder says so
+        mode = None  # `_folder` reports this
     return Path(os.path.realpath(path)), mode
 
 
 def _kind(path: Path, mode: int | None) -> Problem | None:
     if mode is None or stat.S_ISREG(mode):
         return None
-    kind = next((name for is_kind, name in _KINDS if is_kind(mode)), "no ordinary file")
+    kind = next((name for is_kind, name in _KINDS if is_kind(mode)), "not a regular file")
     if stat.S_ISDIR(mode):
-        fix = f"name a file in it: {path / 'NAME'}"
-        return Problem("this is a folder", "a result is one file", fix, str(path))
-    why = "a result takes the place of a regular file only"
-    return Problem(f"this is {kind}", why, "name a file; - is standard output", str(path))
+        fix = f"give a file in it: {path / 'NAME'}"
+        return Problem("this is a folder", "a result is written to one file", fix, str(path))
+    why = "a result can overwrite only a regular file"
+    return Problem(f"this is {kind}", why, "give a file name, or - for standard output", str(path))
 
 
 def _name(path: Path) -> Problem | None:
     if path.name in ("", "..") or not path.name.isprintable():
-        return _unnamed(path, "a file has a name of printable letters")
+        return _invalid_name(path, "a file name must consist of printable characters")
     return None
 
 
@@ -132,36 +134,43 @@ def _folder(path: Path, real: Path) -> Problem | None:
     folder = real.parent
     if not folder.is_dir():
         return Problem(
-            "there is no such folder", f"the file would stand in {folder}", "make the folder first", str(path)
+            "the folder does not exist", f"the file would be in {folder}", "create the folder first", str(path)
         )
     if not os.access(folder, os.W_OK | os.X_OK):
-        return Problem("the folder cannot be written to", "its permissions forbid it", "name another", str(folder))
+        return Problem(
+            "the folder cannot be written to", "its permissions forbid it", "give another folder", str(folder)
+        )
     return None
 
 
-def _old(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """What protects a file that is there."""
+def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
+    """Return the problem that protects an existing file, or None."""
     if not force:
         return _exists(path)
     if not mode & 0o222 or not os.access(real, os.W_OK):
-        why = f"its permissions ({stat.filemode(mode)}) forbid writing, and --force does not lift them"
-        return Problem("the file is read-only", why, "make it writable, or name another", str(path))
+        why = f"its permissions ({stat.filemode(mode)}) forbid writing, and --force does not change them"
+        return Problem("the file is read-only", why, "make it writable, or give another name", str(path))
     return None
 
 
 def _exists(path: Path) -> Problem:
-    return Problem("the file exists", "nothing is written over unasked", "give --force, or another name", str(path))
+    return Problem(
+        "the file exists",
+        "existing files are overwritten only with --force",
+        "give --force, or another name",
+        str(path),
+    )
 
 
-def _unnamed(path: Path, why: str) -> Problem:
-    return Problem("this is no name for a file", why, "choose a shorter or plainer name", repr(str(path)))
+def _invalid_name(path: Path, why: str) -> Problem:
+    return Problem("this is not a valid file name", why, "choose a shorter or simpler name", repr(str(path)))
 
 
 # ------------------------------------------------------------------------------------------------------ taking a name
 
 
-def _inherit(old: Path, new: Path) -> None:
-    """Permissions, and the owner where that is allowed."""
+def _copy_permissions(old: Path, new: Path) -> None:
+    """Copy the permissions, and the owner if that is allowed, from the old file to the new one."""
     found = old.stat()
     if hasattr(os, "chown"):
         with suppress(OSError):
@@ -170,9 +179,9 @@ def _inherit(old: Path, new: Path) -> None:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Take a name that nothing has, in one step; False on a disk that cannot.
+    """Take an unused name in one step by a hard link; return False if the disk does not support it.
 
-    Unlike renaming, this fails where another has taken the name since it was looked at.
+    Unlike renaming, this fails if another process has created the file in the meantime.
     """
     try:
         os.link(temporary, real)
@@ -184,8 +193,8 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
     return True
 
 
-def _settle(folder: Path) -> None:
-    """Let the disk keep the new name too, where folders can be told so."""
+def _sync_folder(folder: Path) -> None:
+    """Write a folder to disk (fsync), so that the new name survives a power failure, on systems that support this."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -195,35 +204,35 @@ def _settle(folder: Path) -> None:
 
 
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
-    """Raise `GearTrainError` where files of these names (`wheels/b1.svg`) cannot be put into a folder.
+    """Raise `GearTrainError` if files with these names (`wheels/b1.svg`) cannot be written into a folder.
 
-    Existing ones are refused unless `force`.
+    Existing files are refused without `force`.
     """
     place = str(folder)
     if folder.exists() and not folder.is_dir():
-        raise GearTrainError(Problem("this is no folder", "many files are to be written", "name a folder", place))
+        raise GearTrainError(Problem("this is not a folder", "several files are to be written", "give a folder", place))
     nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     if not os.access(nearest, os.W_OK | os.X_OK):
         raise GearTrainError(
-            Problem("the folder cannot be written to", "its permissions forbid it", "name another", place)
+            Problem("the folder cannot be written to", "its permissions forbid it", "give another folder", place)
         )
     there = [name for name in names if os.path.lexists(folder / name)]
     for name in there:
-        destination(folder / name, force=True)  # what is no regular file, or read-only, is said to be that
+        destination(folder / name, force=True)  # raises the error for a file that is not regular or is read-only
     if there and not force:
         others = len(there) - 1
-        more = f" and {plural(others, 'other file')} exist" if others else " exists"
-        what = f"'{there[0]}'{more} there already"
+        more = f" and {plural(others, 'other file')} are" if others else " is"
+        what = f"'{there[0]}'{more} already in the folder"
         raise GearTrainError(
-            Problem(what, "nothing is written over unasked", "give --force, or an empty folder", place)
+            Problem(what, "existing files are overwritten only with --force", "give --force, or an empty folder", place)
         )
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
-    """Write files by name into a folder, and say how many: they are made beside it, and put there once all are.
+    """Write files by name into a folder, all of them or none, and return their number.
 
-    Whatever stops it before leaves nothing behind; what is there already is written over only with `force`. Raises
-    `GearTrainError`.
+    The files are created in a temporary folder next to it and moved when all are complete. Existing files are
+    overwritten only with `force`. Raises `GearTrainError`.
     """
     made: list[str] = []
     try:

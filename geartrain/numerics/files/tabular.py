@@ -1,8 +1,7 @@
-"""Tables to and from disk: long ones as CSV or Parquet, small ones as text.
+"""Tables on disk: long ones as CSV or Parquet, and small text files of points and edges.
 
-Long tables are written piece by piece, under a name that says partial until they are whole; a CSV that was interrupted
-is taken up again. Rows become the text of a CSV here and nowhere else. What a user has in small tables, points or the
-edges of a graph, one a line, is read here.
+Long tables are written in pieces to a file named partial until they are complete. An interrupted CSV file can be
+resumed. All rows of CSV files are formatted here.
 """
 
 from __future__ import annotations
@@ -24,34 +23,36 @@ PARTIAL_SUFFIX = "# partial: "
 
 
 def partial_name(path: Path) -> Path:
-    """`run.csv` -> `run.partial.csv`."""
+    """Return the name of the partial file: `run.csv` -> `run.partial.csv`."""
     return path.with_name(f"{path.stem}.partial{path.suffix}")
 
 
 def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
-    """The partial file of a table for `path`, beside the file that its symbolic links lead to.
+    """Return the partial file of a table for `path`, after resolving the symbolic links of the path.
 
-    One that is there belongs to an interrupted run: `resume` goes on with it, `force` writes over it. Raises
-    `GearTrainError` where it, or the table, cannot be written.
+    An existing partial file belongs to an interrupted run, which `resume` continues and `force` overwrites. Raises
+    `GearTrainError` if it or the table cannot be written.
     """
     found = partial_name(destination(path, force))
     if found.is_symlink():
         fix = "remove it, or give another name"
-        raise GearTrainError(Problem("this is a symbolic link", "a partial file is none", fix, str(found)))
+        raise GearTrainError(
+            Problem("this is a symbolic link", "a partial file must be a regular file", fix, str(found))
+        )
     if found.exists() and not (force or resume):
-        destination(found, force=True)  # what is no regular file is said to be that
-        why, fix = "an interrupted run left it", "give --resume to go on with it, or --force to begin again"
+        destination(found, force=True)  # raises the error for a file that is not regular
+        why, fix = "an interrupted run left it", "give --resume to continue it, or --force to begin again"
         raise GearTrainError(Problem("the partial file exists", why, fix, str(found)))
     return destination(found, force=True)
 
 
 class LongTable:
-    """A CSV that grows row by row as `name.partial.csv`, and becomes `name.csv` when it is whole.
+    """A CSV file that grows row by row as `name.partial.csv`, and is renamed to `name.csv` when it is complete.
 
-    rows     rows there already, where an interrupted run is resumed
-    resume   go on with the partial file
-    force    write over a table that is there
-    replay   begin the partial file of an interrupted run again: its rows come from elsewhere
+    rows     number of rows, including those of an interrupted run that is resumed
+    resume   continue the partial file
+    force    overwrite an existing table
+    replay   overwrite the partial file of an interrupted run, whose rows are stored elsewhere
     """
 
     def __init__(
@@ -62,7 +63,7 @@ class LongTable:
         self.rows = 0
         try:
             if resume and self.partial.exists():
-                self.rows = self._take_up()
+                self.rows = self._truncate_to_whole_rows()
                 self._file = self.partial.open("ab")
             else:
                 self._file = self.partial.open("wb")
@@ -71,8 +72,8 @@ class LongTable:
         except OSError as error:
             raise unfinished_file(self.partial, error) from None
 
-    def _take_up(self) -> int:
-        """Cut off the mark and a torn last row; count the rows that are whole."""
+    def _truncate_to_whole_rows(self) -> int:
+        """Cut the partial file off after its last complete row; return the number of complete rows."""
         rows, end = -1, 0
         with self.partial.open("rb") as file:
             for line in file:
@@ -81,9 +82,9 @@ class LongTable:
                 if rows < 0 and line.decode("utf-8").rstrip("\n") != self.header:
                     raise GearTrainError(
                         Problem(
-                            "the partial file is of another run",
+                            "the partial file belongs to another run",
                             f"its columns are {line.decode('utf-8').rstrip()}",
-                            "ask for the same outputs, or leave --resume out to begin again",
+                            "request the same outputs, or omit --resume to begin again",
                             str(self.partial),
                         )
                     )
@@ -92,13 +93,13 @@ class LongTable:
         return max(rows, 0)
 
     def last(self) -> str:
-        """The last whole row that was taken up."""
+        """Return the last complete row of the interrupted run."""
         with self.partial.open("rb") as file:
             lines = file.read().splitlines()
         return lines[-1].decode("utf-8") if self.rows else ""
 
     def write(self, rows: list[str]) -> None:
-        """Append rows. Raises `GearTrainError`."""
+        """Append rows to the file. Raises `GearTrainError`."""
         try:
             self._file.write(("\n".join(rows) + "\n").encode("utf-8"))
         except OSError as error:
@@ -109,7 +110,7 @@ class LongTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Whole: take the name asked for. Interrupted: stay partial, and say so in the last line."""
+        """Rename the complete file, or mark an interrupted one as partial in its last line."""
         try:
             if kind is not None:
                 self._file.write(f"{PARTIAL_SUFFIX}stopped after {self.rows} rows\n".encode())
@@ -121,19 +122,19 @@ class LongTable:
 
 
 class ColumnTable:
-    """A Parquet file that grows by row groups as `name.partial.parquet`, and becomes `name.parquet` when it is whole.
+    """A Parquet file that grows by row groups as `name.partial.parquet`, and is renamed when it is complete.
 
-    about   texts kept beside the columns; readers of Parquet show them as metadata
-    force   write over a table that is there
-    replay  begin the partial file of an interrupted run again
+    about    metadata of the file, by key
+    force    overwrite an existing table
+    replay   overwrite the partial file of an interrupted run
 
-    Interrupted, the partial file is closed and can be read as far as it goes. Raises `MissingExtraError` without
-    pyarrow, `GearTrainError` where nothing can be written.
+    After an interrupt the partial file is closed and readable. Raises `MissingExtraError` without pyarrow, and
+    `GearTrainError` if the file cannot be written.
     """
 
     def __init__(self, path: Path, about: Mapping[str, str], force: bool = False, replay: bool = False) -> None:
         try:
-            self._arrow: Any = import_module("pyarrow")  # it carries no types
+            self._arrow: Any = import_module("pyarrow")  # it has no type annotations
             import_module("pyarrow.parquet")
         except ImportError:
             raise MissingExtraError("pyarrow", "tables", "Parquet") from None
@@ -142,7 +143,7 @@ class ColumnTable:
         self.about, self.rows = dict(about), 0
 
     def write(self, columns: Mapping[str, Any]) -> None:
-        """Append arrays of one length as one row group. Raises `GearTrainError`."""
+        """Append arrays of equal length as one row group. Raises `GearTrainError`."""
         table = self._arrow.table(dict(columns))
         try:
             if self._writer is None:
@@ -157,7 +158,7 @@ class ColumnTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Whole: take the name asked for. Interrupted: stay partial."""
+        """Rename the complete file; leave an interrupted one partial."""
         if self._writer is None:
             return
         try:
@@ -165,7 +166,7 @@ class ColumnTable:
             if kind is None:
                 place(self.partial, self.path, self.force)
         except OSError as trouble:
-            if kind is None:  # else what ended the run is said, not this
+            if kind is None:  # otherwise the error that ended the run is reported
                 raise unfinished_file(self.partial, trouble) from None
 
 
@@ -174,26 +175,28 @@ _FORMULA = ("=", "@", "+", "-", "\t", "\r", "\n")
 
 
 def csv_line(cells: Iterable[object]) -> str:
-    """One row without its end: quoted where that is needed, None as nothing, floats with all their digits.
+    r"""Format one row as CSV without a line end, quoted where needed.
 
-    A text that a spreadsheet would take for a formula gets an apostrophe in front; numbers and fractions that are
-    written as text do not. Control characters are written out, so that a row is always one line of a file.
+    None becomes empty text, and floats have all digits.
+
+    A text that a spreadsheet would interpret as a formula gets an apostrophe in front, except numbers and fractions.
+    Control characters are escaped, so that a row is always one line of a file.
 
     >>> csv_line(["a,b", "=1+1", "-254/19", -0.5, None])
-    '"a,b",\\'=1+1,-254/19,-0.5,'
+    '"a,b",\'=1+1,-254/19,-0.5,'
     """
     return csv_lines([cells])[0]
 
 
 def csv_lines(rows: Iterable[Iterable[object]]) -> list[str]:
-    """Several rows, each as `csv_line` has it."""
+    """Format several rows as CSV, each as by `csv_line`."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows([_cell(cell) for cell in row] for row in rows)
     return out.getvalue().split("\n")[:-1]
 
 
 def csv_text(header: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    """A whole table, each row ended by a line feed."""
+    """Format a table as CSV, each row ended by a line feed."""
     return "\n".join((csv_line(header), *csv_lines(rows), ""))
 
 
@@ -207,15 +210,18 @@ def _cell(cell: object) -> object:
 
 
 def read_points(path: Path) -> list[tuple[float, float, float]]:
-    """Three numbers a line, parted by blanks or commas; `#` begins a remark. Raises `GearTrainError` with the lines."""
+    """Read points from a file, three numbers a line separated by blanks or commas.
+
+    `#` begins a comment. Raises `GearTrainError` with the lines at fault.
+    """
     points: list[tuple[float, float, float]] = []
     problems = []
     for at, words in _rows(path):
         try:
             x, y, z = map(float, words)
         except ValueError:
-            text = f"'{' '.join(words)}' is no point"
-            problems.append(Problem(text, "a point is three numbers", "write x y z", f"{path}:{at}"))
+            text = f"'{' '.join(words)}' is not a point"
+            problems.append(Problem(text, "a point consists of three numbers", "write x y z", f"{path}:{at}"))
         else:
             points.append((x, y, z))
     if problems:
@@ -224,15 +230,20 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 
 
 def read_edges(path: Path) -> list[tuple[str, str]]:
-    """Two names a line, parted by blanks or commas. Raises `GearTrainError` with the lines at fault."""
+    """Read edges from a file, two names a line separated by blanks or commas.
+
+    `#` begins a comment. Raises `GearTrainError` with the lines at fault.
+    """
     edges: list[tuple[str, str]] = []
     problems = []
     for at, words in _rows(path):
         if len(words) == 2:
             edges.append((words[0], words[1]))
         else:
-            text = f"'{' '.join(words)}' is no mesh"
-            problems.append(Problem(text, "a mesh is two names", "write the two gears", f"{path}:{at}"))
+            text = f"'{' '.join(words)}' is not a mesh"
+            problems.append(
+                Problem(text, "a mesh consists of two names", "write the names of two gears", f"{path}:{at}")
+            )
     if problems:
         raise GearTrainError(problems)
     return edges
@@ -243,7 +254,9 @@ def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise GearTrainError(Problem("the file cannot be read", str(why), "check its name", str(path))) from None
+        raise GearTrainError(
+            Problem("the file cannot be read", str(why), "check its name and contents", str(path))
+        ) from None
     for at, line in enumerate(text.splitlines(), 1):
         if words := line.partition("#")[0].replace(",", " ").split():
             yield at, words

@@ -1,9 +1,9 @@
-"""Independent work on one machine or many: which executor runs it, and what is kept when it is interrupted.
+"""Independent tasks on one machine or many: executors, ordered results, and a journal of interrupted runs.
 
-`run(work, tasks, executor, journal)` yields the results in the order of the tasks, whichever process does them;
-`open_executor()` starts processes or connects to a cluster; a `Journal` keeps what is finished, so that a run killed
-at any moment is resumed and ends the same. Journals are not written through `files`: they are not results for a
-reader, and are removed when the run is complete.
+`run(work, tasks, executor, journal)` yields the results in the order of the tasks, independent of the process that
+computes them. `open_executor()` starts processes or connects to a cluster. A `Journal` stores finished results, so
+that a run killed at any moment can be resumed with the same result. Journals are not written through `files`, because
+they are not results for a reader and are removed when the run is complete.
 """
 
 from geartrain.numerics.work.executors import cores, open_executor

@@ -1,7 +1,7 @@
-"""The workers of a dask cluster, through the `concurrent.futures` interface of its client.
+"""Executor for a dask cluster, through the `concurrent.futures` interface of its client.
 
-When a worker dies, dask gives its tasks to another one. What is added here: messages in the form of this project, and
-an end where no worker is left.
+When a worker dies, dask gives its tasks to another one. This module adds error messages in the form of this package,
+and an error when no worker is left.
 """
 
 from __future__ import annotations
@@ -19,29 +19,31 @@ from geartrain.errors import GearTrainError, MissingExtraError, Problem
 from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
 
 try:
-    dask: Any = import_module("dask")  # it carries no types
-    dask.config.set({"logging": {"distributed": "critical", "distributed.client": "critical"}})  # errors are raised
+    dask: Any = import_module("dask")  # it has no type annotations
+    dask.config.set(
+        {"logging": {"distributed": "critical", "distributed.client": "critical"}}
+    )  # errors are raised instead
     distributed: Any = import_module("distributed")
 except ImportError:
     raise MissingExtraError("distributed", "dask", "work on a cluster") from None
 
-_ANSWER = 5.0  # s: for the scheduler to answer, and for a first worker to be there
-_PATIENCE = 60.0  # s without any worker, after which none is expected to come back
-_DEATHS = 2  # deaths that a task counts which dask has given up: it is run alone before it is blamed
+_TIMEOUT = 5.0  # s to wait for the scheduler, and for a first worker
+_PATIENCE = 60.0  # s without any worker after which the run fails
+_DEATHS = 2  # deaths counted for a task that dask gave up: it is run without others before it is reported
 
 
 class DaskPool(WorkerPool):
-    """The workers of the scheduler at `address`. Raises `GearTrainError` where none can do the work."""
+    """An executor on the workers of the scheduler at `address`. Raises `GearTrainError` if it cannot be used."""
 
-    def __init__(self, address: str, answer: float = _ANSWER) -> None:
+    def __init__(self, address: str, answer: float = _TIMEOUT) -> None:
         self._address, self._seen = address, monotonic()
         try:
-            with ThreadPoolExecutor(1) as aside:  # a notebook has a loop of its own running in this thread
-                aside.submit(asyncio.run, _knock(address, answer)).result()
+            with ThreadPoolExecutor(1) as aside:  # in a notebook, this thread already runs an event loop
+                aside.submit(asyncio.run, _check_scheduler(address, answer)).result()
             self._client = distributed.Client(address, timeout=answer, set_as_default=False)
         except (OSError, ValueError) as error:
             fix = "check the address, and that `dask scheduler` runs there and prints the same address"
-            raise GearTrainError(Problem(f"no dask scheduler answers at {address!r}", str(error), fix)) from None
+            raise GearTrainError(Problem(f"no dask scheduler responds at {address!r}", str(error), fix)) from None
         try:
             self._client.wait_for_workers(1, timeout=answer)
             theirs = set(self._client.run(version, "geartrain", on_error="return").values())
@@ -52,21 +54,25 @@ class DaskPool(WorkerPool):
             self.dismiss()
             fix = f"install geartrain {ours} with the extra 'dask' for the scheduler and all workers"
             found = ", ".join(sorted(map(str, theirs)))
-            raise GearTrainError(Problem(f"the cluster at {address} runs another geartrain than {ours}", found, fix))
+            raise GearTrainError(
+                Problem(
+                    f"the cluster at {address} runs another version of geartrain than {ours}", f"it runs {found}", fix
+                )
+            )
         self._threads: int = sum(self._client.nthreads().values())
-        self._executor = self._client.get_executor(pure=False)  # results are never taken from a cache
+        self._executor = self._client.get_executor(pure=False)  # results must not be taken from a cache
 
     @property
     def width(self) -> int:
-        """How many tasks run at once, all workers together."""
+        """Number of tasks that run at the same time on all workers."""
         return max(1, self._threads)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """As `Executor.submit`."""
+        """Submit a call, as `Executor.submit`."""
         return follow(self._executor.submit(fn, *args, **kwargs), _translate)
 
     def check(self) -> None:
-        """Raise `GearTrainError` if the scheduler does not answer, or has been without workers for a minute."""
+        """Raise `GearTrainError` if the scheduler does not respond, or has had no workers for a minute."""
         try:
             self._threads = sum(self._client.nthreads().values())
         except OSError:
@@ -77,25 +83,31 @@ class DaskPool(WorkerPool):
             raise self._empty("has lost all its workers", _PATIENCE)
 
     def dismiss(self) -> None:
-        """Cancel what is open, and disconnect; the cluster goes on."""
-        with suppress(Exception):  # a client that lost its scheduler may fail to say goodbye
+        """Cancel pending tasks and disconnect; the cluster continues to run."""
+        with suppress(Exception):  # a client that lost its scheduler may fail to disconnect
             self._client.close(timeout=2)
 
     def _empty(self, what: str, seconds: float) -> GearTrainError:
-        fix = f"start some: `dask worker {self._address} --nthreads 1`, one for each core"
-        return GearTrainError(Problem(f"the scheduler at {self._address} {what}", f"none for {seconds:g} s", fix))
+        fix = f"start workers: `dask worker {self._address} --nthreads 1`, one for each core"
+        return GearTrainError(
+            Problem(f"the scheduler at {self._address} {what}", f"no worker was connected for {seconds:g} s", fix)
+        )
 
 
-async def _knock(address: str, answer: float) -> None:
-    """Raise `OSError` if no scheduler answers; a client that finds none goes on trying when it is thrown away."""
+async def _check_scheduler(address: str, answer: float) -> None:
+    """Raise `OSError` if no scheduler responds.
+
+    A client without a scheduler would continue to retry after it is discarded.
+    """
     secured = distributed.Security().get_connection_args("client")
     await (await distributed.core.connect(address, timeout=answer, **secured)).close()
 
 
 def _translate(error: BaseException) -> BaseException:
-    """What work raises comes back as a result: any exception is of the cluster, and the task is done again.
+    """Convert an exception of the cluster to `WorkerDiedError`, after which the task is repeated.
 
-    Futures are cancelled where the connection to the scheduler is lost; that ends the run.
+    Exceptions of the work itself are returned as results. Futures are cancelled if the connection to the scheduler is
+    lost, which ends the run.
     """
     if isinstance(error, CancelledError):
         return error

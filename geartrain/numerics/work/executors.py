@@ -1,4 +1,4 @@
-"""Which executor does the work: none (this process), processes on this machine, or a dask cluster."""
+"""Choice of an executor: this process, processes on this machine, or a dask cluster."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from geartrain.numerics.work.worker_pool import Announcement, WorkerPool
 
 
 def cores() -> int:
-    """The number of cores that this process may use, its affinity respected; at least 1."""
+    """Return the number of cores that this process may use, according to its affinity; at least 1."""
     if hasattr(os, "process_cpu_count"):  # Python 3.13
         return os.process_cpu_count() or 1
     if hasattr(os, "sched_getaffinity"):
@@ -25,25 +25,26 @@ def cores() -> int:
 def open_executor(
     workers: int | None = None, dask: str | None = None, announce: Announcement | None = None
 ) -> Iterator[Executor | None]:
-    """An executor for `run`, or None where one worker is enough: then the work is done in this process.
+    """Open an executor for `run`; None if one worker is enough, which means work in this process.
 
-    A context manager: leaving it ends what is still running.
+    The function returns a context manager, which ends all running work on exit.
 
     Parameters
     ----------
     workers : int, optional
-        Processes on this machine, 1 or more, started with the first task. By default as many as this process may use
-        cores; they are started only if the work is not nearly finished after a second in this process.
+        Number of processes on this machine, 1 or more, started with the first task. The default is the number of cores
+        available to this process. Default processes are started only if the work is not almost finished after a second
+        in this process.
     dask : str, optional
-        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`: its workers do the work. Needs the extra `dask`,
-        and geartrain in the same version on the cluster.
+        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers do the work. Needs the extra `dask`,
+        and the same version of geartrain on the cluster.
     announce : callable, optional
         Called once with (tasks, workers) when other processes begin to work.
 
     Yields
     ------
     concurrent.futures.Executor or None
-        What `run` and `Execution` take; it survives the death of workers.
+        An argument for `run` and `Execution`; it survives the death of workers.
 
     Raises
     ------
@@ -52,7 +53,7 @@ def open_executor(
     MissingExtraError
         If an address is given without the extra.
     GearTrainError
-        If the cluster does not answer or cannot work.
+        If the cluster does not respond or cannot work.
 
     Examples
     --------
@@ -73,10 +74,10 @@ def open_executor(
 
 def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
     if workers is not None and dask is not None:
-        why = "the number of workers of a cluster is set where it is started"
-        raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give one of the two"))
+        why = "the number of workers of a cluster is set when it is started"
+        raise QuestionError(Problem("both workers and a dask scheduler are given", why, "give only one of them"))
     if workers is not None and workers < 1:
-        raise QuestionError(Problem(f"{workers} workers", "at least one is needed to do the work", "ask for 1 or more"))
+        raise QuestionError(Problem(f"{workers} workers", "at least one worker is needed", "give 1 or more"))
     if dask is not None:
         from geartrain.numerics.work.cluster import DaskPool
 
@@ -90,6 +91,6 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
 
 
 def _default_count() -> int:
-    """All cores; 1 in a worker of `multiprocessing.Pool`, which may not start processes."""
+    """Return the number of cores, or 1 in a worker of `multiprocessing.Pool`, which may not start processes."""
     started = sys.modules.get("multiprocessing.process")
     return 1 if started is not None and started.current_process().daemon else cores()

@@ -1,14 +1,14 @@
-"""Finished results of a long run on disk, so that a run killed at any moment is taken up again and ends the same.
+"""Finished results of a long run on disk, so that a run killed at any moment can be resumed with the same result.
 
-A journal is a text of JSON lines that only grows. The first line is the question, as plain data that a reader can
-read; each further line is one finished task, in the order in which they were finished:
+A journal is a file of JSON lines to which lines are only appended. The first line is the question as plain data. Each
+further line is one finished task, in the order of completion:
 
     {"geartrain journal":1,"question":{...}}
     {"crc":"1c291ca3","task":3,"mark":"d202ef8d","result":[1,2]}
 
-`crc` is the CRC-32 of the rest of its line, `mark` tells the task (`messages.mark_of`). What is not whole at the end, a
-line torn by a kill or lost with the power, is cut off when the journal is taken up. `files` is the door for what users
-read and write; a checkpoint is neither, and is written here.
+`crc` is the CRC-32 of the rest of its line, and `mark` identifies the task (`task_runner.mark_of`). An incomplete end,
+such as a line cut off by a kill or a power failure, is removed when the journal is resumed. Journals are checkpoints
+and not results for users, and are therefore not written through `files`.
 """
 
 from __future__ import annotations
@@ -29,29 +29,29 @@ from geartrain.errors import GearTrainError, Problem, QuestionError
 
 _START = b'{"geartrain journal":1,'
 _LINE = re.compile(rb'\{"crc":"([0-9a-f]{8})",("task":(\d{1,12}),"mark":"([0-9a-f]*)","result":(.*)\})\n')
-_LONGEST = 10**7  # bytes of a first line: what is longer is no journal
-_BREATH = 1.0  # s: what a power failure may cost; a kill costs no finished result
+_MOST_HEADER_BYTES = 10**7  # bytes: a file with a longer first line is not a journal
+_SYNC_INTERVAL = 1.0  # s between flushes to disk: a power failure loses at most this; a kill loses no finished result
 
 
 class Journal:
-    """Results by number of task, kept in a file until the run is whole.
+    """Results by task number, stored in a file until the run is complete.
 
-    A context manager that leaves the file to be taken up later; `len()` is the number of results kept. It costs 8 bytes
-    of memory a task.
+    A context manager that leaves the file for a later run. `len()` is the number of stored results. It needs 8 bytes of
+    memory per task.
 
     Parameters
     ----------
     path : path or str
-        The file; it is made, or taken up if it holds the same question.
+        The file; it is created, or resumed if it contains the same question.
     question : mapping
-        Plain data that tells this run from every other: all on which tasks and results depend.
+        Plain data that identify the run: everything on which tasks and results depend.
     resume : bool
-        False: begin again, even if the file holds results (of any question).
+        False to begin again, even if the file contains results (of any question).
 
     Raises
     ------
     QuestionError
-        If the file is of another question, is no journal, or is in use by another run.
+        If the file belongs to another question, is not a journal, or is in use by another run.
     GearTrainError
         If it cannot be read or written.
 
@@ -60,7 +60,7 @@ class Journal:
     >>> from tempfile import TemporaryDirectory
     >>> from geartrain.numerics import run
     >>> with TemporaryDirectory() as folder:
-    ...     for _ in range(2):  # the second time nothing is worked out
+    ...     for _ in range(2):  # the second time nothing is computed
     ...         with Journal(f"{folder}/journal", {"of": "squares"}) as journal:
     ...             print(len(journal), list(run(abs, [-1, 2], journal=journal)))
     0 [1, 2]
@@ -71,15 +71,17 @@ class Journal:
         self.path = Path(path)
         plain = json.loads(json.dumps(question))
         header = _START + f'"question":{json.dumps(plain, ensure_ascii=False)}}}\n'.encode()
-        if len(header) >= _LONGEST:
-            raise _refused("the question is too long for a journal", "10 MB and more", "say it shorter", self.path)
-        self._at = array("q")  # where the line of a task begins; -1: not kept
+        if len(header) >= _MOST_HEADER_BYTES:
+            raise _refused("the question is too long for a journal", "it has 10 MB or more", "shorten it", self.path)
+        self._at = array("q")  # position of the line of a task in the file; -1: not stored
         self._count, self._synced, self._dirty = 0, monotonic(), False
         if self.path.exists() and not self.path.is_file():
-            raise _refused("the file is no journal", "it is no regular file", "remove it, or name another", self.path)
+            raise _refused(
+                "the file is not a journal", "it is not a regular file", "remove it, or give another name", self.path
+            )
         try:
             with ExitStack() as opened:
-                # whatever was read last, writes go to the end
+                # append mode: writes go to the end wherever the reader is
                 self._file = opened.enter_context(self.path.open("a+b", buffering=0))
                 self._reader = opened.enter_context(self.path.open("rb"))
                 opened.enter_context(_only_writer(self.path))
@@ -89,30 +91,30 @@ class Journal:
             raise _trouble(self.path, error) from None
 
     def _open(self, header: bytes, question: Any, resume: bool) -> None:
-        end = self._whole(question, resume)
+        end = self._resumable_length(question, resume)
         self._file.truncate(end)
         if not end:
             self._write(header)
 
-    def _whole(self, question: Any, resume: bool) -> int:
-        """Where the part ends that can be taken up: 0 for none of it."""
-        first = self._reader.readline(_LONGEST)
+    def _resumable_length(self, question: Any, resume: bool) -> int:
+        """Return the length of the part of the file that can be resumed, 0 for none, and index its tasks."""
+        first = self._reader.readline(_MOST_HEADER_BYTES)
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
-        if not begun or len(first) == _LONGEST:
-            why = "it does not begin like one"
-            raise _refused("the file is no journal", why, "name another file", self.path)
+        if not begun or len(first) == _MOST_HEADER_BYTES:
+            why = "its first line is not that of a journal"
+            raise _refused("the file is not a journal", why, "give another file", self.path)
         if torn or not resume:
             return 0
         try:
             theirs = json.loads(first)["question"]
         except (ValueError, KeyError):
             why = "its first line, the question, is damaged"
-            raise _refused("the journal cannot be taken up", why, "remove it to begin again", self.path) from None
+            raise _refused("the journal cannot be resumed", why, "remove it to begin again", self.path) from None
         self._compare(theirs, question)
         end = len(first)
         for line in self._reader:
-            found = _sound(line)
+            found = _valid_line(line)
             if found is None:
                 break
             self._enter(int(found[3]), end)
@@ -134,38 +136,43 @@ class Journal:
         return self._count
 
     def recall(self, task: int, mark: str = "") -> str | None:
-        """The result of a task as JSON, None if it is not kept.
+        """Return the stored result of a task as JSON, or None.
 
         Parameters
         ----------
         task : int
             Number of the task, from 0.
         mark : str
-            Tells the task; `QuestionError` if another one was kept under the number.
+            Identifier of the task; `QuestionError` if another task was stored under the number.
         """
         if task >= len(self._at) or self._at[task] < 0:
             return None
         try:
             self._reader.seek(self._at[task])
-            found = _sound(self._reader.readline())
+            found = _valid_line(self._reader.readline())
         except OSError as error:
             raise _trouble(self.path, error) from None
         if found is None:
-            raise _refused(f"task {task} cannot be read back", "the journal was changed", "begin again", self.path)
+            raise _refused(
+                f"task {task} of the journal cannot be read",
+                "the file was changed during the run",
+                "begin again",
+                self.path,
+            )
         if found[4].decode() != mark:
-            why = "the work was cut into other pieces when this journal was begun"
-            raise _refused(f"task {task} of the journal is another task now", why, "begin again", self.path)
+            why = "the work was divided into other tasks when this journal was begun"
+            raise _refused(f"task {task} of the journal is now another task", why, "begin again", self.path)
         return found[5].decode()
 
     def keep(self, task: int, mark: str, text: str) -> None:
-        """Write down a result; `GearTrainError` if that fails.
+        """Store a result in the journal; raises `GearTrainError` if that fails.
 
         Parameters
         ----------
         task : int
             Number of the task, from 0.
         mark : str
-            Tells the task, in hexadecimal digits.
+            Identifier of the task, in hexadecimal digits.
         text : str
             The result, one line of JSON.
         """
@@ -173,14 +180,17 @@ class Journal:
         self._enter(task, self._write(b'{"crc":"%08x",' % crc32(rest) + rest + b"\n"))
 
     def _write(self, line: bytes) -> int:
-        """Append a line and say where it begins, as the file has it: interrupts come between a write and its note."""
+        """Append a line and return its position in the file.
+
+        The position is read from the file, because an interrupt can occur between a write and its record.
+        """
         try:
             at = self._file.seek(0, os.SEEK_END)
             left = memoryview(line)
             while left:
                 left = left[self._file.write(left) or 0 :]
             self._dirty = True
-            if monotonic() - self._synced > _BREATH:
+            if monotonic() - self._synced > _SYNC_INTERVAL:
                 self._sync()
         except OSError as error:
             raise _trouble(self.path, error) from None
@@ -193,18 +203,18 @@ class Journal:
 
     @property
     def closed(self) -> bool:
-        """True when nothing can be written any more."""
+        """True if the journal cannot be written any more."""
         return self._file.closed
 
     def close(self) -> None:
-        """Leave the file as it stands, safe on the disk, to be taken up later."""
+        """Close the file, flushed to disk, so that it can be resumed later."""
         if not self.closed:
-            with suppress(OSError):  # a full disk was reported by the write that met it
+            with suppress(OSError):  # a full disk was already reported by the write
                 self._sync()
             self._shut()
 
     def finish(self) -> None:
-        """The run is whole and its result is safe: remove the file. Raises `GearTrainError`."""
+        """Remove the file after the run is complete and its result is saved. Raises `GearTrainError`."""
         self.close()
         try:
             self.path.unlink(missing_ok=True)
@@ -220,40 +230,42 @@ class Journal:
 
 @contextmanager
 def _only_writer(path: Path) -> Iterator[None]:
-    """Lock a journal for this process, by a file beside it; the lock ends with the process, however it ends."""
+    """Lock a journal for this process by a lock file; the lock ends with the process in any case."""
     from filelock import FileLock, Timeout
 
     lock = FileLock(f"{path}.lock", timeout=0, thread_local=False)
     try:
         lock.acquire()
     except Timeout:
-        raise _refused("another run is writing this journal", "two at once would mix", "wait for it", path) from None
+        raise _refused(
+            "another run is writing this journal", "two runs would mix their results", "wait for its end", path
+        ) from None
     try:
         yield
     finally:
-        # Unix: removed while locked, so that nobody locks a file that is about to go; Windows removes it on release
+        # Unix: removed while locked, so that nobody locks a file about to be removed; Windows removes it on release
         with suppress(OSError):
             Path(lock.lock_file).unlink()
         lock.release()
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """What is said of a journal that was found beside where that of this question would be."""
+    """Return the problem that an existing journal belongs to another question."""
     try:
         with path.open("rb") as file:
-            theirs = json.loads(file.readline(_LONGEST))["question"]
+            theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]
     except (OSError, ValueError, KeyError, TypeError):
         return _another("its first line, the question, cannot be read", path)
     return _another(first_difference(theirs, json.loads(json.dumps(question))), path)
 
 
 def _another(difference: str, path: Path) -> Problem:
-    fix = "ask the same question to resume; leave --resume out, or remove the file, to begin again"
-    return Problem("the journal is of another question", difference, fix, str(path))
+    fix = "give the same options to resume; omit --resume, or remove the file, to begin again"
+    return Problem("the journal belongs to another question", difference, fix, str(path))
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
-    """Where two plain data differ first, in words; empty where they are equal.
+    """Describe the first difference between two plain data structures; empty if they are equal.
 
     >>> first_difference({"wheels": [30, 36]}, {"wheels": [30, 48]})
     'wheels[1] is 36 there and 48 here'
@@ -276,8 +288,8 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
     return f"{place or 'it'} is {json.dumps(theirs)} there and {json.dumps(ours)} here"
 
 
-def _sound(line: bytes) -> re.Match[bytes] | None:
-    """A line that is whole and as it was written."""
+def _valid_line(line: bytes) -> re.Match[bytes] | None:
+    """Match a line that is complete and has a correct checksum; None otherwise."""
     found = _LINE.fullmatch(line)
     return found if found is not None and int(found[1], 16) == crc32(found[2]) else None
 
@@ -288,4 +300,6 @@ def _refused(what: str, why: str, fix: str, path: Path) -> QuestionError:
 
 def _trouble(path: Path, error: OSError) -> GearTrainError:
     why = error.strerror or str(error)
-    return GearTrainError(Problem("the journal cannot be kept", why, "check the folder and its permissions", str(path)))
+    return GearTrainError(
+        Problem("the journal cannot be read or written", why, "check the folder and its permissions", str(path))
+    )

@@ -1,8 +1,8 @@
 """Worker processes on this machine.
 
-They are spawned, not forked: a fork copies the locks that other threads of this process hold (numpy's, a progress
-bar's), and a worker that waits for one of those waits for ever. Spawning is also the one way that is the same on all
-systems. It costs each worker its imports, once.
+They are spawned, not forked. A fork copies locks that other threads hold (of numpy, of a progress bar), and a worker
+that waits for such a lock waits forever. Spawning also works the same on all systems. It costs each worker its
+imports once.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from typing import Any
 
 from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool, follow
 
-_MOST = 61 if sys.platform == "win32" else 10_000  # as many processes as Windows can wait for
+_MOST = 61 if sys.platform == "win32" else 10_000  # processes: Windows cannot wait for more
 
 
 class ProcessPool(WorkerPool):
-    """Up to `workers` processes, started as they are needed and replaced when one dies; `waits` as in `WorkerPool`.
+    """Up to `workers` processes, started when they are needed and replaced when one dies; `waits` as in `WorkerPool`.
 
-    They end with this process, whatever ends it: each holds one end of a pipe, the leash, and leaves when the other end
-    is gone.
+    The processes end with this process, however it ends. Each of them has one end of a pipe, the leash, and exits when
+    the other end is closed.
     """
 
     def __init__(self, workers: int, waits: bool = False) -> None:
@@ -37,16 +37,16 @@ class ProcessPool(WorkerPool):
         self._context = get_context("spawn")
         self._leash, self._hand = self._context.Pipe(duplex=False)
         self._pool: ProcessPoolExecutor | None = None
-        self._open: dict[Future[Any], Future[Any]] = {}  # the pool's, ours
+        self._open: dict[Future[Any], Future[Any]] = {}  # the pool's future -> the future given to the caller
         self._shut = False
 
     @property
     def width(self) -> int:
-        """How many tasks run at once."""
+        """Number of tasks that run at the same time."""
         return self._workers
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """True if it can be pickled: outlines of teeth that are local functions cannot."""
+        """Return whether the function can be pickled; tooth outlines that are local functions cannot."""
         try:
             pickle.dumps(work)
         except (AttributeError, TypeError, pickle.PicklingError):
@@ -54,33 +54,33 @@ class ProcessPool(WorkerPool):
         return True
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """As `Executor.submit`; after a worker died, in a fresh pool."""
+        """Submit a call, as `Executor.submit`; use a new pool after the death of a worker."""
         if self._shut:
             raise RuntimeError("cannot schedule new futures after shutdown")
         try:
-            theirs = self._handed(fn, *args, **kwargs)
+            theirs = self._submit_to_pool(fn, *args, **kwargs)
         except BrokenExecutor:
-            self._abandon()
-            theirs = self._handed(fn, *args, **kwargs)
+            self._discard_pool()
+            theirs = self._submit_to_pool(fn, *args, **kwargs)
         ours = follow(theirs, _translate)
         self._open[theirs] = ours
-        theirs.add_done_callback(self._closed)
+        theirs.add_done_callback(self._forget)
         return ours
 
-    def _closed(self, theirs: Future[Any]) -> None:
+    def _forget(self, theirs: Future[Any]) -> None:
         self._open.pop(theirs, None)
 
-    def _handed(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        # a pool is made outside: it starts the tracker of multiprocessing, which lets signals through again
+    def _submit_to_pool(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        # not within `_interrupts_blocked`, because creating a pool starts a resource tracker, which unblocks signals
         if self._pool is None:
-            self._pool = ProcessPoolExecutor(self._workers, self._context, _begin, (self._leash,))
-        with _deaf():
+            self._pool = ProcessPoolExecutor(self._workers, self._context, _start_worker, (self._leash,))
+        with _interrupts_blocked():
             theirs = self._pool.submit(fn, *args, **kwargs)
-        _bear_cancellation(theirs)
+        _ignore_late_failure(theirs)
         return theirs
 
-    def _abandon(self) -> None:
-        """The pool is broken and goes. Its futures fail here: one that was handed over just then would stay open."""
+    def _discard_pool(self) -> None:
+        """Discard the broken pool and fail its futures; one submitted at that moment would otherwise never complete."""
         pool, self._pool = self._pool, None
         if pool is not None:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -90,7 +90,7 @@ class ProcessPool(WorkerPool):
         self._open.clear()
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """As `Executor.shutdown`; with `wait` nothing is left of the workers."""
+        """Stop the pool, as `Executor.shutdown`; with `wait` all workers have ended on return."""
         if self._pool is not None:
             self._pool.shutdown(wait, cancel_futures=cancel_futures)
         self._shut = True
@@ -99,17 +99,17 @@ class ProcessPool(WorkerPool):
             self._leash.close()
 
     def dismiss(self) -> None:
-        """End the workers, with what they still run."""
+        """End the workers and their running tasks."""
         if self._open:
             self._hand.close()
         self.shutdown(cancel_futures=True)
 
 
-def _bear_cancellation(future: Future[Any]) -> None:
-    """Let a future that was cancelled fail in silence.
+def _ignore_late_failure(future: Future[Any]) -> None:
+    """Make a cancelled future ignore a later exception.
 
-    When workers end just after a future was cancelled, the thread of the pool still has it on its list of those that
-    fail; before Python 3.12 it dies of that one with a traceback, and leaves the others open.
+    When workers end just after a future was cancelled, the pool's thread still tries to set an exception on it. Before
+    Python 3.12 that ends the thread with a traceback, and the other futures never complete.
     """
     fail = future.set_exception
 
@@ -125,10 +125,11 @@ def _translate(error: BaseException) -> BaseException:
 
 
 @contextmanager
-def _deaf() -> Iterator[None]:
-    """Start processes that never hear Ctrl-C, not even before `_begin`: it is this one's to say what is kept.
+def _interrupts_blocked() -> Iterator[None]:
+    """Start processes with SIGINT blocked, also before `_start_worker`; only the parent process handles Ctrl-C.
 
-    A process inherits the signals its parent holds back. One that comes meanwhile is delivered afterwards.
+    A process inherits the blocked signals of its parent. A signal in the meantime is delivered to the parent
+    afterwards.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -140,14 +141,14 @@ def _deaf() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _begin(leash: Connection) -> None:
-    """What a worker does first."""
+def _start_worker(leash: Connection) -> None:
+    """Prepare a new worker: ignore SIGINT and watch the leash."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    Thread(target=_hold, args=(leash,), daemon=True).start()
+    Thread(target=_watch_leash, args=(leash,), daemon=True).start()
 
 
-def _hold(leash: Connection) -> None:
-    """Leave when the other end of the leash is gone."""
+def _watch_leash(leash: Connection) -> None:
+    """Exit the process when the other end of the leash is closed."""
     with suppress(OSError, EOFError):
         leash.poll(None)
     os._exit(1)

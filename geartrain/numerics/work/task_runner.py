@@ -1,7 +1,7 @@
-"""Tasks in, results out, in the order of the tasks: the same for every executor, and if workers die.
+"""Ordered results of independent tasks, the same for every executor, even if workers die.
 
-Results become JSON text in the process that works them out, so that they are the same whether they come from this
-process, another one, another machine or a journal: tuples are lists and keys are texts in all of them.
+Results are converted to JSON text in the process that computes them, so that they are the same from this process,
+another process, another machine or a journal: tuples become lists and keys become texts.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from geartrain.numerics.work.worker_pool import WorkerPool
 TaskFunction = Callable[[Any], Any]
 ProgressReport = Callable[[int, int], None]
 
-_ALONE = 2  # deaths of workers after which a task runs with no other beside it, so that none is blamed for another
-_ENOUGH = 4  # deaths after which it is given up
-_IN_FLIGHT = 4  # tasks handed over for each one that runs, so that no worker waits for this process
-_AHEAD = 64  # how far, for each worker, results may be ahead of the first one that is missing
-_BETWEEN_WORDS = 0.1  # s between two calls of `tell`
-_BETWEEN_LOOKS = 2.0  # s between two looks at how the executor is
-_SMALL = 1.0  # s of work that this process does itself: a new process takes about as long to start
+_DEATHS_ALONE = 2  # deaths of workers after which a task runs without others, so that the faulty task is identified
+_MOST_DEATHS = 4  # deaths of workers after which the run fails
+_PENDING_PER_WORKER = 4  # tasks submitted per worker, so that no worker waits for this process
+_RESULTS_AHEAD = 64  # results per worker that may be ahead of the first missing one, which limits memory
+_REPORT_INTERVAL = 0.1  # s between two calls of `tell`
+_CHECK_INTERVAL = 2.0  # s between two checks of the executor
+_FIRST_SECONDS = 1.0  # s of work that this process does first: starting a process takes about as long
 
 
 def run(
@@ -47,80 +47,81 @@ def run(
 ) -> Iterator[Any]:
     """Yield `work(task)` for each task, in their order.
 
-    A worker that dies costs only what it was doing: that is done again, and a task with which workers keep dying is
-    run alone before it is blamed. Tasks in flight are cancelled however the iterator ends.
+    The death of a worker loses only its unfinished tasks, which are repeated. A task that repeatedly kills workers is
+    run without others before it is reported. Pending tasks are cancelled however the iterator ends.
 
     Parameters
     ----------
     work : callable
-        A function at the top of a module, so that other processes find it; its results are plain JSON data and depend
-        on the task alone.
+        A function at the top of a module, so that other processes can import it. Its results are plain JSON data and
+        depend only on the task.
     tasks : iterable
-        Any number of them; they are taken as they are needed, and only as many results are held as are ahead of one
-        that is missing (at most 64 for each worker).
+        Any number of tasks. They are read when needed, and only results ahead of a missing one are stored (at most 64
+        per worker).
     executor : concurrent.futures.Executor, optional
-        Default this process. Any executor will do; one from `open_executor` outlives its workers.
+        Any executor; default this process. An executor from `open_executor` survives the death of its workers.
     journal : Journal, optional
-        Results it has are not worked out again; others are written to it as they come.
+        Stored results, which are not computed again; new results are added.
     tell : callable, optional
-        Called with (tasks done, tasks in all, 0 if `tasks` has no length), at most ten times a second and at the end.
+        Called with (tasks done, total number of tasks, 0 if `tasks` has no length), at most ten times a second and at
+        the end.
 
     Yields
     ------
     plain data
-        Results as JSON gives them: tuples are lists, keys are texts.
+        Results as read from JSON: tuples are lists, keys are texts.
 
     Raises
     ------
     GearTrainError
-        If a task kills its workers, or no worker is left. Whatever `work` raises goes up at once.
+        If a task kills its workers, or no worker is left. Exceptions of `work` are raised immediately.
 
     Examples
     --------
     >>> list(run(abs, [-3, 4]))
     [3, 4]
     """
-    pace = _Pace(tell, len(tasks) if isinstance(tasks, Sized) else 0)
+    pace = _Progress(tell, len(tasks) if isinstance(tasks, Sized) else 0)
     if executor is None or (isinstance(executor, WorkerPool) and not executor.carries(work)):
-        return _here(work, tasks, journal, pace)
+        return _run_here(work, tasks, journal, pace)
     return _Run(work, tasks, executor, journal, pace).results()
 
 
 @dataclass(frozen=True, slots=True)
 class Execution:
-    """How the independent tasks of a long question are done; the default does them in this process and keeps nothing.
+    """Execution of independent tasks; by default they run in this process without a journal.
 
     Examples
     --------
-    >>> told = []
-    >>> list(Execution(tell=lambda done, total: told.append((done, total))).run(abs, [-1, 2]))
+    >>> reports = []
+    >>> list(Execution(tell=lambda done, total: reports.append((done, total))).run(abs, [-1, 2]))
     [1, 2]
-    >>> told[-1]
+    >>> reports[-1]
     (2, 2)
     """
 
     executor: Executor | None = None
-    """What runs the tasks; None for this process. `open_executor` makes one."""
+    """Executor of the tasks, such as one from `open_executor`; None for this process."""
     journal: Journal | None = None
-    """Where finished work is kept, to be taken up again."""
+    """Journal of finished results, by which a run can be resumed."""
     tell: ProgressReport | None = None
-    """Called with (tasks done, tasks in all), at most ten times a second and at the end."""
+    """Progress report, called with (tasks done, total number), at most ten times a second and at the end."""
 
     def run(self, work: Callable[[Any], Any], tasks: Iterable[Any]) -> Iterator[Any]:
-        """Results in the order of the tasks, as `geartrain.numerics.run`.
+        """Yield results in the order of the tasks, as `geartrain.numerics.run`.
 
         Parameters
         ----------
         work : callable
             A function at the top of a module.
         tasks : iterable
-            What it is called with.
+            Arguments of the function, one per call.
         """
         return run(work, tasks, self.executor, self.journal, self.tell)
 
 
-def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Pace) -> Iterator[Any]:
-    """All in this process, one after the other."""
+def _run_here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Progress) -> Iterator[Any]:
+    """Yield the results of all tasks, computed in this process one after another."""
     pace.step(0)
     for index, task in enumerate(tasks):
         mark = mark_of(task) if journal is not None else ""
@@ -134,33 +135,33 @@ def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pac
     pace.end()
 
 
-class _Pace:
-    """Counts what is done, and tells it neither too often nor too seldom."""
+class _Progress:
+    """Counter of finished tasks that limits the rate of progress reports."""
 
     def __init__(self, tell: ProgressReport | None, total: int) -> None:
         self.tell, self.total, self.done = tell, total, 0
-        self._said = -1
-        self._at = -_BETWEEN_WORDS
+        self._reported = -1
+        self._at = -_REPORT_INTERVAL
 
     def step(self, count: int = 1) -> None:
-        """So many more are done."""
+        """Count further tasks as done and report if due."""
         self.done += count
-        if self.tell and (monotonic() - self._at >= _BETWEEN_WORDS or self.done == self.total):
-            self._say(self.tell)
+        if self.tell and (monotonic() - self._at >= _REPORT_INTERVAL or self.done == self.total):
+            self._report(self.tell)
 
     def end(self) -> None:
-        """All are done: the last word gives the whole number."""
-        if self.tell and self._said != self.done:
-            self._say(self.tell)
+        """Report the final number of tasks, unless already reported."""
+        if self.tell and self._reported != self.done:
+            self._report(self.tell)
 
-    def _say(self, tell: ProgressReport) -> None:
-        self._said, self._at = self.done, monotonic()
+    def _report(self, tell: ProgressReport) -> None:
+        self._reported, self._at = self.done, monotonic()
         tell(self.done, self.total)
 
 
 @dataclass(slots=True)
-class _Flight:
-    """A task on its way: `deaths` counts the workers that died while it was with them, or waited for them."""
+class _Submission:
+    """A submitted task; `deaths` counts the workers that died while it was running or queued."""
 
     index: int
     task: Any
@@ -169,56 +170,56 @@ class _Flight:
 
 
 class _Run:
-    """Work by an executor. Futures report to a queue when they end; this thread alone decides what follows."""
+    """Run of tasks by an executor. Futures report to a queue when they end, and only this thread acts on them."""
 
     def __init__(
-        self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Pace
+        self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Progress
     ) -> None:
         self.work, self.executor, self.journal, self.pace = work, executor, journal, pace
         self.tasks = iter(enumerate(tasks))
         self.ended: SimpleQueue[Future[Any]] = SimpleQueue()
-        self.flying: dict[Future[Any], _Flight] = {}
-        self.again: deque[_Flight] = deque()
+        self.pending: dict[Future[Any], _Submission] = {}
+        self.again: deque[_Submission] = deque()
         self.ready: dict[int, str] = {}
         self.next = self.issued = 0
-        self.hurt = 0  # flights on their way that saw a worker die
+        self.suspects = 0  # submitted tasks that saw a worker die
         self.exhausted = False
-        self.looked = monotonic()
+        self.checked = monotonic()
 
     def results(self) -> Iterator[Any]:
-        """The results in the order of the tasks."""
+        """Yield the results in the order of the tasks."""
         try:
             self.pace.step(0)
             if isinstance(self.executor, WorkerPool) and self.executor.waits:
-                yield from self._small()
+                yield from self._first_results()
             while True:
                 self._fill()
                 for result in self._due():
                     yield result
                     self._fill()
-                if not self.flying and not self.again and self.exhausted:
+                if not self.pending and not self.again and self.exhausted:
                     break
-                self._land(self._wait())
+                self._process(self._wait())
             self.pace.end()
         finally:
             self._cancel()
 
-    def _small(self) -> Iterator[Any]:
-        """The first results, worked out in this process until it is clear that others are worth their start."""
+    def _first_results(self) -> Iterator[Any]:
+        """Yield the first results, computed in this process until the start of workers is worthwhile."""
         done, spent = 0, 0.0
         while not self.exhausted:
-            flight = self._take()
-            if flight is not None:
+            submission = self._next_task()
+            if submission is not None:
                 begun = monotonic()
-                self._finished(flight, as_text(self.work(flight.task)))
+                self._finished(submission, as_text(self.work(submission.task)))
                 done, spent = done + 1, spent + monotonic() - begun
             yield from self._due()
             rest = spent / done * (self.pace.total - self.pace.done) if done and self.pace.total else spent
-            if min(spent, rest) > _SMALL:
+            if min(spent, rest) > _FIRST_SECONDS:
                 return
 
     def _due(self) -> Iterator[Any]:
-        """Results that are there, up to the first one that is missing."""
+        """Yield available results up to the first missing one."""
         while self.next in self.ready:
             text = self.ready.pop(self.next)
             self.next += 1
@@ -229,142 +230,146 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Hand over as many tasks as there is room for; those with which workers died first, and few at a time."""
+        """Submit as many tasks as the limits allow; tasks during which workers died come first, a few at a time."""
         width = self._width
         while self.again:
-            careful = self.again[0].deaths >= _ALONE
-            if len(self.flying) >= (1 if careful else width):
+            careful = self.again[0].deaths >= _DEATHS_ALONE
+            if len(self.pending) >= (1 if careful else width):
                 return
-            self._launch(self.again.popleft())
-        while not self.hurt and len(self.flying) < _IN_FLIGHT * width and self.issued < self.next + _AHEAD * width:
-            flight = self._take()
-            if flight is None:
+            self._submit(self.again.popleft())
+        while (
+            not self.suspects
+            and len(self.pending) < _PENDING_PER_WORKER * width
+            and self.issued < self.next + _RESULTS_AHEAD * width
+        ):
+            submission = self._next_task()
+            if submission is None:
                 return
-            self._launch(flight)
+            self._submit(submission)
 
-    def _take(self) -> _Flight | None:
-        """The next task that the journal does not have; None for the time being or for good."""
+    def _next_task(self) -> _Submission | None:
+        """Return the next task that is not in the journal; None if there is none yet or none at all."""
         for index, task in self.tasks:
             self.issued = index + 1
             mark = mark_of(task) if self.journal is not None else ""
             text = self.journal.recall(index, mark) if self.journal is not None else None
             if text is None:
-                return _Flight(index, task, mark)
+                return _Submission(index, task, mark)
             self.ready[index] = text
             self.pace.step()
-            if self.issued >= self.next + _AHEAD * self._width:
+            if self.issued >= self.next + _RESULTS_AHEAD * self._width:
                 return None
         self.exhausted = True
         return None
 
-    def _launch(self, flight: _Flight) -> None:
+    def _submit(self, submission: _Submission) -> None:
         if isinstance(self.executor, WorkerPool):
             self.executor.begin(max(self.pace.total - self.pace.done, 0))
         try:
-            future = self.executor.submit(carry, self.work, flight.task)
+            future = self.executor.submit(carry, self.work, submission.task)
         except BrokenExecutor:
             raise GearTrainError(
                 Problem(
                     "the executor is broken",
-                    "one of its workers died, and it makes no new ones",
-                    "use the executor that open_executor gives: it survives the death of workers",
+                    "one of its workers died, and it does not start new ones",
+                    "use the executor of open_executor, which survives the death of workers",
                 )
             ) from None
-        self.flying[future] = flight
-        self.hurt += bool(flight.deaths)
+        self.pending[future] = submission
+        self.suspects += bool(submission.deaths)
         future.add_done_callback(self.ended.put)
 
     def _wait(self) -> Future[Any]:
-        """The next future that ends, whichever it is."""
+        """Wait for the next future that ends and return it."""
         while True:
-            if isinstance(self.executor, WorkerPool) and monotonic() - self.looked > _BETWEEN_LOOKS:
+            if isinstance(self.executor, WorkerPool) and monotonic() - self.checked > _CHECK_INTERVAL:
                 self.executor.check()
-                self.looked = monotonic()
+                self.checked = monotonic()
             with suppress(Empty):
-                return self.ended.get(timeout=_BETWEEN_LOOKS)
+                return self.ended.get(timeout=_CHECK_INTERVAL)
 
-    def _land(self, future: Future[Any]) -> None:
-        """Take what a task came back with."""
-        flight = self.flying.pop(future)
-        self.hurt -= bool(flight.deaths)
+    def _process(self, future: Future[Any]) -> None:
+        """Process the result or exception of a finished future."""
+        submission = self.pending.pop(future)
+        self.suspects -= bool(submission.deaths)
         try:
             outcome = future.result()
         except BrokenExecutor as error:
-            self._died(flight, getattr(error, "times", 1))
+            self._repeat(submission, getattr(error, "times", 1))
         except CancelledError:
             why = "its executor was shut down, or lost its scheduler, before the work was done"
             raise GearTrainError(
                 Problem(
-                    "the work was cut off", why, "run it again; what was finished is in the journal, if one was kept"
+                    "the work was interrupted", why, "run it again; finished work is in the journal, if there is one"
                 )
             ) from None
         else:
             if isinstance(outcome, RemoteFailure):
                 raise outcome.error()
-            self._finished(flight, outcome)
+            self._finished(submission, outcome)
 
-    def _finished(self, flight: _Flight, text: str) -> None:
-        self._keep(flight, text)
-        self.ready[flight.index] = text
+    def _finished(self, submission: _Submission, text: str) -> None:
+        self._keep(submission, text)
+        self.ready[submission.index] = text
         self.pace.step()
 
-    def _keep(self, flight: _Flight, text: str) -> None:
+    def _keep(self, submission: _Submission, text: str) -> None:
         if self.journal is not None:
-            self.journal.keep(flight.index, flight.mark, text)
+            self.journal.keep(submission.index, submission.mark, text)
 
-    def _died(self, flight: _Flight, times: int) -> None:
-        """A worker died with this task, or with one beside it: once more, and alone if it happens again."""
-        flight.deaths += times
-        if flight.deaths >= _ENOUGH:
-            raise _deadly(flight)
-        self.again = deque(sorted([*self.again, flight], key=lambda each: (each.deaths, each.index)))
+    def _repeat(self, submission: _Submission, times: int) -> None:
+        """Put a task back into the queue after a worker died; after repeated deaths it runs without other tasks."""
+        submission.deaths += times
+        if submission.deaths >= _MOST_DEATHS:
+            raise _killer_error(submission)
+        self.again = deque(sorted([*self.again, submission], key=lambda each: (each.deaths, each.index)))
 
     def _cancel(self) -> None:
-        """However it ends: nothing more is begun, and what was finished in the meantime is kept."""
-        for future in self.flying:
+        """Cancel all pending tasks and store results that finished in the meantime."""
+        for future in self.pending:
             future.cancel()
-        for future, flight in self.flying.items():
+        for future, submission in self.pending.items():
             if future.done() and not future.cancelled() and not future.exception():
                 outcome = future.result()
                 if isinstance(outcome, str) and self.journal is not None and not self.journal.closed:
-                    with suppress(GearTrainError):  # it would hide what ends the run
-                        self._keep(flight, outcome)
-        self.flying.clear()
+                    with suppress(GearTrainError):  # it would hide the error that ends the run
+                        self._keep(submission, outcome)
+        self.pending.clear()
 
 
-def _deadly(flight: _Flight) -> GearTrainError:
-    said = repr(flight.task)
-    said = said if len(said) <= 200 else f"{said[:200]}..."
+def _killer_error(submission: _Submission) -> GearTrainError:
+    shown = repr(submission.task)
+    shown = shown if len(shown) <= 200 else f"{shown[:200]}..."
     return GearTrainError(
         Problem(
-            f"task {flight.index} kills the worker that does it: {said}",
-            f"{flight.deaths} worker processes ended with it, the last with no other task beside it: out of memory, "
-            "killed from outside, or they could not start",
-            "give it more memory or smaller pieces, or fewer workers; a script that starts workers needs the line "
-            'if __name__ == "__main__": before what it does',
+            f"task {submission.index} kills its worker: {shown}",
+            f"{submission.deaths} worker processes died during it, the last one without other tasks: out of memory, "
+            "killed from outside, or unable to start",
+            "provide more memory, smaller tasks or fewer workers; a script that starts workers needs the line "
+            'if __name__ == "__main__": before its code',
         )
     )
 
 
 @dataclass(frozen=True, slots=True)
 class RemoteFailure:
-    """What `work` raised, in a form that always comes through.
+    """An exception raised in a worker, in a form that can always be transferred.
 
-    A process pool takes an exception it cannot unpickle for a dead worker, and an exception whose `__init__` takes
-    other arguments than its text comes back garbled.
+    A process pool treats an exception that it cannot unpickle as a dead worker. An exception whose `__init__` takes
+    arguments other than its text is corrupted by pickling.
     """
 
     trace: str
-    """The traceback there."""
+    """Traceback in the worker."""
     kind: type[GearTrainError] | None = None
-    """Its class, where it is a `GearTrainError`."""
+    """Class of the exception if it is a `GearTrainError`, else None."""
     problems: tuple[Problem, ...] = ()
-    """Its problems, likewise."""
+    """Problems of a `GearTrainError`."""
     pickled: bytes = b""
-    """Any other exception; empty where it cannot be pickled faithfully."""
+    """Any other exception, pickled; empty if it cannot be pickled without loss."""
 
     def error(self) -> Exception:
-        """The exception again, with the traceback of its worker as a note."""
+        """Return the exception, with the traceback of its worker as a note."""
         error = self._again()
         error.add_note(f"raised in a worker:\n{self.trace}")
         return error
@@ -382,12 +387,12 @@ class RemoteFailure:
 
 
 def as_text(result: Any) -> str:
-    """A result as one line of JSON. Raises `TypeError` where it is no plain data."""
+    """Format a result as one line of JSON. Raises `TypeError` if it is not plain data."""
     return json.dumps(result, separators=(",", ":"))
 
 
 def carry(work: Callable[[Any], Any], task: Any) -> str | RemoteFailure:
-    """Do one task in a worker: its result as JSON, or what it raised."""
+    """Perform one task in a worker; return its result as JSON, or the exception that it raised."""
     try:
         return as_text(work(task))
     except Exception as error:
@@ -395,22 +400,22 @@ def carry(work: Callable[[Any], Any], task: Any) -> str | RemoteFailure:
 
 
 def raised(error: Exception) -> RemoteFailure:
-    """Pack an exception."""
+    """Pack an exception for its transfer to another process."""
     trace = "".join(traceback.format_exception(error))
     if isinstance(error, GearTrainError):
         return RemoteFailure(trace, type(error), error.problems)
     try:
         pickled = pickle.dumps(error)
         back = pickle.loads(pickled)
-    except Exception:  # pickling calls code of the exception's own
+    except Exception:  # pickling runs code of the exception
         return RemoteFailure(trace)
-    # an exception whose __init__ takes other arguments may come back as another text, or not as itself
+    # an exception whose __init__ takes other arguments may be unpickled with another text or as another class
     faithful = type(back) is type(error) and str(back) == str(error)
     return RemoteFailure(trace, pickled=pickled if faithful else b"")
 
 
 def mark_of(task: Any) -> str:
-    """A short mark by which a journal knows a task again; empty for a task that is no plain data (nor a Fraction)."""
+    """Return a checksum by which a journal identifies a task; empty if the task cannot be written as JSON."""
     try:
         text = json.dumps(task, separators=(",", ":"), default=_fraction)
     except (TypeError, ValueError):

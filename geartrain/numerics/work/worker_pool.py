@@ -1,4 +1,4 @@
-"""What all executors share whose workers may die: pools, and futures that follow another one."""
+"""Base class of executors whose workers can die, and futures that follow another future."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from contextlib import suppress
 from typing import Any
 
 Announcement = Callable[[int, int], None]
-"""Called with (tasks, workers) when a run first uses other processes; 0 tasks where their number is not known."""
+"""Function called with (tasks, workers) when a run first uses other processes; 0 tasks if their number is unknown."""
 
 
 class WorkerDiedError(BrokenExecutor):
-    """Workers died with a task: `times` of them, one after the other."""
+    """Workers died during a task, `times` of them in succession."""
 
     def __init__(self, text: str, times: int = 1) -> None:
         super().__init__(text)
@@ -21,10 +21,10 @@ class WorkerDiedError(BrokenExecutor):
 
 
 class WorkerPool(Executor, ABC):
-    """An executor that survives the death of workers: a future fails with `BrokenExecutor`, the next submit works.
+    """An executor that survives the death of workers: a future fails with `BrokenExecutor`, and the next submit works.
 
-    announce   called when the first task is about to be handed over; then None
-    waits      whether the first second of work is done in this process, in case that is all
+    announce   function called before the first task is submitted; None afterwards
+    waits      whether the first second of work is done in this process, in case that is sufficient
     """
 
     announce: Announcement | None = None
@@ -33,34 +33,34 @@ class WorkerPool(Executor, ABC):
     @property
     @abstractmethod
     def width(self) -> int:
-        """How many tasks run at once; at least 1."""
+        """Number of tasks that run at the same time, at least 1."""
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """True if workers can be given this work; else it is done in this process."""
+        """Return whether workers can receive this function; otherwise this process does the work."""
         del work
         return True
 
     def begin(self, tasks: int) -> None:
-        """Other processes are about to do so many tasks (0: not known): announce it, the first time."""
+        """Report that other processes will do `tasks` tasks (0 if unknown), the first time only."""
         announce, self.announce, self.waits = self.announce, None, False
         if announce is not None:
             announce(tasks, min(self.width, tasks or self.width))
 
     def check(self) -> None:
-        """Called every few seconds while nothing is finished. Raises `GearTrainError` where nothing ever will be."""
+        """Raise `GearTrainError` if no task can finish any more; called every few seconds during a wait."""
 
     @abstractmethod
     def dismiss(self) -> None:
-        """End the workers, or disconnect from them, with what they still run."""
+        """End the workers and their running tasks, or disconnect from them."""
 
 
 def follow(theirs: Future[Any], translate: Callable[[BaseException], BaseException]) -> Future[Any]:
-    """A future that ends as `theirs` does, its exception translated; cancelling it cancels theirs."""
+    """Return a future that ends as `theirs` does, with its exception translated; cancelling it cancels `theirs`."""
     ours: Future[Any] = Future()
 
     def ended(_: Future[Any]) -> None:
         error = CancelledError() if theirs.cancelled() else theirs.exception()
-        with suppress(InvalidStateError):  # ours was cancelled, or failed with its pool, in the meantime
+        with suppress(InvalidStateError):  # our future was cancelled, or failed with its pool, in the meantime
             if error is None:
                 ours.set_result(theirs.result())
             else:

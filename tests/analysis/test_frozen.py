@@ -79,7 +79,7 @@ def test_a_frozen_dictionary_refuses_every_change_and_is_a_dictionary_otherwise(
         lambda: frozen.__ior__({"c": 3}),
     ]
     for change in changes:
-        with pytest.raises(TypeError, match="frozen"):
+        with pytest.raises(TypeError, match="immutable"):
             change()
     assert frozen == {"a": 1, "b": 2} == dict(frozen)
     for again in (copy.copy(frozen), copy.deepcopy(frozen), pickle.loads(pickle.dumps(frozen))):

@@ -64,7 +64,7 @@ def test_a_rate_is_refused_from_the_speed_relative_to_the_carriage_on(declared: 
     train = load(carried(*declared))
     run = train.dynamics("0.01666 turn/s", turns=0.01, skip=0, fast=False)
     assert run.rate == pytest.approx(2 * pi * 0.01666, rel=1e-9)
-    with pytest.raises(Exception, match=r"ask for 0\.0166667 turn/s of 'carriage' or less"):
+    with pytest.raises(Exception, match=r"give at most 0\.0166667 turn/s for 'carriage'"):
         train.dynamics("0.01667 turn/s", turns=0.01, skip=0, fast=False)
 
 

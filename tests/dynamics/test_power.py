@@ -352,7 +352,7 @@ def test_plain_loads_are_no_watts() -> None:
 
 
 def test_a_friction_torque_is_not_negative() -> None:
-    with pytest.raises(GearTrainError, match="not negative"):
+    with pytest.raises(GearTrainError, match="must not be negative"):
         load("extends: planetary\nlinks: {carrier: {bearing: -1 N m}}\n")
 
 

@@ -105,7 +105,7 @@ def test_a_shaft_angle_lies_between_the_ways_in_which_both_wheels_face(
             "{teeth: 20, kind: bevel}",
             "{teeth: 60, kind: bevel}",
             "axes: {A: {direction: [0, 0, 1], position: [0, 0, 0]}, B: {direction: [1, 0, 0], position: [0, 1, 0]}}",
-            ("do not meet", "positions"),
+            ("do not intersect", "positions"),
         ),
     ],
     ids=["worm", "no axes", "contrate", "too few", "pins", "apart", "skew"],

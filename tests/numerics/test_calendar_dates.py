@@ -52,7 +52,7 @@ def test_a_date_without_an_hour_is_noon_and_the_reform_leaves_out_ten_days() -> 
         with pytest.raises(ValueError, match="does not exist"):
             read_date(text)
     for text in ("", "soon", "2000", "2000-01-01 24:00", "2000-01-01 12", "99999999999-01-01", "12 May 205 BC"):
-        with pytest.raises(ValueError, match="is no date"):
+        with pytest.raises(ValueError, match="is not a date"):
             read_date(text)
     assert julian_day(read_date("1582-10-10", "gregorian")) == julian_day(read_date("1582-09-30", "julian"))
 

@@ -206,7 +206,7 @@ class PlanNames:
     def of(
         cls, projected: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
     ) -> PlanNames:
-        """Return the candidate positions for some wheels of a scene; `at` converts view coordinates to inches."""
+        """Return candidate label positions [inches] of the given wheels; `at` converts view coordinates to inches."""
         centres = np.array([at(projected.seen(projected.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
         reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
         ends = [at(projected.seen(np.array([start, end]))) for _, start, end in arms_of(projected)]

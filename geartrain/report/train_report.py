@@ -250,10 +250,8 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
     cells = [[_LETTERS.get(kind, "C") for kind in row] for row in adjacency_kinds(train.declaration)]
     head = gap.join(str(at % 10) for at in range(1, len(links) + 1))
     rows = [(f"{at} {link}", gap.join(row)) for at, (link, row) in enumerate(zip(links, cells, strict=True), 1)]
-    couplings = ", C a coupling" if train.declaration.couplings else ""
-    text = (
-        f"R is a turning pair, G a gear pair{couplings}, + several; columns have the last digits of the links' numbers."
-    )
+    couplings = ", C coupling" if train.declaration.couplings else ""
+    text = f"R turning pair, G gear pair{couplings}, + several; columns by last digit."
     yield Section("Adjacency matrix", (text,), (Table(("link", head), rows, wide=True),))
 
 

@@ -72,7 +72,7 @@ def rates(train: Train) -> Iterator[Problem]:
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
-    """Yield problems of a target that is not in the table, or whose dimension differs from the train's unit."""
+    """Yield a problem for each target that is not in the table, or whose dimension differs from the train's unit."""
     place = train.place(*loc)
     if target.name is not None:
         row = period_table().get(target.name)

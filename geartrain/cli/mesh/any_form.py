@@ -58,8 +58,8 @@ if TYPE_CHECKING:
 
 
 _CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
-"""Options only of conjugate forms: for rings, for bevel wheels, and for the root, which their path of contact leaves
-open.
+"""Options that apply only to conjugate forms: rings, bevel wheels, and the root, which the path of contact does not
+determine.
 """
 
 _HELICAL = ("helix",)

@@ -216,7 +216,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     highest: Floats | None = None
     """Torque at the link in the solution with maximum loss [N m, or plain], shape (n,)."""
     standing: Floats | None = None
-    """Torque that starts the train at each position, with static friction everywhere [N m, or plain], shape (n,)."""
+    """Breakaway torque of the train at each position, with static friction in every contact [N m, or plain], shape
+    (n,).
+    """
     speeds: LabelledArray | None = None
     """Speeds of links over the input speed, (link, position)."""
     powers: LabelledArray | None = None

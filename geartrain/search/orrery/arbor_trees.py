@@ -62,7 +62,7 @@ class PeriodTargets:
         return low <= ratio <= high
 
     def error(self, target: int, ratio: Fraction) -> Fraction:
-        """Return the speed over the requested speed, minus 1; positive if fast."""
+        """Return the relative speed error, speed / requested speed - 1; positive if fast."""
         return self.periods[target] / ratio - 1
 
 

@@ -247,9 +247,7 @@ class _ByProducts:
         return bound
 
     def widened_pilot(self) -> Bound | None:
-        """Return a bound of the best solutions before a tolerance is known; it is increased until there are enough
-        solutions.
-        """
+        """Return an initial bound on the error of the best solutions, increased until enough solutions satisfy it."""
         found = []
         for number in {0, self.plan.densest} if self.many else ():
             at = self.start()
@@ -295,7 +293,7 @@ class _BySums:
         """Accept every tolerance, because there are few reverted trains."""
 
     def pilot(self, tolerance: Fraction) -> Bound | None:
-        """Return None, because the segments are small."""
+        """Return None: no initial bound is computed, because the segments are small."""
         del tolerance
         return None
 

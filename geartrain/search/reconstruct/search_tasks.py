@@ -104,7 +104,7 @@ class TopologyTrains:
         return sum(part.choices * part.orders.total for part in self.parts(topology))
 
     def parts(self, topology: Topology) -> list[OrderPart]:
-        """Partition the trains of a topology by the limits that rings set."""
+        """Partition the trains of a topology by the tooth-count limits that ring gears impose."""
         if not rings_limit(topology, self._facts.rings, self._maximum):
             orders = topology_orders(name_topology(topology, *self._names), self._facts)
             return [self._part(OpenCounts(topology.added, topology.wanted), orders)]

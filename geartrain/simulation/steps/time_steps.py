@@ -171,7 +171,7 @@ def diverges(speed: Floats, step: float) -> bool:
 def solve_step(
     system: ContactSystem, transmissions: PairTables, state: ContactState, here: StepEquations, rules: StepRules
 ) -> int:
-    """Solve for the speeds at the end of a step; return the number of guesses."""
+    """Solve for the speeds at the end of a step and return the number of iterations."""
     find_loads(system, state, here, rules.step)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]

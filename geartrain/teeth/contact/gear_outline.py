@@ -267,7 +267,7 @@ class GearOutline(Shown):
 
     @cached_property
     def behind(self) -> FlankTable:
-        """Trailing sides as polynomial pieces."""
+        """Trailing flanks as piecewise polynomials."""
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:

@@ -112,7 +112,7 @@ class RatioDrift(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerBudget(Result):
-    """Causes of one pointer's error.
+    """Error budget of one pointer: the contribution of each cause.
 
     Examples
     --------

@@ -31,38 +31,47 @@ class VerbGroup(EndingGroup, LazyGroup):
 
     verbs = Verbs(
         {
+            "init": "geartrain.cli.declarations:write_template",
+            "check": "geartrain.cli.check",
+            "format": "geartrain.cli.declarations:write_style",
+            "list": "geartrain.cli.declarations:list_trains",
+            "periods": "geartrain.cli.declarations:list_periods",
             "report": "geartrain.cli.report:report",
             "view": "geartrain.cli.view:view",
             "watch": "geartrain.cli.view:watch",
             "draw": "geartrain.cli.draw",
-            "export": "geartrain.workshop.export.verb",
             "compare": "geartrain.cli.report:compare",
-            "check": "geartrain.cli.check",
             "solve": "geartrain.cli.solve:solve",
-            "equations": "geartrain.cli.solve:equations",
-            "init": "geartrain.cli.declarations:write_template",
-            "format": "geartrain.cli.declarations:write_style",
             "formula": "geartrain.cli.solve:formula",
             "gearbox": "geartrain.cli.gearbox",
+            "equations": "geartrain.cli.solve:equations",
             "graph": "geartrain.cli.graph",
+            "sphere": "geartrain.cli.sphere",
+            "mesh": "geartrain.cli.mesh",
             "torques": "geartrain.cli.torques",
-            "strength": "geartrain.simulation.strength.verb",
             "motion": "geartrain.cli.motion",
+            "strength": "geartrain.simulation.strength.verb",
             "dynamics": "geartrain.simulation.time.verb",
+            "optimise": "geartrain.workshop.sizes.verb",
+            "teeth": "geartrain.search.teeth_verb",
+            "reconstruct": "geartrain.search.reconstruct.verb",
+            "posterior": "geartrain.search.posterior.verb",
+            "export": "geartrain.workshop.export.verb",
             "montecarlo": "geartrain.workshop.monte_carlo.verb",
             "budget": "geartrain.workshop.budget.verb",
-            "sphere": "geartrain.cli.sphere",
-            "teeth": "geartrain.search.teeth_verb",
-            "posterior": "geartrain.search.posterior.verb",
-            "optimise": "geartrain.workshop.sizes.verb",
-            "reconstruct": "geartrain.search.reconstruct.verb",
             "schema": "geartrain.cli.declarations:print_schema",
-            "list": "geartrain.cli.declarations:list_trains",
-            "periods": "geartrain.cli.declarations:list_periods",
-            "mesh": "geartrain.cli.mesh",
             "bench": "geartrain.cli.bench",
         },
         entry_points="geartrain.wings",
+        panels={
+            "Start": ("init", "check", "format", "list", "periods"),
+            "Look": ("report", "view", "watch", "draw", "compare"),
+            "Speeds": ("solve", "formula", "gearbox", "equations", "graph", "sphere"),
+            "Teeth, losses and motion": ("mesh", "torques", "motion", "strength", "dynamics", "optimise"),
+            "Search": ("teeth", "reconstruct", "posterior"),
+            "Make": ("export", "montecarlo", "budget"),
+            "Data": ("schema", "bench"),
+        },
     )
 
 
@@ -73,7 +82,8 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Exit codes: 0 determined and as expected; 1 not determined, or an expectation failed; 2 invalid input; "
+    epilog="Examples: `geartrain report freeth-2021`; `geartrain solve train.yaml`; `geartrain teeth ratio 235/19`. "
+    "Exit codes: 0 determined and as expected; 1 not determined, or an expectation failed; 2 invalid input; "
     "3 internal error; 130 interrupted; 141 output pipe closed by its reader.",
 )
 

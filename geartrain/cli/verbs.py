@@ -10,7 +10,7 @@ import os
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from importlib import import_module
@@ -48,6 +48,8 @@ class Verbs(Mapping[str, Command]):
         Group of entry points (`importlib.metadata`) through which other distributions add commands. It is read only
         when a name is unknown or when all names are listed, because a scan of the installed distributions takes
         longer than most commands.
+    panels
+        Heading in `--help` -> names of the commands below it.
     """
 
     def __init__(
@@ -55,13 +57,16 @@ class Verbs(Mapping[str, Command]):
         modules: Mapping[str, str],
         make: Mapping[str, Callable[[], Callable[..., None]]] | None = None,
         entry_points: str | None = None,
+        panels: Mapping[str, Sequence[str]] | None = None,
     ) -> None:
         self._modules, self._make, self._group = modules, make or {}, entry_points
         self._made: dict[str, Command] = {}
+        self._panels = {name: title for title, names in (panels or {}).items() for name in names}
 
     def __getitem__(self, name: str) -> Command:
         if name not in self._made:
             self._made[name] = self._command(name)
+            self._made[name].rich_help_panel = self._panels.get(name)
         return self._made[name]
 
     def __iter__(self) -> Iterator[str]:

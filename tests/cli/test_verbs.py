@@ -9,6 +9,7 @@ import sys
 import pytest
 from commands import call, functions
 
+from geartrain.cli import VerbGroup
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS
 from geartrain.wings import WINGS
 
@@ -90,3 +91,12 @@ def test_help_lists_every_verb_with_what_it_does() -> None:
         if " " not in name:
             assert f" {name} " in said
             assert " ".join(str(function.__doc__).split()[:3]) in said, name
+
+
+def test_help_lists_every_command_under_a_heading() -> None:
+    shown = call("--help").output
+    headings = ("Start", "Look", "Speeds", "Teeth, losses and motion", "Search", "Make", "Data")
+    places = [shown.index(f"─ {heading} ─") for heading in headings]
+    assert places == sorted(places)
+    assert "─ Commands ─" not in shown
+    assert all(f"│ {name} " in shown for name in VerbGroup.verbs)

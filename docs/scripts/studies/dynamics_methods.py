@@ -17,7 +17,7 @@ from geartrain.simulation.contacts.compliant_train import damping_ratio
 from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothCompliance
 from geartrain.simulation.contacts.pair_tables import tabled_angle
 from geartrain.simulation.contacts.train_model import SlackPin
-from geartrain.simulation.steps.contact_solution import GAP, IMPACT_COUNT, IMPACTS, TIME_APART
+from geartrain.simulation.steps.contact_solution import GAP, IMPACT_COUNT, IMPACT_LOSS, TIME_APART
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 
@@ -176,4 +176,4 @@ def _plan(steps: int) -> StepPlan:
 
 def _told(run: SimulatedRun) -> PairRun:
     apart = float(run.counts[0, TIME_APART]) / run.plan.steps
-    return PairRun(float(run.counts[0, GAP]), apart, float(run.energy[IMPACTS]), int(run.counts[0, IMPACT_COUNT]))
+    return PairRun(float(run.counts[0, GAP]), apart, float(run.energy[IMPACT_LOSS]), int(run.counts[0, IMPACT_COUNT]))

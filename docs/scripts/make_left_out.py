@@ -168,7 +168,7 @@ def from_command_line() -> None:
         default=SHORT,
         help="processor seconds for what is asked of an unfinished question (default %(default)g)",
     )
-    requested.add_argument("--more", type=float, help="ask for so many minutes what the kept run has not, and keep it")
+    requested.add_argument("--more", type=float, help="run missing questions for N minutes and keep the results")
     given = requested.parse_args()
     if given.more:
         (kept,) = read(LeftOutRecords, DATA.stem)

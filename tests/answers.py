@@ -71,14 +71,14 @@ SEARCHED = ("teeth train {} --by total --best 5 --json", "teeth train {} --csv")
 
 OTHERS = (
     *("list", "periods", "schema", "schema --as markdown", "schema --as answers", "sphere --survey --json"),
-    *(f"mesh involute --teeth 24 36 --friction 0.05 {more} --json" for more in ("", "--bevel 90deg", "--driver 2")),
+    *(f"mesh 24 36 --friction 0.05 {more} --json" for more in ("", "--shaft-angle 90deg", "--driver 2")),
     *(f"mesh {form} --teeth 12 45 --friction 0.1 --json" for form in ("cycloidal", "lantern", "least_friction")),
     *(f"mesh {form} --teeth 24 36 --json" for form in ("uniform_stress", "uniform_temperature", "compare")),
-    *(f"mesh triangular --teeth 48 96 --{by} --friction 0.2 --json" for by in ("clearance 1.01", "window 0.3")),
-    "mesh involute --teeth 36 70 --internal --shift 0.696,0.226 --json",
-    "mesh triangular --teeth 20 31 --clearance-factor 1.012 --backwards --json",
-    "mesh triangular --teeth 48 96 --vary clearance-factor=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
-    "mesh pin --pin-radius 9.6mm --offset 1.1mm --friction 0.1 --json",
+    *(f"mesh 48 96 --form triangular --{by} --friction 0.2 --json" for by in ("clearance 1.01", "window 0.3")),
+    "mesh 36 70 --internal -p shift=0.696,0.226 --json",
+    "mesh 20 31 --form triangular -p clearance_factor=1.012 --backwards --json",
+    "mesh 48 96 --form triangular --vary clearance_factor=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
+    "pin 9.6mm 1.1mm --friction 0.1 --json",
     *(
         f"teeth set 142 --kind {kind} --planets 3 --range 12:70 --best 5 --json"
         for kind in ("wolfrom", "3k-two-suns", "stepped-rings")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.errors import GearTrainError, Problem, printable
+from geartrain.errors import GearTrainError, Problem, QuestionError, printable
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -73,6 +73,11 @@ def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]
         for problem in case.problems:
             tell(f"note: state {case.state} is left out: {problem}")
     return train.kinematics.usable_states
+
+
+def option_error(place: str, what: str, fix: str, why: str = "") -> QuestionError:
+    """Return the error of an argument or option of the command line."""
+    return QuestionError(Problem(what, why, fix, place))
 
 
 def tell(text: str) -> None:
@@ -210,9 +215,7 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
     """Return the suffix of an output file, "" without one; reject suffixes that are not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
-        raise typer.BadParameter(
-            f"'{suffix}' is not an output format of this command; use {', '.join(allowed)}", param_hint=option
-        )
+        raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")
     return suffix
 
 
@@ -232,7 +235,9 @@ def read_share(text: str, option: str) -> Fraction:
     try:
         found = Quantity.parse(text, "fraction", plain=True)
     except PydanticCustomError as error:
-        raise typer.BadParameter(error.message(), param_hint=option) from None
+        context = error.context or {}
+        fix = str(context.get("fix", "give a number, a percentage or ppm, such as 0.01, 1 % or 20 ppm"))
+        raise option_error(option, error.message(), fix, str(context.get("why", ""))) from None
     return found.base
 
 

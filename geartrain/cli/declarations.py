@@ -7,11 +7,24 @@ and print the schema of declarations and results.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Force, Out, Sink, as_json, complain, emit, sink, tell
+from geartrain.cli.common import (
+    GOOD,
+    NOT_USABLE,
+    VERDICT,
+    Force,
+    Out,
+    Sink,
+    as_json,
+    complain,
+    emit,
+    option_error,
+    sink,
+    tell,
+)
 from geartrain.errors import GearTrainError, check_choice
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
@@ -51,7 +64,7 @@ def write_style(
     changed.
     """
     if out is not None and (len(files) > 1 or check):
-        raise typer.BadParameter("-o needs exactly one FILE, and excludes --check", param_hint="-o")
+        raise option_error("-o", "one file is written", "give one FILE, and omit --check")
     to = None if out is None else sink(out, force)
     worst = GOOD
     for file in files:
@@ -117,7 +130,8 @@ def print_schema(
         typer.Argument(help="Command whose JSON keys are printed, such as motion or mesh pin.", metavar="COMMAND"),
     ] = None,
     form: Annotated[
-        str, typer.Option("--as", help="Format: json, markdown, or answers (the schema of --json).")
+        Literal["json", "markdown", "answers"],
+        typer.Option("--as", help="Schema of declarations as JSON or Markdown, or schema of the answers by --json."),
     ] = "json",
     out: Out = None,
     force: Force = False,
@@ -130,9 +144,6 @@ def print_schema(
     from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
     from geartrain.report.text import to_markdown, to_text
 
-    if form not in ("json", "markdown", "answers"):
-        what = f"'{form}' is not a schema format; use json, markdown or answers"
-        raise typer.BadParameter(what, param_hint="--as")
     to = sink(out, force)
     if question:
         keys = [describe_answer(" ".join(question))]

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from geartrain.cli.common import File, Force, Out, as_json, emit, sink
 
 _SUFFIXES = {".md": "", ".dot": "dot", ".gv": "dot", ".graphml": "graphml", ".json": "json"}
-_FORMS = ("labels", "edges", "matrix", "dot", "graphml", "json")
 
 
 def run(
     file: File,
     form: Annotated[
-        str | None,
-        typer.Option(
-            "--as",
-            help=f"Format: {', '.join(_FORMS)}; default by the suffix of -o, else labels (edges above 48 links).",
-        ),
+        Literal["labels", "edges", "matrix", "dot", "graphml", "json"] | None,
+        typer.Option("--as", help="Format; default by the suffix of -o, else labels (edges above 48 links)."),
     ] = None,
     out: Out = None,
     force: Force = False,
@@ -31,17 +27,15 @@ def run(
     from geartrain.report.train_report import describe_adjacency, describe_edges
 
     to = sink(out, force, _SUFFIXES)
-    form = form or _SUFFIXES.get(to.suffix, "")
-    if form and form not in _FORMS:
-        raise typer.BadParameter(f"'{form}' is not a graph format; use {', '.join(_FORMS)}", param_hint="--as")
+    chosen: str = form or _SUFFIXES.get(to.suffix, "")
     train = load(file)
-    form = form or ("labels" if len(train.graph) <= graph.MOST_SQUARE else "edges")
-    if form == "matrix":
+    chosen = chosen or ("labels" if len(train.graph) <= graph.MOST_SQUARE else "edges")
+    if chosen == "matrix":
         text = as_json(graph.adjacency_matrix(train.graph))
-    elif form == "edges":
+    elif chosen == "edges":
         text = to_markdown([describe_edges(train)])
-    elif form == "labels":
+    elif chosen == "labels":
         text = to_markdown([describe_adjacency(train)])
     else:
-        text = {"dot": graph.to_dot, "graphml": graph.to_graphml, "json": graph.to_json}[form](train.graph)
+        text = {"dot": graph.to_dot, "graphml": graph.to_graphml, "json": graph.to_json}[chosen](train.graph)
     emit(text, to)

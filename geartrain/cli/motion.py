@@ -25,6 +25,7 @@ from geartrain.cli.common import (
     draw,
     emit,
     give,
+    option_error,
     picture_sink,
     sink,
     tell,
@@ -81,9 +82,9 @@ def run(
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
     if csv and to.path is not None:
-        raise typer.BadParameter("positions are either printed or written: give --csv or -o x.csv", param_hint="--csv")
+        raise option_error("--csv", "positions are either printed or written", "give --csv or -o x.csv")
     if resume and to.suffix != ".csv":
-        raise typer.BadParameter("only a CSV file can be resumed: give -o x.csv too", param_hint="--resume")
+        raise option_error("--resume", "only a CSV file can be resumed", "give -o x.csv too")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     # an output that is also a link is reported once
@@ -113,7 +114,9 @@ def _turns(text: str, motion: Motion) -> float:
     if text != "period":
         return float(read_turns("--turns", text))
     if motion.period is None:
-        raise typer.BadParameter("no speed ripples, so a common period does not exist", param_hint="--turns")
+        raise option_error(
+            "--turns", "a common period does not exist", "give a number of revolutions", "no speed ripples"
+        )
     return float(motion.period)
 
 

@@ -18,6 +18,7 @@ from geartrain.cli.common import (
     give,
     is_sound,
     load_all,
+    option_error,
     show,
     sink,
 )
@@ -52,7 +53,7 @@ def report(
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":
-        raise typer.BadParameter("the animation needs an HTML page: give -o x.html too", param_hint="--view")
+        raise option_error("--view", "the animation needs an HTML page", "give -o x.html too")
     trains = load_all(files)
     # the exit code covers all states, also those that are not printed
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -33,19 +33,18 @@ def solve(
     json: Json = False,
     out: Out = None,
     method: Annotated[
-        str, typer.Option("--method", help="Solution method: auto, exact or sparse (also called floats).")
+        Literal["auto", "exact", "sparse", "floats"],
+        typer.Option("--method", help="Solution method; floats is another name of sparse."),
     ] = "auto",
     force: Force = False,
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
     from geartrain.analysis.gear_train import load
 
-    if method not in ("auto", "exact", "sparse", "floats"):
-        raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or sparse", param_hint="--method")
     to = sink(out, force)
     train = load(file)
     states = [state] if state is not None or not train.states else list(train.states)
-    answers = [train.solve(name, output, method) for name in states]  # type: ignore[arg-type]
+    answers = [train.solve(name, output, method) for name in states]
     if json or to.suffix == ".json":
         from geartrain.report.train_data import collect_answers
 

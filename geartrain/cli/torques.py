@@ -24,6 +24,7 @@ from geartrain.cli.common import (
     draw,
     emit,
     give,
+    option_error,
     picture_sink,
     sink,
     tell,
@@ -80,9 +81,9 @@ def run(
     tabled = csv or to.suffix == ".csv"
     if turns is None and (tabled or input_ is not None or trials is not None):
         which = "--csv" if tabled else "--input" if input_ is not None else "--trials"
-        raise typer.BadParameter("this option needs --turns: give --turns too", param_hint=which)
+        raise option_error(which, "no revolutions are given", "give --turns too")
     if resume and trials is None:
-        raise typer.BadParameter("only friction trials can be resumed: give --trials too", param_hint="--resume")
+        raise option_error("--resume", "only friction trials can be resumed", "give --trials too")
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
@@ -115,7 +116,9 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
-            raise typer.BadParameter("no torque ripples, so a common period does not exist", param_hint="--turns")
+            raise option_error(
+                "--turns", "a common period does not exist", "give a number of revolutions", "no torque ripples"
+            )
         span = float(period)
     else:
         span = float(read_turns("--turns", turns))
@@ -152,7 +155,7 @@ def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> To
     if len(loaded) != 1:
         names = ", ".join(train.states)
         done = {"--plot": "drawn", "--turns": "simulated"}[option]
-        raise typer.BadParameter(f"only one state can be {done}: give --state with one of {names}", param_hint=option)
+        raise option_error(option, f"only one state can be {done}", f"give --state with one of {names}")
     return loaded[0]
 
 

@@ -121,11 +121,11 @@ def _of_pairs() -> dict[str, Schema]:
     from geartrain.teeth.pair_results import PinFigures
 
     return {
-        "mesh triangular": shape_of(TriangularPair),
-        "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
-        "mesh pin": shape_of(PinFigures),
-        "mesh FORM": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
-        "mesh compare": shape_of(FormComparison),
+        "mesh --form triangular": shape_of(TriangularPair),
+        "mesh --form triangular --vary": shape_of(list[dict[str, float | str | None]]),
+        "pin": shape_of(PinFigures),
+        "mesh": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
+        "mesh --compare": shape_of(FormComparison),
     }
 
 

@@ -24,6 +24,7 @@ from geartrain.cli.common import (
     Sink,
     as_json,
     emit,
+    option_error,
     read_share,
     show,
     sink,
@@ -53,7 +54,8 @@ class SearchGroup(LazyGroup):
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
             requested = shlex.join(["geartrain", "teeth", word, *rest])
-            ctx.fail(f"the kind of search is missing, one of {', '.join(self.verbs)}; did you mean `{requested}`?")
+            what, why = "the kind of search is missing", f"it is one of {', '.join(self.verbs)}"
+            raise option_error(args[0], what, f"did you mean `{requested}`?", why)
         return super().resolve_command(ctx, args)
 
 
@@ -111,9 +113,9 @@ _WIDEST = 10**12
 
 
 def check_number(ctx: typer.Context, text: str) -> str:
-    """Raise `typer.BadParameter` if a text that begins with a minus sign is not a negative number."""
+    """Raise `QuestionError` if a text that begins with a minus sign is not a negative number."""
     if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
-        raise typer.BadParameter(f"unknown option '{text}'; `{ctx.command_path} -h` lists the options")
+        raise option_error(text, "unknown option", f"`{ctx.command_path} --help` lists the options")
     return text
 
 
@@ -123,7 +125,7 @@ def read_tolerance(text: str | None) -> Fraction | None:
         return None
     found = read_share(text, "--tolerance")
     if not 0 <= found <= _WIDEST:
-        raise typer.BadParameter(f"a relative error must be from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
+        raise option_error("--tolerance", f"{text} is out of range", f"give a relative error from 0 to {_WIDEST:.0e}")
     return found
 
 
@@ -178,10 +180,9 @@ class SearchAnswer:
         from geartrain.train.yaml_nodes import as_yaml
 
         if declared is None:
-            raise typer.BadParameter(
-                "these solutions cannot be written as a declaration; use .md, .html, .json or .csv", param_hint="-o"
-            )
+            what = "these solutions cannot be written as a declaration"
+            raise option_error("-o", what, "use .md, .html, .json or .csv")
         if self.pick <= found:
             emit(as_yaml(declared(self.pick - 1)), self.out)
         elif found:
-            raise typer.BadParameter(f"the list has {found} solutions", param_hint="--pick")
+            raise option_error("--pick", f"the list has {found} solutions", f"give a number from 1 to {found}")

@@ -331,7 +331,7 @@ def test_the_places_of_known_trains_are_told() -> None:
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        (("--same", "E4=e3"), "it is used only with --rank"),
+        (("--same", "E4=e3"), "give --rank too"),
         (("--rank", "price-1974", "--same", "E4"), "such as E4=e3"),
         (("--rank", "price-1974", "--same", "E44=e3"), "'E44' is not a wheel or an output"),
         (("--rank", "vitruvius-hodometer"), "no wheel of 'b'"),

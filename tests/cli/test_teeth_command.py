@@ -355,4 +355,4 @@ def test_a_question_without_its_word_is_answered_with_the_word(requested: str, s
 def test_a_misspelt_search_is_answered_with_its_name() -> None:
     done = call("teeth", "orery", "moon=29.53")
     assert done.exit_code == 2
-    assert "Did you mean 'orrery'?" in done.stderr
+    assert "did you mean 'orrery'?" in done.stderr

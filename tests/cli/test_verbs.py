@@ -80,9 +80,6 @@ def test_motion_imports_only_the_tooth_forms_that_the_train_names_and_the_comput
 def test_commands_of_a_wing_are_in_the_folder_of_their_capability_and_all_others_in_the_command_line() -> None:
     homes = {name: function.__module__.split(".") for name, function in functions()}
     assert all(home[1] == "cli" or (home[1] in WINGS and home[-1].endswith("verb")) for home in homes.values())
-    assert {name for name, home in homes.items() if home[1:3] == ["cli", "mesh"]} == {
-        name for name in homes if name.startswith("mesh ")
-    }
 
 
 def test_help_lists_every_verb_with_what_it_does() -> None:

@@ -110,8 +110,7 @@ def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
 RATIO = ("teeth", "ratio", "7/3", "--stages", "1", "--best", "2")
 CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "pitch_deviation=2 %")
 DOUBT = ("posterior", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
-PAIR = ("--teeth", "20", "30")
-TRIANGULAR = ("mesh", "triangular", *PAIR)
+TRIANGULAR = ("mesh", "20", "30", "--form", "triangular")
 IN_TIME = ("--rate", "1", "--turns", "0.1", "--skip", "0", "--steps", "200", "--no-fast")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
 REQUESTED: dict[str, list[tuple[str, ...]]] = {
@@ -172,32 +171,32 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
         ("reconstruct", "moon-c-e", "-k", "1"),
         ("reconstruct", "metonic-l-m", "--count"),
     ],
-    "optimise": [("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")],
-    "mesh triangular": [
-        (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),
-        (*TRIANGULAR, "--window", "0.5", "--friction", "0.9"),
-        (*TRIANGULAR, "--clearance-factor", "1.5"),
-        (*TRIANGULAR, "--clearance-factor", "1.0001"),
-        (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2"),
-        (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
+    "optimise": [("optimise", "moon-triangular", "--output", "moon", "--objective", "jam", "--free", "window")],
+    "mesh --form triangular": [
+        (*TRIANGULAR, "-p", "window=0.5", "--friction", "0.2"),
+        (*TRIANGULAR, "-p", "window=0.5", "--friction", "0.9"),
+        (*TRIANGULAR, "-p", "clearance_factor=1.5"),
+        (*TRIANGULAR, "-p", "clearance_factor=1.0001"),
+        (*TRIANGULAR, "-p", "window=0.5", "--inertia", "3 g cm2"),
+        (*TRIANGULAR, "-p", "window=0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
     ],
-    "mesh triangular --best": [
-        (*TRIANGULAR, "--best", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"),
-        (*TRIANGULAR, "--best", "jam,error", "--free", "window=0.4:0.6", "--within", "impact=0.5"),
+    "mesh --form triangular --objective": [
+        (*TRIANGULAR, "--objective", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"),
+        (*TRIANGULAR, "--objective", "jam,error", "--free", "window=0.4:0.6", "--within", "impact=0.5"),
     ],
-    "mesh triangular --vary": [(*TRIANGULAR, "--vary", "window=0.1:0.9:3")],
-    "mesh pin": [
-        ("mesh", "pin", "--pin-radius", "10", "--offset", "5"),
-        ("mesh", "pin", "--pin-radius", "10", "--offset", "15"),
-        ("mesh", "pin", "--pin-radius", "10", "--offset", "5", "--friction", "0.2", "--driver", "slot"),
+    "mesh --form triangular --vary": [(*TRIANGULAR, "--vary", "window=0.1:0.9:3")],
+    "pin": [
+        ("pin", "10", "5"),
+        ("pin", "10", "15"),
+        ("pin", "10", "5", "--friction", "0.2", "--driver", "slot"),
     ],
-    "mesh FORM": [
-        ("mesh", "involute", "--teeth", "24", "36", "--friction", "0.1"),
-        ("mesh", "involute", "--teeth", "5", "6"),
-        ("mesh", "cycloidal", "--teeth", "8", "60"),
-        ("mesh", "lantern", "--teeth", "8", "60"),
+    "mesh": [
+        ("mesh", "24", "36", "--form", "involute", "--friction", "0.1"),
+        ("mesh", "5", "6", "--form", "involute"),
+        ("mesh", "8", "60", "--form", "cycloidal"),
+        ("mesh", "8", "60", "--form", "lantern"),
     ],
-    "mesh compare": [("mesh", "compare", "--teeth", "24", "36")],
+    "mesh --compare": [("mesh", "24", "36", "--compare")],
 }
 
 
@@ -289,7 +288,7 @@ def test_every_key_has_a_meaning() -> None:
 
 
 def test_the_keys_of_a_command_are_printed() -> None:
-    lines = call("schema", "mesh", "pin").output.splitlines()
+    lines = call("schema", "pin").output.splitlines()
     assert [line.split()[0] for line in lines if line.startswith("transmission_error")] == [
         "transmission_error",
         *(f"transmission_error.{key}" for key in ("peak_to_peak", "rms", "mean")),

@@ -161,12 +161,12 @@ RESULTS: dict[str, Case] = {
     "errors at positions": (lambda: load("moon-triangular").motion().at([0.0, 0.1]), None),
     "corners": (lambda: load("moon-triangular").motion().kink_positions(0, 1), None),
     # core: teeth
-    "mesh": (lambda: load(PAIR).meshes[0], ("mesh", "involute", "--teeth", "24", "36")),
+    "mesh": (lambda: load(PAIR).meshes[0], ("mesh", "24", "36", "--form", "involute")),
     "transmission function": (lambda: load("sorge-pairs").meshes[0].transmission, None),
-    "pin": (pin, ("mesh", "pin", "--pin-radius", "10", "--offset", "5")),
+    "pin": (pin, ("pin", "10", "5")),
     "comparison of forms": (
         lambda: room("teeth").compare_forms(room("teeth.conjugate").WheelPair(24, 36), ["cycloidal"]),
-        ("mesh", "compare", "--teeth", "24", "36", "--forms", "cycloidal"),
+        ("mesh", "24", "36", "--compare", "--form", "cycloidal"),
     ),
     # core: spheres, scenes, report
     "polyhedron": (lambda: room("spherical").solid("cube"), None),
@@ -232,11 +232,11 @@ RESULTS: dict[str, Case] = {
     ),
     "sizes of a train": (
         lambda: room("workshop").find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": None}),
-        ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window"),
+        ("optimise", "moon-triangular", "--output", "moon", "--objective", "jam", "--free", "window"),
     ),
     "sizes of a pair": (
         sizes,
-        ("mesh", "triangular", "--teeth", "48", "96", "--friction", "0.2", "--best", "loss"),
+        ("mesh", "48", "96", "--form", "triangular", "--friction", "0.2", "--objective", "loss"),
     ),
     "parts": (lambda: room("workshop").parts_list(solid_model())[0], None),
     "files": (lambda: room("workshop").export_files(solid_model(), ["graphml"])[0], None),

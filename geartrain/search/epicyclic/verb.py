@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from geartrain.cli.common import Force, Json, Out, give
+from geartrain.cli.common import Force, Json, Out, give, option_error
 from geartrain.cli.option_values import decimal
 from geartrain.search.teeth_verb import (
     ANY_COUNT,
@@ -65,9 +65,9 @@ def run(
         _list(answer)
         return
     if ratio is None:
-        raise typer.BadParameter("the ratio is missing", param_hint="RATIO")
+        raise option_error("RATIO", "the ratio is missing", "give one, or list the kinds by --kind list")
     if clearance is not None and planets is None:
-        raise typer.BadParameter("the clearance between planets requires --planets", param_hint="--clearance")
+        raise option_error("--clearance", "the number of planets is missing", "give --planets too")
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
     chosen: Any = "all" if mode == "all" else tuple(mode.split(","))
     found = find_sets(

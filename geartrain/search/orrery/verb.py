@@ -7,10 +7,11 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import Force, Json, Out
+from geartrain.cli.common import Force, Json, Out, option_error
 from geartrain.cli.long_runs import progress
 from geartrain.search.teeth_verb import ANY_COUNT, Csv, Range, SearchAnswer, Tolerance, read_tolerance
 
+_PLACE = "NAME=PERIOD"
 _TOLERANCE = Fraction(1, 10**6)
 
 
@@ -57,14 +58,12 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
     for text in texts:
         name, sign, period = text.partition("=")
         if not sign or not name.strip():
-            raise typer.BadParameter(f"'{text}' is not of the form moon=29.53058853", param_hint="NAME=PERIOD")
+            raise option_error(_PLACE, f"'{text}' is not a name with a period", "write it as moon=29.53058853")
         if name.strip() in found:
-            raise typer.BadParameter(f"two periods are named '{name.strip()}'", param_hint="NAME=PERIOD")
+            raise option_error(_PLACE, f"two periods are named '{name.strip()}'", "give each name once")
         wanted = read_ratio(period)
         if wanted.sense:
-            what = (
-                f"'{text}' has a sign; give periods without sign, because the search chooses the sense of every arbor"
-            )
-            raise typer.BadParameter(what, param_hint="NAME=PERIOD")
+            why = "the search chooses the sense of every arbor"
+            raise option_error(_PLACE, f"'{text}' has a sign", "give periods without sign", why)
         found[name.strip()] = wanted.value
     return found

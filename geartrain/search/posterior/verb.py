@@ -23,6 +23,7 @@ from geartrain.cli.common import (
     check_distinct_outputs,
     draw,
     emit,
+    option_error,
     picture_sink,
     read_share,
     show,
@@ -31,7 +32,7 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.cli.option_values import MOST_COUNT, Theme
+from geartrain.cli.option_values import MOST_COUNT, Theme, at_option
 from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
@@ -149,12 +150,13 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
     for text in texts:
         wheel, equals, counts = text.partition("=")
         if not equals or not wheel.strip():
-            raise typer.BadParameter(f"'{text}' is not of the form WHEEL=60:64 or WHEEL=60,62", param_hint="--free")
+            raise option_error(
+                "--free", f"'{text}' is not a wheel with counts", "write it as WHEEL=60:64 or WHEEL=60,62"
+            )
         try:
             listed = tuple(read_counts(counts).as_array().tolist())
         except GearTrainError as error:
-            problem = error.problems[0]
-            raise typer.BadParameter(f"{problem.what}; {problem.fix}", param_hint="--free") from None
+            raise at_option(error, "--free") from None
         found[wheel.strip()] = found.get(wheel.strip(), ()) + listed
     return found
 

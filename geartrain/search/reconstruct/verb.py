@@ -20,6 +20,7 @@ from geartrain.cli.common import (
     as_json,
     check_distinct_outputs,
     give,
+    option_error,
     sink,
     tell,
 )
@@ -137,13 +138,13 @@ def run(
     from geartrain.train.declaration_files import read_declaration, read_evidence
 
     if not without and (seen or source is not None):
-        raise typer.BadParameter("it is used only with --without", param_hint="--seen" if seen else "--from")
+        raise option_error("--seen" if seen else "--from", "no arbor is lost", "give --without too")
     if count and folder is not None:
-        raise typer.BadParameter("--count lists no trains to write", param_hint="--write")
+        raise option_error("--write", "--count lists no trains to write", "omit one of them")
     if count and page is not None:
-        raise typer.BadParameter("--count lists no trains to show", param_hint="--page")
+        raise option_error("--page", "--count lists no trains to show", "omit one of them")
     if same and not rank:
-        raise typer.BadParameter("it is used only with --rank", param_hint="--same")
+        raise option_error("--same", "no train is ranked", "give --rank too")
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
     check_distinct_outputs(to, turning_page)
     if folder is not None:
@@ -179,7 +180,7 @@ def _name_pair(text: str) -> tuple[str, str]:
     """Parse a pair of names such as `E4=e3`."""
     own, _, called = map(str.strip, text.partition("="))
     if not own or not called:
-        raise typer.BadParameter(f"'{text}' is not of the form ITS=OURS, such as E4=e3", param_hint="--same")
+        raise option_error("--same", f"'{text}' is not a pair of names", "write it as ITS=OURS, such as E4=e3")
     return own, called
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import File, Force, Json, Names, Out, StateName
+from geartrain.cli.common import File, Force, Json, Names, Out, StateName, option_error
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.search.teeth_verb import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
 
@@ -120,13 +120,13 @@ def _assignment(text: str) -> dict[str, int]:
         pairs = (part.split("=") for part in text.split(","))
         return {name.strip(): int(count) for name, count in pairs}
     except ValueError:
-        raise typer.BadParameter(f"'{text}' is not of the form wheel=32,wheel=50", param_hint="--where") from None
+        raise option_error("--where", f"'{text}' is not an assignment", "write it as wheel=32,wheel=50") from None
 
 
 def _check_kept(file: str, out: Path | None) -> None:
-    """Raise `typer.BadParameter` if the output file is the train itself, which a solution extends."""
+    """Raise `QuestionError` if the output file is the train itself, which a solution extends."""
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
-        raise typer.BadParameter(f"'{out}' is the train itself; write to another file", param_hint="-o")
+        raise option_error("-o", f"'{out}' is the train itself", "write to another file")
 
 
 def _parent(file: str, out: Path | None) -> str:

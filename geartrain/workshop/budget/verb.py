@@ -20,6 +20,7 @@ from geartrain.cli.common import (
     check_distinct_outputs,
     draw,
     give,
+    option_error,
     picture_sink,
     sink,
 )
@@ -114,7 +115,7 @@ def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:
     for text in texts:
         name, equals, body = text.rpartition("=")
         if not equals or body not in known:
-            what = f"'{text}' is not OUTPUT=moon, OUTPUT=sun or OUTPUT=none"
-            raise typer.BadParameter(what, param_hint="--body")
+            fix = "write it as OUTPUT=moon, OUTPUT=sun or OUTPUT=none"
+            raise option_error("--body", f"'{text}' is not an output with a body", fix)
         found[name] = known[body]
     return found

@@ -24,12 +24,14 @@ from geartrain.cli.common import (
     check_distinct_outputs,
     draw,
     give,
+    option_error,
     picture_sink,
     sink,
     tell,
 )
 from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.option_values import Theme
+from geartrain.errors import suggest
 
 if TYPE_CHECKING:
     from geartrain.numerics.work import Execution
@@ -143,7 +145,7 @@ def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str =
         from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
 
         if picture not in ALL:
-            raise typer.BadParameter(f"'{picture}' is not a picture; use {', '.join(ALL)}", param_hint="--picture")
+            raise option_error("--picture", f"'{picture}' is not a picture", suggest(picture, ALL))
     return picture_sink(plot, force, theme)
 
 

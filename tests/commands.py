@@ -58,7 +58,7 @@ main()
 
 
 def call(*arguments: object) -> Result:
-    """The result of a command in this process; errors of the input are printed as by the console script, with code 2."""
+    """The result of a command in this process; errors of the input have the text and code of the console script."""
     result = CliRunner().invoke(app, [str(argument) for argument in arguments])
     if isinstance(result.exception, GearTrainError):
         said = "".join(f"error: {problem}\n" for problem in result.exception.problems).encode()

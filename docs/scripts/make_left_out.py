@@ -33,7 +33,7 @@ each one and each two of a part, and `geartrain reconstruct` is asked for all tr
 other arbors with the wheels that mesh, their counts as used in the train, and the speeds of all pointers. Who meshes
 with whom is not told, nor which arbors share an axis. By hand the same is
 
-    geartrain reconstruct isfahan-astrolabe-1221 --without pivot
+    geartrain reconstruct isfahan-astrolabe-1221 --lost pivot
 """
 
 RULES = """

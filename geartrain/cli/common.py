@@ -27,7 +27,9 @@ File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a 
 Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
 Out = Annotated[
     Path | None,
-    typer.Option("--output-file", "-o", metavar="FILE", help="Write to FILE (- = standard output)."),
+    typer.Option(
+        "--output-file", "-o", metavar="FILE", help="Write to FILE; - is standard output, -.csv the same as CSV."
+    ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite existing files.")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
@@ -101,13 +103,15 @@ class Sink:
     """Overwrite an existing file."""
     plain: bool = False
     """Standard output was requested as `-`, and receives the content of a file."""
+    form: str = ""
+    """Suffix of the content of standard output, as in `-.csv`."""
     theme: ThemeName = "light"
     """Colours of a picture."""
 
     @property
     def suffix(self) -> str:
-        """Suffix of the file in lower case; "" without one."""
-        return self.path.suffix.lower() if self.path is not None else ""
+        """Suffix of the file or of standard output in lower case; "" without one."""
+        return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
         """Write a finished result atomically; report its name, followed by `said`, on standard error."""
@@ -123,7 +127,12 @@ class Sink:
         tell(f"wrote {self.path}{said}")
 
 
-STANDARD, STANDARD_NAME = Sink(), Path("-")
+STANDARD = Sink()
+
+
+def is_standard(out: Path) -> bool:
+    """Return True for the names of standard output: `-`, and `-.csv` or another suffix."""
+    return out.parent == Path() and out.stem == "-"
 
 
 def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: str = "-o") -> Sink:
@@ -132,11 +141,13 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
     allowed   allowed suffixes; empty for all
     Raises `GearTrainError` for a file that cannot be written, and for an HTML page without the required packages.
     """
-    if out is None or out == STANDARD_NAME:
-        if out is not None and option != "-o":
+    if out is None:
+        return STANDARD
+    if is_standard(out):
+        if option != "-o":
             why = "standard output receives the result"
             raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
-        return Sink(plain=out is not None)
+        return Sink(plain=True, form=suffix_of(out, allowed, option))
     from geartrain.numerics.files import destination
 
     # checked before the computation, which may take long

@@ -1,13 +1,12 @@
-"""Commands on files: `geartrain init`, `format`, `list`, `periods` and `schema`.
+"""Commands on files: `geartrain init`, `format`, `list` and `periods`.
 
-They write a template, convert declarations to short or long form, list the shipped trains and the table of periods,
-and print the schema of declarations and results.
+They write a template, convert declarations to short or long form, and list the shipped trains and the table of periods.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
@@ -18,7 +17,6 @@ from geartrain.cli.common import (
     Force,
     Out,
     Sink,
-    as_json,
     complain,
     emit,
     option_error,
@@ -122,33 +120,3 @@ def list_periods(
         )
     width = max(len(row.name) for row in rows)
     emit("\n".join(f"{row.name:<{width}}  {float(row.value):.12g} {units[row.kind]}  ({row.source})" for row in rows))
-
-
-def print_schema(
-    question: Annotated[
-        list[str] | None,
-        typer.Argument(help="Command whose JSON keys are printed, such as motion or mesh pin.", metavar="COMMAND"),
-    ] = None,
-    form: Annotated[
-        Literal["json", "markdown", "answers"],
-        typer.Option("--as", help="Schema of declarations as JSON or Markdown, or schema of the answers by --json."),
-    ] = "json",
-    out: Out = None,
-    force: Force = False,
-) -> None:
-    """Print the JSON Schema of declarations, with which editors with a YAML plugin complete and validate them.
-
-    With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print
-    the keys of its JSON as a table.
-    """
-    from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
-    from geartrain.report.text import to_markdown, to_text
-
-    to = sink(out, force)
-    if question:
-        keys = [describe_answer(" ".join(question))]
-        emit(to_markdown(keys) if form == "markdown" else to_text(keys, 120), to)  # columns, because keys are long
-    elif form == "markdown":
-        emit(declaration_reference(), to)
-    else:
-        emit(as_json(schema() if form == "json" else answer_schema()), to)

@@ -9,12 +9,12 @@ import typer
 
 from geartrain.cli.common import (
     PICTURES,
-    STANDARD_NAME,
     VERDICT,
     File,
     Force,
     file_name,
     is_sound,
+    is_standard,
     picture_sink,
     suffix_of,
     tell,
@@ -48,7 +48,7 @@ def run(
         bool, typer.Option("--labels/--no-labels", help="Print names and numbers in the drawing.")
     ] = True,
     output: Annotated[
-        list[str] | None, typer.Option("--output", help="With dials: draw only this output; may be repeated.")
+        list[str] | None, typer.Option("--of", help="With dials: draw only this output; may be repeated.")
     ] = None,
 ) -> None:
     """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
@@ -60,7 +60,7 @@ def run(
     train = load(file)
     if out is None:
         out = file_name(f"{train.name}-{kind}", ".svg")
-    elif not out.suffix and out != STANDARD_NAME:
+    elif not out.suffix and not is_standard(out):
         out = out.with_name(f"{out.name}.svg")
     to = picture_sink(out, force, theme, "-o")
     from geartrain.drawing import picture

@@ -46,7 +46,7 @@ def run(
     samples: Annotated[
         int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions.")
     ] = 200_000,
-    output: Annotated[Names, typer.Option("--output", help="Output or link to report; may be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     links: Annotated[bool, typer.Option("--links", help="Report every link, not only the outputs.")] = False,
     wide: Annotated[bool, typer.Option("--wide", help="Report the contribution of each pair to every output.")] = False,
     state: StateName = None,
@@ -65,7 +65,6 @@ def run(
     ] = False,
     fast: Fast = None,
     json: Json = False,
-    csv: Annotated[bool, typer.Option("--csv", help="Print every position as CSV.")] = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Plot errors and speeds to this file.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
     theme: Theme = "light",
@@ -81,9 +80,7 @@ def run(
     # where the results of an interrupted run are written, checked together with the others
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
-    if csv and to.path is not None:
-        raise option_error("--csv", "positions are either printed or written", "give --csv or -o x.csv")
-    if resume and to.suffix != ".csv":
+    if resume and (to.suffix != ".csv" or to.path is None):
         raise option_error("--resume", "only a CSV file can be resumed", "give -o x.csv too")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
@@ -92,7 +89,7 @@ def run(
     requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
         _write_table(requested, to.path, resume, force)
-    elif csv:
+    elif to.suffix == ".csv":
         for rows in _rows(requested, 0):
             emit("\n".join(rows))
     else:

@@ -53,7 +53,7 @@ def run(
         Path | None, typer.Option("--graph", help="File with a graph of gears, two names per line.")
     ] = None,
     aim: Annotated[str, typer.Option("--aim", help="With --graph: aim at equal 'pitch' or closed 'phases'.")] = "pitch",
-    minimum: Annotated[int, typer.Option("--minimum", help="With --graph: minimum tooth count of a gear.")] = 12,
+    minimum: Annotated[int, typer.Option("--min-teeth", help="With --graph: minimum tooth count of a gear.")] = 12,
     radius: Annotated[
         str, typer.Option("--radius", help="Radius of the sphere, or pitch radius of a wheel, such as 5=1.25.")
     ] = "1",

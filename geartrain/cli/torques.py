@@ -29,7 +29,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run, progress
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run, progress
 from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
@@ -52,16 +52,14 @@ def run(
         int,
         typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions, besides kinks and jumps."),
     ] = 20_000,
-    input_: Annotated[
-        str | None, typer.Option("--input", help="With --turns: link whose torque is computed; default the crank.")
+    link: Annotated[
+        str | None, typer.Option("--of", help="With --turns: link whose torque is computed; default the crank.")
     ] = None,
-    csv: Annotated[bool, typer.Option("--csv", help="Print the torque at every position as CSV.")] = False,
     trials: Annotated[
         int | None, typer.Option("--trials", help="Number of runs with random friction by its declared deviation.")
     ] = None,
     seed: Seed = 1,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
     plot: Annotated[
         Path | None,
@@ -71,31 +69,34 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque."""
+    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque.
+
+    With -o x.csv and --turns, write the torque at every position.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.report.torque_report import collect_torque_report, describe_torques
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
-    tabled = csv or to.suffix == ".csv"
-    if turns is None and (tabled or input_ is not None or trials is not None):
-        which = "--csv" if tabled else "--input" if input_ is not None else "--trials"
+    tabled = to.suffix == ".csv"
+    if turns is None and (tabled or link is not None or trials is not None):
+        which = "-o" if tabled else "--of" if link is not None else "--trials"
         raise option_error(which, "no revolutions are given", "give --turns too")
     if resume and trials is None:
         raise option_error("--resume", "only friction trials can be resumed", "give --trials too")
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
-    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_)
+    over_turn = None if turns is None else _over_turn(train, found, turns, samples, link)
     # a state without loads is not a failure
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if over_turn is not None:
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None and over_turn.turns is not None:
-        options = RunOptions(workers, dask, resume)
-        tried = _friction_trials(train, over_turn, (samples, input_), (trials, seed), out, options)
+        options = RunOptions(workers, resume)
+        tried = _friction_trials(train, over_turn, (samples, link), (trials, seed), out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:

@@ -11,7 +11,6 @@ import typer
 from geartrain.cli.common import (
     GOOD,
     INTERRUPTED,
-    STANDARD_NAME,
     VERDICT,
     Fast,
     File,
@@ -21,6 +20,7 @@ from geartrain.cli.common import (
     Without,
     file_name,
     is_sound,
+    is_standard,
     load_all,
     sink,
     tell,
@@ -65,9 +65,7 @@ def view(
     state: StateName = None,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     force: Force = False,
-    teeth: Annotated[
-        bool, typer.Option("--teeth/--no-teeth", help="Draw wheels with teeth, or as plain discs.")
-    ] = True,
+    discs: Annotated[bool, typer.Option("--discs", help="Draw wheels as plain discs, without teeth.")] = False,
     dynamics: Annotated[
         bool,
         typer.Option("--dynamics", help="Simulate and play one state in the time domain, with backlash and impacts."),
@@ -97,7 +95,7 @@ def view(
     runs = [_simulated(train, each, request) if dynamics else None for train, each in taken]
     whole = shown == "page"
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
-    _write_page(scenes, to, shown, other is not None, teeth)
+    _write_page(scenes, to, shown, other is not None, not discs)
     if open_it and to.path is not None and not webbrowser.open(to.path.resolve().as_uri()):
         tell("no browser could be started; open the file manually")
     for run in runs:
@@ -162,7 +160,7 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
 
 def _page_sink(path: Path, force: bool) -> Sink:
     """Return the destination of a page. Raises `QuestionError` for a suffix that browsers do not open as a page."""
-    if path == STANDARD_NAME or path.suffix.lower() in (".html", ".htm") or path.is_dir():
+    if is_standard(path) or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"
     fix = "use the suffix .html; pictures and films can be saved from the page"

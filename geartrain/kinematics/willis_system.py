@@ -86,7 +86,7 @@ class WillisSystem(Shown):
     """Labels of redundant pairs, which close loops of ratio product 1; empty if not determined."""
 
     def __str__(self) -> str:
-        """Return the equations as printed by `geartrain equations`."""
+        """Return the equations as printed by `geartrain inspect equations`."""
         return self.text()
 
     def _summary(self) -> str:

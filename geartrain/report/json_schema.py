@@ -78,14 +78,14 @@ def _of_trains() -> dict[str, Schema]:
         "solve": shape_of(TrainAnswers),
         "report": _list(report),
         "compare": _list(report),
-        "formula": shape_of(FormulaReport),
+        "inspect formula": shape_of(FormulaReport),
         "gearbox": shape_of(Gearbox),
         "gearbox --search": shape_of(GearSearch),
         "torques": shape_of(TorqueReport),
         "motion": shape_of(MotionFigures),
-        "bench": shape_of(AccuracyReport),
-        "graph --as matrix": shape_of(LabelledArray),
-        "graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
+        "inspect bench": shape_of(AccuracyReport),
+        "inspect graph --as matrix": shape_of(LabelledArray),
+        "inspect graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
     }
 
 
@@ -442,7 +442,7 @@ def declaration_reference() -> str:
     lines = [
         "# The declaration, key by key",
         "",
-        "Written by `geartrain schema --as markdown` from the models that read the files.",
+        "Written by `geartrain inspect schema --as markdown` from the models that read the files.",
         "",
         *_part("Train", found),
     ]

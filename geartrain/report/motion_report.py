@@ -412,7 +412,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
     if still := [name for name in motion.outputs if name not in moved]:
         text.append(f"No pair affects {', '.join(still)}.")
     if left_out := moved[len(shown) :]:
-        text.append(f"Not shown: {', '.join(left_out)}; `--wide` or `--output` shows them.")
+        text.append(f"Not shown: {', '.join(left_out)}; `--wide` or `--of` shows them.")
     blocks = [shown[at : at + _ABREAST] for at in range(0, len(shown), _ABREAST)]
     return Section("Pairs", tuple(text), tuple(_shares(motion, outputs) for outputs in blocks or [[]]))
 

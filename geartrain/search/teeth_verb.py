@@ -102,7 +102,6 @@ Per = Annotated[
 Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Maximum relative error: 1e-6, 20 ppm, 0.001 %.")]
 Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of solutions to list.")]
 Pick = Annotated[int, typer.Option("--pick", min=1, help="Number of the solution that -o writes as a declaration.")]
-Csv = Annotated[bool, typer.Option("--csv", help="Print the solutions as CSV.")]
 
 ANY_COUNT = "12:120"
 NEGATIVE_NUMBERS = {"ignore_unknown_options": True}
@@ -133,8 +132,6 @@ def read_tolerance(text: str | None) -> Fraction | None:
 class SearchAnswer:
     """Destination and format of the solutions of a search."""
 
-    csv: bool
-    """True to print CSV."""
     json: bool
     """True to print JSON."""
     out: Sink
@@ -142,9 +139,9 @@ class SearchAnswer:
     """Number of the solution that is written as a declaration, from 1."""
 
     @classmethod
-    def of(cls, csv: bool, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
+    def of(cls, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
         """Build the destination from the options; a file that may not be written is rejected before the search."""
-        return cls(csv, json, sink(out, force, _FORMS), pick)
+        return cls(json, sink(out, force, _FORMS), pick)
 
     def give(
         self,
@@ -161,9 +158,9 @@ class SearchAnswer:
         suffix = self.out.suffix
         if suffix in _YAML:
             self._declare(declared, len(rows))
-        form = suffix or (".json" if self.json else ".csv" if self.csv else ".md")
+        form = suffix or (".json" if self.json else ".md")
         requested = {form} if self.out != STANDARD and form not in _YAML else set[str]()
-        requested |= {".json"} if self.json else {".csv"} if self.csv else set()
+        requested |= {".json"} if self.json else set()
         for each in sorted(requested or {""}):
             out = self.out if each == form else STANDARD
             if each == ".json":

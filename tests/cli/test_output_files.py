@@ -24,12 +24,12 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no soc
 PAIR = ("20", "30")
 SIZED = (*PAIR, "--module", "1mm")
 FORMS = ("involute", "cycloidal", "lantern", "circular-arc", "uniform-stress", "uniform-temperature", "least-friction")
-MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
-SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--objective", "jam", "--free", "window")
+MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--of", "moon")
+SIZED_TRAIN = ("optimise", "moon-triangular", "--of", "moon", "--objective", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
-ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "pitch_deviation=2 %")
+ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--of", "moon", "--cutting", "pitch_deviation=2 %")
 IN_TIME = ("--rate", "1", "--turns", "2", "--skip", "0", "--steps", "100", "--no-fast")
-BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
+BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--of", "moon")
 
 # command and writing option -> the rest of a question, and the suffixes it may be written with
 REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -39,12 +39,12 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("export", "-o"): (("export", "planetary-24-18-60"), (".dot",)),
     ("compare", "-o"): (("compare", "worm"), (".md", ".html", ".json")),
     ("solve", "-o"): (("solve", "worm"), (".txt", "")),
-    ("equations", "-o"): (("equations", "worm"), (".txt",)),
+    ("inspect equations", "-o"): (("inspect", "equations", "worm"), (".txt",)),
     ("init", "-o"): (("init", "clock"), (".yaml",)),
     ("format", "-o"): (("format", "{loaded}"), (".yaml",)),
-    ("formula", "-o"): (("formula", "worm"), (".md", ".html", ".json")),
+    ("inspect formula", "-o"): (("inspect", "formula", "worm"), (".md", ".html", ".json")),
     ("gearbox", "-o"): (("gearbox", "simpson-set"), (".md", ".html", ".json")),
-    ("graph", "-o"): (("graph", "worm"), (".md", ".dot", ".graphml", ".json")),
+    ("inspect graph", "-o"): (("inspect", "graph", "worm"), (".md", ".dot", ".graphml", ".json")),
     ("torques", "-o"): (("torques", "worm"), (".md", ".json")),
     ("strength", "-o"): (("strength", "worm"), (".md", ".json")),
     ("torques", "--plot"): (("torques", "{loaded}"), (".svg",)),
@@ -64,13 +64,19 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("teeth set", "-o"): (("teeth", "set", "7/2", "--kind", "planetary"), (".md", ".json", ".yaml")),
     ("teeth orrery", "-o"): (("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40"), (".md", ".json", ".yaml")),
     ("reconstruct", "-o"): (("reconstruct", "metonic-l-m"), (".md", ".html", ".json")),
-    ("reconstruct", "--page"): (("reconstruct", "metonic-l-m", "--turning", "1"), (".html",)),
+    ("reconstruct", "--page"): (("reconstruct", "metonic-l-m", "--animated", "1"), (".html",)),
     ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
     ("posterior", "--plot"): (DOUBT, (".svg",)),
     ("optimise", "-o"): (SIZED_TRAIN, (".md", ".html", ".json", ".yaml")),
     ("optimise", "--plot"): (SIZED_TRAIN, (".svg",)),
-    ("bench", "-o"): (("bench", "worm"), (".md", ".html", ".json")),
-    ("schema", "-o"): (("schema",), (".json",)),
+    ("inspect bench", "-o"): (("inspect", "bench", "worm"), (".md", ".html", ".json")),
+    ("inspect schema", "-o"): (
+        (
+            "inspect",
+            "schema",
+        ),
+        (".json",),
+    ),
     ("mesh triangular", "-o"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".md", ".json")),
     ("mesh triangular", "--plot"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".svg",)),
     ("mesh triangular", "--profile"): (("mesh", *SIZED, "--form", "triangular", "-p", "window=0.5"), (".svg",)),
@@ -85,7 +91,7 @@ for _form, _pair in [*((form.replace("-", "_"), PAIR) for form in FORMS), ("pin_
     REQUESTED[_verb, "--plot"] = (("mesh", *_pair, "--form", _form), (".svg",))
     REQUESTED[_verb, "--profile"] = (("mesh", *_sized, "--form", _form), (".svg",))
 FOLDER = ("export", "--to")
-FOUND = ("reconstruct", "--write")  # tests of its own: tests/cli/test_reconstruct_command.py
+FOUND = ("reconstruct", "--to")  # tests of its own: tests/cli/test_reconstruct_command.py
 TRAINS: dict[str, Path] = {}
 
 Case = tuple[str, str, str]

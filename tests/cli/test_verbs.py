@@ -54,7 +54,7 @@ def test_the_version_is_told_by_the_shell_alone() -> None:
     assert verbs_in(modules) <= {"common", "verbs"}
 
 
-@pytest.mark.parametrize("more", [(), ("--output", "carrier")])
+@pytest.mark.parametrize("more", [(), ("--of", "carrier")])
 def test_solve_brings_the_rooms_that_solve_and_no_other_verb(more: tuple[str, ...]) -> None:
     modules = loaded("solve", "planetary-24-18-60", *more)
     assert rooms(modules) <= BEHIND_SOLVE

@@ -22,7 +22,7 @@ from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES
 from geartrain.workshop.monte_carlo.monte_carlo_plots import ErrorBands, histogram_figure, pointer_error_figure
 
-CUT = ["montecarlo", "moon-triangular", "--set", "pitch_deviation=2%"]
+CUT = ["montecarlo", "moon-triangular", "--cutting", "pitch_deviation=2%"]
 PAIR = ["mesh", 60, 30, "--form", "triangular"]
 QUICK = [
     ["mesh", 60, 30, "--form", "triangular", "-p", "clearance_factor=1.05", "--vary", "friction=0:0.5:6"],
@@ -34,19 +34,19 @@ QUICK = [
     ["sphere", "cube", "--teeth", "4=12"],
     ["motion", "moon-triangular", "--turns", "0.2", "--samples", 101],
     *([*CUT, "--trials", 20, "--picture", picture] for picture in ("errors", "convergence", "pairs")),
-    [*CUT, "--trials", 8, "--output", "moon", "--picture", "course"],
-    [*CUT, "--trials", 8, "--output", "moon", "--sobol", "--picture", "sobol"],
+    [*CUT, "--trials", 8, "--of", "moon", "--picture", "course"],
+    [*CUT, "--trials", 8, "--of", "moon", "--sobol", "--picture", "sobol"],
     [*PAIR, "--objective", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"],
     [*PAIR, "--objective", "jam,error", "--free", "window=0.4:0.6"],
-    ["optimise", "moon-triangular", "--output", "moon", "--objective", "jam", "--free", "window"],
+    ["optimise", "moon-triangular", "--of", "moon", "--objective", "jam", "--free", "window"],
 ]  # fmt: skip
 SLOW = [
-    ["montecarlo", "freeth-2021-teeth", "--set", "pitch_deviation=2%", "--trials", 6, "--picture", "course",
-     *("--output", "moon", "--output", "saturn", "--output", "mars")],
-    ["montecarlo", "pennestri-2002-teeth", "--set", "pitch_deviation=2%", "--trials", 8, "--output", "moon", "--sobol",
+    ["montecarlo", "freeth-2021-teeth", "--cutting", "pitch_deviation=2%", "--trials", 6, "--picture", "course",
+     *("--of", "moon", "--of", "saturn", "--of", "mars")],
+    ["montecarlo", "pennestri-2002-teeth", "--cutting", "pitch_deviation=2%", "--trials", 8, "--of", "moon", "--sobol",
      "--picture", "sobol"],
-    ["optimise", "pennestri-2002-teeth", "--output", "moon", "--objective", "jam", "--free", "window"],
-    ["montecarlo", "moon-triangular", "--set", "pitch_deviation=2%", "--trials", 20, "--picture", "map"],
+    ["optimise", "pennestri-2002-teeth", "--of", "moon", "--objective", "jam", "--free", "window"],
+    ["montecarlo", "moon-triangular", "--cutting", "pitch_deviation=2%", "--trials", 20, "--picture", "map"],
     ["budget", "freeth-2021"],
     ["budget", "freeth-2008"],
     ["mesh", 48, 24, "--compare"],
@@ -88,7 +88,7 @@ def test_words_of_a_plot_can_be_read(arguments: list[object], tmp_path: Path) ->
     "arguments",
     [
         [*PAIR, "--objective", "jam,error", "--free", "window=0.4:0.6"],
-        [*CUT, "--trials", 4, "--output", "moon", "--picture", "course"],
+        [*CUT, "--trials", 4, "--of", "moon", "--picture", "course"],
         [*CUT, "--trials", 4, "--picture", "pairs"],
     ],
     ids=("best", "course", "pairs"),

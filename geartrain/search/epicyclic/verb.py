@@ -12,7 +12,6 @@ from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,
-    Csv,
     Per,
     Pick,
     Range,
@@ -42,14 +41,13 @@ def run(
         typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
     ] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
+        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances [half modules].")
     ] = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
-    by: Annotated[str, typer.Option("--by", help="Order of the solutions: error, total, largest.")] = "error",
+    by: Annotated[str, typer.Option("--sort", help="Order of the solutions: error, total, largest.")] = "error",
     per: Per = None,
     pick: Pick = 1,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -60,7 +58,7 @@ def run(
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_sets, set_rows
 
-    answer = SearchAnswer.of(csv, json, out, force, pick)
+    answer = SearchAnswer.of(json, out, force, pick)
     if kind == "list":
         _list(answer)
         return

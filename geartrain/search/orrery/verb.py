@@ -9,7 +9,7 @@ import typer
 
 from geartrain.cli.common import Force, Json, Out, option_error
 from geartrain.cli.long_runs import progress
-from geartrain.search.teeth_verb import ANY_COUNT, Csv, Range, SearchAnswer, Tolerance, read_tolerance
+from geartrain.search.teeth_verb import ANY_COUNT, Range, SearchAnswer, Tolerance, read_tolerance
 
 _PLACE = "NAME=PERIOD"
 _TOLERANCE = Fraction(1, 10**6)
@@ -21,11 +21,11 @@ def run(
     ],
     counts: Range = ANY_COUNT,
     tolerance: Tolerance = None,
-    effort: Annotated[int, typer.Option("--effort", min=1, help="Maximum beam width of the search.")] = 16,
+    effort: Annotated[int, typer.Option("--beam-width", min=1, help="Maximum beam width of the search.")] = 16,
     walk: Annotated[
-        int | None, typer.Option("--walk", min=0, help="Enumerate all trees with up to this number of extra arbors.")
+        int | None,
+        typer.Option("--extra-arbors", min=0, help="Enumerate all trees with up to this number of extra arbors."),
     ] = None,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -35,7 +35,7 @@ def run(
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_orrery, orrery_rows
 
-    answer = SearchAnswer.of(csv, json, out, force)
+    answer = SearchAnswer.of(json, out, force)
     wanted = _periods(periods)
     most_error = read_tolerance(tolerance)
     with progress("trees") as bar:

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from geartrain.cli.common import File, Force, Json, Names, Out, StateName, option_error
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.search.teeth_verb import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.search.teeth_verb import Best, Pick, SearchAnswer, Tolerance, read_tolerance
 
 Flag = bool
 
@@ -23,7 +23,7 @@ def run(
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--by", help="Order of the solutions: error, total, largest, distinct, change.")
+        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct, change.")
     ] = "error",
     planets: Annotated[
         str | None, typer.Option("--planets", help="Number of equal planets: 3, or carrier=3,...")
@@ -39,14 +39,14 @@ def run(
         str | None, typer.Option("--interference", help="Pressure angle at which tips must not interfere.")
     ] = None,
     largest_radius: Annotated[
-        str | None, typer.Option("--largest-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
+        str | None, typer.Option("--max-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
     ] = None,
     addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels [modules].")] = None,
     ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings [modules].")] = None,
-    minimum: Annotated[int | None, typer.Option("--minimum", help="Minimum tooth count of a free wheel.")] = None,
-    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Maximum tooth count of a free wheel.")] = None,
+    minimum: Annotated[int | None, typer.Option("--min-teeth", help="Minimum tooth count of a free wheel.")] = None,
+    most_teeth: Annotated[int | None, typer.Option("--max-teeth", help="Maximum tooth count of a free wheel.")] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
+        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances [half modules].")
     ] = 0,
     coaxial: Annotated[
         bool | None,
@@ -62,9 +62,7 @@ def run(
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -75,7 +73,7 @@ def run(
     from geartrain.search.train.train_search import TrainSearchRequest, answer_search
     from geartrain.train.declaration_files import read_declaration
 
-    answer = SearchAnswer.of(csv, json, out, force, pick)
+    answer = SearchAnswer.of(json, out, force, pick)
     train = read_declaration(file)
     _check_kept(file, answer.out.path)
     request = TrainSearchRequest(
@@ -103,7 +101,7 @@ def run(
         by=by,  # type: ignore[arg-type]
         where=tuple(_assignment(text) for text in where or ()),
     )
-    with long_run("teeth", request.to_dict(), out, RunOptions(workers, dask, resume)) as given:
+    with long_run("teeth", request.to_dict(), out, RunOptions(workers, resume)) as given:
         found = answer_search(request, given)
         close_journal(given.journal, cut=found.ended == "interrupted")
     answer.give(

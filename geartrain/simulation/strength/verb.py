@@ -27,7 +27,7 @@ def run(
     over: Annotated[
         float | None,
         typer.Option(
-            "--over",
+            "--peak-turns",
             min=0,
             help="Use the maximum torques over this number of turns for stresses; default: mean torques.",
         ),

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 def run(
     file: File,
-    output: Annotated[Names, typer.Option("--output", help="Output to report; can be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output to report; can be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
     span: Annotated[

@@ -29,7 +29,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.option_values import Theme
 from geartrain.errors import suggest
 
@@ -52,22 +52,28 @@ def run(
     trials: Annotated[int, typer.Option("--trials", help="Number of Monte Carlo trials.")] = 1000,
     seed: Seed = 1,
     set_: Annotated[
-        Names, typer.Option("--set", help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'.")
+        Names,
+        typer.Option(
+            "--cutting",
+            metavar="KIND=SIZE",
+            help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'.",
+        ),
     ] = None,
-    output: Annotated[Names, typer.Option("--output", help="Output or link to report; can be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output or link to report; can be repeated.")] = None,
     state: StateName = None,
     without: Without = None,
-    clearance: Annotated[
+    vary: Annotated[
         str | None,
         typer.Option(
-            "--clearance", help="Sweep of clearance factors (1.005:1.04:8) or fractions of windows (0.1:0.9:9)."
+            "--vary",
+            metavar="NAME=FIRST:LAST:COUNT",
+            help="Repeat the trials over clearance_factor=1.005:1.04:8 or window=0.1:0.9:9.",
         ),
     ] = None,
     sobol: Annotated[
         bool, typer.Option("--sobol", help="Compute Sobol indices by wheel and by kind of error.")
     ] = False,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
     plot: Plot = None,
     picture: Picture = "errors",
@@ -91,10 +97,12 @@ def run(
     check_trials(trials)
     drawing = _check_plot(plot, force, theme, picture)
     check_distinct_outputs(to, drawing)
-    sweep = read_clearances(clearance) if clearance else []
+    sweep = read_clearances(vary) if vary else []
     studies = TrialStudies(sweep, bool(output), sobol)
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
-    options = RunOptions(workers, dask, resume)
+    options = RunOptions(workers, resume)
+    if to.path is None and to.suffix in SUFFIXES:
+        raise option_error("-o", "a table of trials cannot be written to standard output", f"give -o x{to.suffix}")
     table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
     findings = drawn = None
     with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:

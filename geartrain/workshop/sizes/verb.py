@@ -48,7 +48,7 @@ _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 
 def run(
     file: File,
-    output: Annotated[str, typer.Option("--output", help="Output or link whose loss or error is optimised.")],
+    output: Annotated[str, typer.Option("--of", help="Output or link whose loss or error is optimised.")],
     best: Annotated[
         str, typer.Option("--objective", help="Minimise loss, error or impact, or maximise the jam margin.")
     ] = "loss",

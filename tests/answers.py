@@ -85,9 +85,9 @@ OTHERS = (
         "sphere --survey --json",
     ),
     *(f"mesh 24 36 --friction 0.05 {more} --json" for more in ("", "--shaft-angle 90deg", "--driver 2")),
-    *(f"mesh {form} --teeth 12 45 --friction 0.1 --json" for form in ("cycloidal", "lantern", "least_friction")),
-    *(f"mesh {form} --teeth 24 36 --json" for form in ("uniform_stress", "uniform_temperature", "compare")),
-    *(f"mesh 48 96 --form triangular --{by} --friction 0.2 --json" for by in ("clearance 1.01", "window 0.3")),
+    *(f"mesh 12 45 --form {form} --friction 0.1 --json" for form in ("cycloidal", "lantern", "least_friction")),
+    *(f"mesh 24 36 {form} --json" for form in ("--form uniform_stress", "--form uniform_temperature", "--compare")),
+    *(f"mesh 48 96 --form triangular -p {by} --friction 0.2 --json" for by in ("clearance_factor=1.01", "window=0.3")),
     "mesh 36 70 --internal -p shift=0.696,0.226 --json",
     "mesh 20 31 --form triangular -p clearance_factor=1.012 --backwards --json",
     "mesh 48 96 --form triangular --vary clearance_factor=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
@@ -216,9 +216,7 @@ def _requested(line: str, texts: dict[str, str]) -> Iterator[dict[str, str]]:
             command = _TRIALS.sub(_fewer, command)
         if not any(each in command for each in ("--open", "completion")):
             yield _run(command)
-            if words[1] in TELLING and not re.search(
-                r" (--json|-o -.csv|-o|--plot|--profile|--vary|--survey)\b", command
-            ):
+            if words[1] in TELLING and not re.search(r" (--json|-o|--plot|--profile|--vary|--survey)\b", command):
                 yield _run(f"{command} --json")
     elif words[0] == "python" and words[1] in texts and _INSIDE.search(texts[words[1]]):
         return

@@ -100,7 +100,7 @@ def page(rows: list[Row]) -> Iterator[str]:
     yield f"and equal depth, {np.median(equal):.1f} and {max(equal):.1f} times, are far behind. In words: mark out"
     yield "pitch circles in the ratio of the teeth, and then make the wheel with fewer teeth a little larger outside,"
     yield "or the other a little smaller. At other half angles and clearances ask"
-    yield "`geartrain mesh triangular --best loss`."
+    yield "`geartrain mesh Z1 Z2 --form triangular --objective loss`."
     yield ""
     yield from table(rows, spent, (A, B))
     yield ""

@@ -28,7 +28,7 @@ Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of
 Out = Annotated[
     Path | None,
     typer.Option(
-        "--output-file", "-o", metavar="FILE", help="Write to FILE; - is standard output, -.csv the same as CSV."
+        "--output-file", "-o", metavar="FILE", help="Write to FILE by its suffix; - or -.SUFFIX is standard output."
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite existing files.")]

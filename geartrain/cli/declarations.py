@@ -36,7 +36,10 @@ def write_template(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o."""
+    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o.
+
+    Example: `geartrain init planetary -o first.yaml`.
+    """
     kinds = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
     check_choice("template", kind, kinds)
     path = Path(f"{kind}.yaml") if out is None else out
@@ -60,6 +63,8 @@ def write_style(
 
     The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
     changed.
+
+    Example: `geartrain format --check train.yaml`.
     """
     if out is not None and (len(files) > 1 or check):
         raise option_error("-o", "one file is written", "give one FILE, and omit --check")
@@ -95,7 +100,10 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
 def list_trains(
     evidence: Annotated[bool, typer.Option("--evidence", help="List the shipped evidence for `reconstruct`.")] = False,
 ) -> None:
-    """List the shipped trains with their titles."""
+    """List the shipped trains with their titles.
+
+    Example: `geartrain list --evidence`.
+    """
     from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
 
     files, read = (shipped_evidence(), read_evidence) if evidence else (shipped(), read_declaration)
@@ -104,9 +112,12 @@ def list_trains(
 
 
 def list_periods(
-    word: Annotated[str, typer.Argument(help="List only names that contain this word.", metavar="[WORD]")] = "",
+    word: Annotated[str, typer.Argument(help="List only names that contain this word.", metavar="WORD")] = "",
 ) -> None:
-    """List the shipped table of astronomical periods, speeds and counts."""
+    """List the shipped table of astronomical periods, speeds and counts.
+
+    Example: `geartrain periods saros`.
+    """
     from geartrain.errors import Problem, QuestionError
     from geartrain.train.periods import period_table, suggested_period
 

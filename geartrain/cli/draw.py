@@ -35,13 +35,13 @@ def run(
             "--output-file",
             "-o",
             metavar="FILE",
-            help="Write an .svg, .png or .pdf to FILE (- = standard output); default NAME-KIND.svg.",
+            help="Write an .svg, .png or .pdf to FILE (- is standard output); default NAME-KIND.svg.",
         ),
     ] = None,
     state: Annotated[
         str | None, typer.Option("--state", help="State to draw; default the first, for lever all states.")
     ] = None,
-    turns: Annotated[str, typer.Option("--turns", help="Revolutions of the input, such as 3, -1/4, 2.5.")] = "0",
+    turns: Annotated[str, typer.Option("--turns", help="Revolutions of the driving link, such as 3, -1/4, 2.5.")] = "0",
     theme: Theme = "light",
     force: Force = False,
     labels: Annotated[
@@ -51,7 +51,10 @@ def run(
         list[str] | None, typer.Option("--of", help="With dials: draw only this output; may be repeated.")
     ] = None,
 ) -> None:
-    """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
+    """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials.
+
+    Example: `geartrain draw freeth-2021 --kind dials --turns 3 -o dials.svg`.
+    """
     from geartrain.analysis.gear_train import load
 
     # options are checked before the train is read

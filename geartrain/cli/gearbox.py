@@ -33,7 +33,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Tabulate ratios, steps, speeds, slip, torques of clutches and brakes, and recirculating power of every state."""
+    """Tabulate ratios, steps, speeds, slip, torques of clutches and brakes, and recirculating power of every state.
+
+    Example: `geartrain gearbox zf-8hp70 --search --gears 8`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.report.gearbox_report import describe_gear_search, describe_gearbox
 

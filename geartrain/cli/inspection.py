@@ -52,7 +52,10 @@ def equations(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the Willis system of a train, one labelled equation a line, as text or LaTeX."""
+    """Print the Willis system of a train, one labelled equation a line, as text or LaTeX.
+
+    Example: `geartrain inspect equations planetary-24-18-60 --latex`.
+    """
     from geartrain.analysis.gear_train import load
 
     to = sink(out, force)
@@ -81,7 +84,10 @@ def formula(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Derive each output in lowest terms as a formula in tooth counts and input speeds, and where it locks."""
+    """Derive each output in lowest terms as a formula in tooth counts and input speeds, and where it locks.
+
+    Example: `geartrain inspect formula wolfrom-175 --inverse`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.report.formula_report import collect_formulas, describe_formulas
 
@@ -108,7 +114,10 @@ def graph(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON."""
+    """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON.
+
+    Example: `geartrain inspect graph pennestri-2002 -o train.dot`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.kinematics import graph as formats
     from geartrain.report.text import to_markdown
@@ -140,7 +149,10 @@ def bench(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Measure accuracy against run time for a train: speeds, transmission functions, motion, torques."""
+    """Measure accuracy against run time for a train: speeds, transmission functions, motion, torques.
+
+    Example: `geartrain inspect bench moon-triangular`.
+    """
     from geartrain.analysis.accuracy import find_accuracy
     from geartrain.analysis.gear_train import load
     from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy
@@ -156,7 +168,7 @@ def bench(
 def schema(
     question: Annotated[
         list[str] | None,
-        typer.Argument(help="Command whose JSON keys are printed, such as motion or mesh pin.", metavar="COMMAND"),
+        typer.Argument(help="Command whose JSON keys are printed, such as motion or teeth ratio.", metavar="COMMAND"),
     ] = None,
     form: Annotated[
         Literal["json", "markdown", "answers"],
@@ -169,6 +181,8 @@ def schema(
 
     With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print
     the keys of its JSON as a table.
+
+    Example: `geartrain inspect schema -o geartrain.schema.json`.
     """
     from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer
     from geartrain.report.json_schema import schema as declaration_schema

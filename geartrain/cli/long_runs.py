@@ -172,12 +172,17 @@ Rate = Annotated[
     str | None,
     typer.Option("--rate", help="Input speed in turns per second, or such as '30 rpm'; default the declared drive."),
 ]
-Turns = Annotated[str | None, typer.Option("--turns", help=f"Revolutions of the input to evaluate; default {TURNS}.")]
+Turns = Annotated[
+    str | None, typer.Option("--turns", help=f"Revolutions of the driving link to evaluate; default {TURNS}.")
+]
 Skip = Annotated[str | None, typer.Option("--skip", help=f"Revolutions to simulate before evaluation; default {SKIP}.")]
 Steps = Annotated[
     int | None,
     typer.Option(
-        "--steps", min=1, max=MOST_COUNT, help="Time steps per revolution of the input; default by its tooth counts."
+        "--steps",
+        min=1,
+        max=MOST_COUNT,
+        help="Time steps per revolution of the driving link; default by its tooth counts.",
     ),
 ]
 Restitution = Annotated[

@@ -117,7 +117,7 @@ def run(
         typer.Option(
             "--friction",
             help="Coefficient of friction, or a friction law: buckingham, dokos, "
-            "'stribeck,static=0.2,kinetic=0.08,speed=10 mm/s', or a table.",
+            "'stribeck,static=0.2,...', or a table.",
         ),
     ] = "0",
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Number of the driving wheel, 1 or 2.")] = 1,

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 def run(
     file: File,
     turns: Annotated[
-        str, typer.Option("--turns", help="Revolutions of the input, or 'period'; negative to turn backwards.")
+        str, typer.Option("--turns", help="Revolutions of the driving link, or 'period'; negative to turn backwards.")
     ] = "20",
     samples: Annotated[
         int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions.")
@@ -71,7 +71,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute transmission error and speed of outputs with real teeth and pins; with -o x.csv, at every position."""
+    """Compute transmission error and speed of outputs with real teeth and pins; with -o x.csv, at every position.
+
+    Example: `geartrain motion moon-triangular --of moon --turns 20`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.dynamics import MotionRun
 

@@ -26,7 +26,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute mean ratio, amplitude and extreme speeds of a pin in a slot or in a follower."""
+    """Compute mean ratio, amplitude and extreme speeds of a pin in a slot or in a follower.
+
+    Example: `geartrain pin 9.6mm 1.1mm`.
+    """
     from geartrain.report.pair_page import describe_pin
     from geartrain.teeth.pair_results import pin_figures
     from geartrain.teeth.pin_coupling import pin_transmission

@@ -35,7 +35,7 @@ def report(
     json: Json = False,
     section: Annotated[
         list[str] | None,
-        typer.Option("--section", help="Print only sections whose title contains this word; repeatable."),
+        typer.Option("--section", help="Print only sections whose title contains this word; may be repeated."),
     ] = None,
     everything: Annotated[
         bool, typer.Option("--all", help="Print all sections, including formulas, circuits and sources.")
@@ -46,6 +46,8 @@ def report(
     """Report on trains as text on the terminal (80 columns in a pipe), or as .md, .html or .json by the suffix of -o.
 
     An .html page also contains pictures of the plan and the dials if the extra 'plot' is installed.
+
+    Example: `geartrain report freeth-2021 -o page.html`.
     """
     from geartrain.report.document import without_details
     from geartrain.report.train_data import collect_report
@@ -114,7 +116,10 @@ def compare(
     ] = False,
     force: Force = False,
 ) -> None:
-    """Compare the outputs of several trains in one table, with their errors against the targets."""
+    """Compare the outputs of several trains in one table, with their errors against the targets.
+
+    Example: `geartrain compare freeth-2006 freeth-2008`.
+    """
     from geartrain.report.reconstruction_comparison import describe_comparison
     from geartrain.report.train_data import collect_report
 

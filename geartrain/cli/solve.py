@@ -36,7 +36,10 @@ def solve(
     ] = "auto",
     force: Force = False,
 ) -> None:
-    """Solve a train and print its speeds as fractions and decimals."""
+    """Solve a train and print its speeds as fractions and decimals.
+
+    Example: `geartrain solve freeth-2021 --of mars`.
+    """
     from geartrain.analysis.gear_train import load
 
     to = sink(out, force)

@@ -68,7 +68,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Determine mobility, gridlock, closure of the teeth and sizes of gears on a sphere; -o x.yaml writes a train."""
+    """Determine mobility, gridlock, closure of the teeth and sizes of gears on a sphere; -o x.yaml writes a train.
+
+    Example: `geartrain sphere icosidodecahedron --teeth 5=20,3=12`.
+    """
     from geartrain.report.spherical_report import describe_sphere
     from geartrain.spherical.gear_sphere import GearSphere
 

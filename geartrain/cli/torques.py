@@ -46,7 +46,9 @@ def run(
     json: Json = False,
     turns: Annotated[
         str | None,
-        typer.Option("--turns", help="Compute torque over this many revolutions of the input, or over the 'period'."),
+        typer.Option(
+            "--turns", help="Compute torque over this many revolutions of the driving link, or over the 'period'."
+        ),
     ] = None,
     samples: Annotated[
         int,
@@ -72,6 +74,8 @@ def run(
     """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque.
 
     With -o x.csv and --turns, write the torque at every position.
+
+    Example: `geartrain torques norton-compound --plot power.svg`.
     """
     from geartrain.analysis.gear_train import load
     from geartrain.report.torque_report import collect_torque_report, describe_torques

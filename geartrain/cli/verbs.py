@@ -21,6 +21,7 @@ import typer
 from typer.core import TyperGroup
 
 from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain, tell
+from geartrain.cli.option_values import MOST_COUNT
 from geartrain.errors import GearTrainError, Problem, QuestionError, nearest_names, printable, suggest
 from geartrain.wings import WINGS, has_wing
 
@@ -100,7 +101,15 @@ class Verbs(Mapping[str, Command]):
         run, settings = getattr(found, "run", found), getattr(found, "context_settings", None)
         one = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         one.command(name, context_settings=settings)(run)
-        return typer.main.get_command(one)
+        command = typer.main.get_command(one)
+        # typer keeps line breaks within paragraphs, prints the type of a flag, and a maximum that is only a safeguard
+        command.help = re.sub(r"(?<!\n)\n(?!\n)", " ", command.help or "")
+        for param in command.params:
+            if getattr(param, "is_flag", False):
+                param.metavar = ""
+            if getattr(param, "max", None) == MOST_COUNT:
+                param.max = None  # type: ignore[attr-defined]
+        return command
 
     def _load(self, name: str) -> Any:
         """Import the function or module of a command.

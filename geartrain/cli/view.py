@@ -41,14 +41,14 @@ if TYPE_CHECKING:
 
 _MOST_ANGLES = 2_000_000  # angles of all links together, before samples are selected
 
-Other = Annotated[str | None, typer.Argument(help="Another train, shown next to the first.", metavar="[FILE2]")]
+Other = Annotated[str | None, typer.Argument(help="Another train, shown next to the first.", metavar="FILE2")]
 Page = Annotated[
     Path | None,
     typer.Option(
         "--output-file",
         "-o",
         metavar="FILE",
-        help="Write to FILE (- = standard output); default NAME.html in this folder.",
+        help="Write to FILE (- is standard output); default NAME.html in this folder.",
     ),
 ]
 Turns = Annotated[str | None, typer.Option("--turns", help="With --dynamics: revolutions of the driving link to show.")]
@@ -81,7 +81,10 @@ def view(
     embed: Embed = False,
     kiosk: Kiosk = False,
 ) -> None:
-    """Write an animated train, or two side by side, as one HTML file that needs no server and no network."""
+    """Write an animated train, or two side by side, as one HTML file that needs no server and no network.
+
+    Example: `geartrain view freeth-2021 --open`.
+    """
     from geartrain.scene import build_scene
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
@@ -171,7 +174,7 @@ def _page_sink(path: Path, force: bool) -> Sink:
 
 
 def watch(
-    file: Annotated[str, typer.Argument(help="YAML file to watch.", metavar="{FILE}")],
+    file: Annotated[str, typer.Argument(help="YAML file to watch.", metavar="FILE")],
     port: Annotated[
         int, typer.Option("--port", min=0, max=65535, help="Port of the local server; 0 takes a free one.")
     ] = 0,
@@ -181,6 +184,8 @@ def watch(
 
     The page is served on this machine only, and keeps camera, crank and state. Errors in the file are displayed above
     the last valid version.
+
+    Example: `geartrain watch train.yaml --open`.
     """
     from geartrain.viewer.live_server import LiveServer
 

@@ -31,7 +31,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """List fractions that approximate a ratio: convergents of its continued fraction and intermediate fractions."""
+    """List fractions that approximate a ratio: convergents of its continued fraction and intermediate fractions.
+
+    Example: `geartrain teeth approximants 13.368267`.
+    """
     from geartrain.search.stern_brocot import Approximants, approximants
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts

@@ -78,7 +78,8 @@ app = typer.Typer(
     add_completion=False,
     no_args_is_help=True,
     context_settings={"ignore_unknown_options": True},  # arguments without a command name may begin with an option
-    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.",
+    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.\n\n"
+    "Example: `geartrain teeth ratio 235/19`.",
 )
 
 
@@ -91,7 +92,10 @@ def _group() -> None:
 
 
 Ratio = Annotated[
-    str, typer.Argument(help="Requested ratio: 13.368, 235/19, 'A / B' with two periods, or the name of a period.")
+    str,
+    typer.Argument(
+        help="Requested ratio: 13.368, 235/19, 'A / B' with two periods, or the name of a period.", metavar="RATIO"
+    ),
 ]
 Range = Annotated[str, typer.Option("--range", help="Admissible tooth counts, such as 15:120 or 30,36,48.")]
 Wheels = Annotated[str | None, typer.Option("--wheels", help="Tooth counts of the larger wheel of each pair.")]

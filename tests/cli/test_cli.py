@@ -7,6 +7,7 @@ import inspect
 import itertools
 import json
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -17,7 +18,7 @@ from typing import Any
 
 import networkx as nx
 import pytest
-from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, ended, verbs
+from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, ended, functions, verbs
 from jsonschema import Draft202012Validator
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT, train_files
@@ -67,6 +68,14 @@ def test_every_verb_that_exists_has_help_and_every_option_of_it_is_in_the_docs(v
         assert all(f"`{name}`" in section for name in names), names
         assert all(name in out for name in names), names
         assert option.name == "help" or option.help, f"{option.name} has a help text"
+
+
+@pytest.mark.parametrize("verb", [name for name, _ in functions()])
+def test_the_example_of_every_command_is_one_of_its_command_lines(verb: str) -> None:
+    command = dict(verbs())[verb]
+    (example,) = re.findall(r"Example: `geartrain ([^`]*)`", command.help)
+    assert example.startswith(f"{verb} ")
+    command.make_context(verb, shlex.split(example)[len(verb.split()) :])
 
 
 def test_usage_names_the_command_as_it_was_started(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -190,7 +190,7 @@ REFUSED = [
     ([8, 60, "--module", "2mm", "--profile", "w.svg"], "--profile", "addendum of at most"),
     ([*PAIR, "--form", "involut"], "involut", "did you mean 'involute'?"),
     ([*PAIR, "-p", "presure_angle=25deg"], "-p presure_angle", "did you mean 'pressure_angle'?"),
-    ([*PAIR, "-p", "shift"], "-p KEY", "VALUE"),
+    ([*PAIR, "-p", "shift"], "-p", "KEY=VALUE"),
     ([*PAIR, "--form", "cycloidal", "--helix", "18deg"], "--helix", "does not apply to cycloidal teeth"),
     ([*PAIR, "--inertia", "1 kg mm2"], "--inertia", "does not apply to involute teeth"),
     ([*PAIR, "--form", "lantern", "--form", "cycloidal"], "--form", "add --compare"),

@@ -94,16 +94,7 @@ def test_another_link_can_be_requested_and_a_period_followed(pin: Path) -> None:
     assert "no torque ripples" in requested.stderr
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        (
-            "-o",
-            "-.csv",
-        ),
-        ("--input", "a"),
-    ],
-)
+@pytest.mark.parametrize("words", [("-o", "-.csv"), ("--of", "a")])
 def test_options_of_a_run_need_turns(pin: Path, words: tuple[str, ...]) -> None:
     done = call("torques", pin, *words)
     assert done.exit_code == 2

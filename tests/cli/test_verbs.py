@@ -92,7 +92,7 @@ def test_help_lists_every_verb_with_what_it_does() -> None:
 
 def test_help_lists_every_command_under_a_heading() -> None:
     shown = call("--help").output
-    headings = ("Start", "Look", "Speeds", "Teeth, losses and motion", "Search", "Make", "Data")
+    headings = ("Start", "Look", "Speeds", "Teeth, losses and motion", "Search", "Make")
     places = [shown.index(f"─ {heading} ─") for heading in headings]
     assert places == sorted(places)
     assert "─ Commands ─" not in shown

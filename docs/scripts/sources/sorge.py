@@ -547,7 +547,7 @@ def from_command() -> Iterator[Row]:
         *(("11", A, "instant_centre"), ("18", R, "instant_centre")),
         *(("28", A, "driver_arm"), ("29", A, "driven_arm"), ("30", R, "driver_arm"), ("31", R, "driven_arm")),
     ):
-        claim = f"`course.{key}` of `geartrain mesh triangular --json`, all figures"
+        claim = f"`course.{key}` of `geartrain mesh --form triangular --json`, all figures"
         yield equation(f"Eq. ({number}), command", claim, f"course('{phase}', '{key}')")
 
 
@@ -697,8 +697,8 @@ def results() -> Iterator[Row]:
         yield outside(
             f"Fig. {name}, curves",
             "alpha_2, tau and eta over alpha_1",
-            "the copy has no pictures, and no values are printed; `geartrain mesh triangular "
-            f"--teeth {z1} {z2} --clearance-factor {a} --friction 0.2 --plot law.svg` draws them",
+            "the copy has no pictures, and no values are printed; `geartrain mesh "
+            f"{z1} {z2} --form triangular -p clearance_factor={a} --friction 0.2 --plot law.svg` draws them",
         )
         yield Row(f"Fig. {name}, tau_mean", "mean speed ratio", MEANS[name[0]], mesh(z1, z2, a, "speed_ratio.mean"))
         for figure, kind, printed in JUMPS:

@@ -28,7 +28,7 @@ def run(
     context: typer.Context,
     kind: Annotated[str, typer.Option("--kind", help="Kind of set; 'list' prints the kinds.")],
     ratio: Annotated[
-        str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="[RATIO]")
+        str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="RATIO")
     ] = None,
     counts: Range = ANY_COUNT,
     mode: Annotated[str, typer.Option("--mode", help="Modes input:output:held, separated by commas, or all.")] = "all",
@@ -38,10 +38,10 @@ def run(
     planets: Annotated[int | None, typer.Option("--planets", help="Number of equal, equally spaced planets.")] = None,
     clearance: Annotated[
         str | None,
-        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
     ] = None,
     shift: Annotated[
-        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances [half modules].")
+        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances, in half modules.")
     ] = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
@@ -52,7 +52,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find epicyclic sets of one type for a ratio that can be assembled with equal planets."""
+    """Find epicyclic sets of one type for a ratio that can be assembled with equal planets.
+
+    Example: `geartrain teeth set 7/2 --kind planetary --planets 3`.
+    """
     from geartrain.search.epicyclic.set_search import find_sets
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts

@@ -17,7 +17,7 @@ _TOLERANCE = Fraction(1, 10**6)
 
 def run(
     periods: Annotated[
-        list[str], typer.Argument(help="Names and periods [revolutions of the first arbor].", metavar="NAME=PERIOD...")
+        list[str], typer.Argument(help="Names and periods in revolutions of the first arbor.", metavar="NAME=PERIOD")
     ],
     counts: Range = ANY_COUNT,
     tolerance: Tolerance = None,
@@ -30,7 +30,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find a gear train that shows several periods from one arbor with few wheels and arbors."""
+    """Find a gear train that shows several periods from one arbor with few wheels and arbors.
+
+    Example: `geartrain teeth orrery moon=29.53 venus=224.7`.
+    """
     from geartrain.search.orrery.orrery_search import find_orrery
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_orrery, orrery_rows

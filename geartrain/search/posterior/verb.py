@@ -61,7 +61,7 @@ def run(
         bool, typer.Option("--gaussian", help="Use a Gaussian likelihood with the tolerances as standard deviations.")
     ] = False,
     method: Annotated[
-        str | None, typer.Option("--method", help="exact or sample. Default: exact if it stays within --limit.")
+        str | None, typer.Option("--method", help="Method: exact or sample; default exact if it stays within --limit.")
     ] = None,
     most: Annotated[int, typer.Option("--best", min=0, max=1_000_000, help="Number of combinations to list.")] = 20,
     limit: Annotated[
@@ -85,7 +85,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find the tooth counts that fit the outputs, and their probabilities; exit 0 if any fits, 1 if none."""
+    """Find the tooth counts that fit the outputs, and their probabilities; exit 0 if any fits, 1 if none.
+
+    Example: `geartrain posterior freeth-2008-doubt --best 8`.
+    """
     from geartrain.numerics.files import ColumnTable
     from geartrain.search.posterior.inference import infer_counts
     from geartrain.train.declaration_files import read_declaration

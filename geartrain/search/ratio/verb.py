@@ -55,7 +55,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find gear pairs in series for a ratio: count all solutions within a tolerance and prove the best."""
+    """Find gear pairs in series for a ratio: count all solutions within a tolerance and prove the best.
+
+    Example: `geartrain teeth ratio 235/19 --stages 2 --tolerance 1e-4`.
+    """
     from geartrain.search.ratio.stage_problem import StageConstraints
     from geartrain.search.ratio.stage_search import find_stages
     from geartrain.search.target_ratio import read_ratio

@@ -131,7 +131,10 @@ def run(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none."""
+    """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none.
+
+    Example: `geartrain reconstruct metonic-l-m --best 5`.
+    """
     from geartrain.numerics.files import check_folder
     from geartrain.search.reconstruct.reconstruction import ReconstructionRequest, reconstruct
     from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction

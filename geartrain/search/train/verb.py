@@ -30,7 +30,7 @@ def run(
     ] = None,
     clearance: Annotated[
         str | None,
-        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
     ] = None,
     undercut: Annotated[
         str | None, typer.Option("--undercut", help="Pressure angle at which no wheel may be undercut.")
@@ -41,12 +41,12 @@ def run(
     largest_radius: Annotated[
         str | None, typer.Option("--max-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
     ] = None,
-    addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels [modules].")] = None,
-    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings [modules].")] = None,
+    addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels, in modules.")] = None,
+    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings, in modules.")] = None,
     minimum: Annotated[int | None, typer.Option("--min-teeth", help="Minimum tooth count of a free wheel.")] = None,
     most_teeth: Annotated[int | None, typer.Option("--max-teeth", help="Maximum tooth count of a free wheel.")] = None,
     shift: Annotated[
-        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances [half modules].")
+        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances, in half modules.")
     ] = 0,
     coaxial: Annotated[
         bool | None,
@@ -58,7 +58,8 @@ def run(
         Flag, typer.Option("--closure", help="Require that teeth of loops mesh at the declared positions.")
     ] = False,
     where: Annotated[
-        Names, typer.Option("--where", help="Report the rank of an assignment: wheel=32,wheel=50; may be repeated.")
+        Names,
+        typer.Option("--where", metavar="W=32,X=50", help="Report the rank of these tooth counts; may be repeated."),
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
@@ -67,7 +68,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find tooth counts of the free wheels of a train that satisfy all its targets and the given constraints."""
+    """Find tooth counts of the free wheels of a train that satisfy all its targets and the given constraints.
+
+    Example: `geartrain teeth train pennestri-2002-missing --best 5`.
+    """
     from geartrain.search.constraints.constraint_options import read_constraint_options
     from geartrain.search.tooth_numbers_report import assignment_rows, describe_assignments
     from geartrain.search.train.train_search import TrainSearchRequest, answer_search

@@ -69,7 +69,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Simulate motion in time: separation of teeth, impacts, outputs and energy; -o x.csv writes all samples."""
+    """Simulate motion in time: separation of teeth, impacts, outputs and energy; -o x.csv writes all samples.
+
+    Example: `geartrain dynamics moon-triangular-inertia --rate 1 --turns 1`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
 

@@ -50,7 +50,7 @@ def run(
         str | None,
         typer.Option(
             "--as",
-            help="Kinds of files to write with --to, separated by commas: svg,dxf,stl,glb,step,graphml,dot,rexs,csv.",
+            help="Kinds of files for --to, separated by commas: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.",
         ),
     ] = None,
     wheel: Annotated[
@@ -103,7 +103,10 @@ def run(
     without: Without = None,
     force: Force = False,
 ) -> None:
-    """Write a train as files: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables."""
+    """Write a train as files: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables.
+
+    Example: `geartrain export planetary --to parts --module 2mm`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.scene import SolidModel
 

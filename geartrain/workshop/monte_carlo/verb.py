@@ -59,7 +59,7 @@ def run(
             help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'.",
         ),
     ] = None,
-    output: Annotated[Names, typer.Option("--of", help="Output or link to report; can be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     state: StateName = None,
     without: Without = None,
     vary: Annotated[
@@ -85,6 +85,8 @@ def run(
     """Estimate how often a train with cutting errors jams, and how far its pointers deviate, by Monte Carlo trials.
 
     With -o FILE.parquet or FILE.csv, write a table of all trials.
+
+    Example: `geartrain montecarlo moon-triangular --cutting 'pitch_deviation=2 %'`.
     """
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.cutting.declared_errors import read_error_overrides

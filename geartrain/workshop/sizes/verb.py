@@ -56,14 +56,14 @@ def run(
         list[str] | None,
         typer.Option(
             "--free",
-            help="Free parameter NAME or NAME=LOW:HIGH: radii, window or half_angle; can be repeated. Default: radii.",
+            help="Free parameter NAME or NAME=LOW:HIGH: radii, window or half_angle; may be repeated. Default: radii.",
         ),
     ] = None,
     within: Annotated[
         list[str] | None,
         typer.Option(
             "--within",
-            help="Limit NAME=LIMIT for each pair: loss, error, impact, jam, window_width or backlash; can be repeated.",
+            help="Limit NAME=LIMIT for each pair: loss, error, impact, jam, window_width or backlash; may be repeated.",
         ),
     ] = None,
     state: FirstState = None,
@@ -75,7 +75,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Optimise the triangular teeth of a train, pair by pair and together; -o FILE.yaml writes a declaration."""
+    """Optimise the triangular teeth of a train, pair by pair and together; -o FILE.yaml writes a declaration.
+
+    Example: `geartrain optimise moon-triangular --of moon --objective jam --free window`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.sizes.tooth_sizes_report import describe_train_sizes
     from geartrain.workshop.sizes.train_size_search import find_train_sizes

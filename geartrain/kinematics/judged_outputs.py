@@ -348,7 +348,7 @@ class Sensitivity(Result):
     With 63 teeth instead of 64 the Moon is slower by 1/64:
 
     >>> import geartrain
-    >>> train = geartrain.load("freeth-2008-doubt")
+    >>> train = geartrain.load("freeth-2008-uncertainty")
     >>> found = next(train.kinematics.sensitivity(train.solve()))
     >>> found.wheel, found.output, found.less, found.less == -1e6 / found.teeth
     ('b2', 'moon', -15625.0, True)
@@ -396,7 +396,7 @@ def sensitivity(
         for result in outputs:
             shift = {step: _relative_change(result, relative) for step, relative in changed.items()}
             if any(value != 0 for value in shift.values()):
-                allowed = wheel.doubt.allowed if wheel.doubt else ()
+                allowed = wheel.uncertainty.allowed if wheel.uncertainty else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
 
 

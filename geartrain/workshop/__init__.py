@@ -61,8 +61,8 @@ if TYPE_CHECKING:
     from geartrain.workshop.sizes.best_sizes import find_tooth_sizes as find_tooth_sizes
     from geartrain.workshop.sizes.size_design import SizeLimit as SizeLimit
     from geartrain.workshop.sizes.size_design import ToothSizes as ToothSizes
-    from geartrain.workshop.sizes.size_search import ChanceLimit as ChanceLimit
     from geartrain.workshop.sizes.size_search import PairTrials as PairTrials
+    from geartrain.workshop.sizes.size_search import ProbabilityLimit as ProbabilityLimit
     from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
     from geartrain.workshop.sizes.tooth_sizes_plot import train_sizes_figure as train_sizes_figure
     from geartrain.workshop.sizes.train_size_search import BestTrainSizes as BestTrainSizes

@@ -86,7 +86,7 @@ def test_the_pair_of_the_sum_jams_where_neighbours_use_up_its_backlash_and_only_
 def test_counts_in_a_batch_are_solved_trains(records: UncertaintyRecords) -> None:
     requested = Counted("freeth-2008", 40)
     singles = requested.singly(8)
-    assert len(requested.question.doubts) == 35
+    assert len(requested.question.uncertainties) == 35
     assert requested.differing(singles) == 0
     error, share = requested.off(singles)
     assert error < 1e-15 * 5
@@ -107,7 +107,7 @@ def test_some_drawn_combinations_fit_and_most_do_not() -> None:
     fits = requested.decided()
     assert 0.01 < fits.mean() < 0.5
     declared = [
-        all(doubt.declared == requested.counts[wheel][at] for wheel, doubt in requested.question.doubts.items())
+        all(doubt.declared == requested.counts[wheel][at] for wheel, doubt in requested.question.uncertainties.items())
         for at in range(2000)
     ]
     assert fits[declared].all()

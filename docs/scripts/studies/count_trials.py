@@ -69,8 +69,8 @@ class Counted:
         """Wheel -> its counts in every combination; one in two is as declared but for one wheel."""
         rng, found = np.random.default_rng(self.seed), {}
         near = rng.random(self.combinations) < 0.5
-        odd = rng.integers(0, len(self.question.doubts), self.combinations)
-        for at, (wheel, doubt) in enumerate(self.question.doubts.items()):
+        odd = rng.integers(0, len(self.question.uncertainties), self.combinations)
+        for at, (wheel, doubt) in enumerate(self.question.uncertainties.items()):
             drawn = rng.choice(np.array(doubt.counts), self.combinations)
             found[wheel] = np.where(near & (odd != at), doubt.declared or drawn, drawn)
         return found

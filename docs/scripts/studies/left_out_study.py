@@ -211,7 +211,7 @@ def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
         found = find_reconstructions(evidence_question(evidence, wheels).problem, listed=LISTED)
         seconds = process_time() - start
         yield {
-            "mechanisms": [count.mechanisms for count in found.counts],
+            "mechanisms": [count.solutions for count in found.counts],
             "classes": [count.classes for count in found.counts],
             "rank": rank_of(original, found) if wheels == own else None,
             "listed": is_all_listed(found),
@@ -267,14 +267,14 @@ def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterat
         mechanisms = []
     for wheels in range(len(mechanisms), own):
         found = find_reconstructions(evidence_question(evidence, wheels).problem)
-        mechanisms = [count.mechanisms for count in found.counts]
-        weights = Counter({each.weight: each.mechanisms for each in found.weights})
+        mechanisms = [count.solutions for count in found.counts]
+        weights = Counter({each.weight: each.solutions for each in found.weights})
         yield mechanisms, None
     better = sum(number for each, number in weights.items() if each > weight)
     fewer = original.added_arbors - 1
     if fewest_new_arbors(whole) <= fewer:
         found = find_reconstructions(replace(whole, additions=replace(whole.additions, arbors=fewer)))
-        better += sum(count.mechanisms for count in found.counts if count.added == own)
+        better += sum(count.solutions for count in found.counts if count.added == own)
     yield mechanisms, better
 
 

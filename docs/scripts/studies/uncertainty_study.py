@@ -75,7 +75,7 @@ def _steps(effort: Effort, quick: bool) -> Iterator[Step]:
 def _counts(effort: Effort) -> list[RateRecord]:
     """Whether combinations fit, and all that their outputs do, against whole solutions one by one."""
     requested = Counted(_TRAIN, effort.combinations)
-    case = f"{_TRAIN}, {len(requested.question.doubts)} wheels in doubt"
+    case = f"{_TRAIN}, {len(requested.question.uncertainties)} wheels in doubt"
     (
         requested.decided(),
         requested.told(),

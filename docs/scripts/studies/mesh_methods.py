@@ -7,7 +7,6 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.teeth.transmission_table import DEGREE, CellTable
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS, ToothPair
@@ -22,19 +21,6 @@ _SCAN = 128  # positions in a pitch at which the scan asks who drives
 def plain_transmission(sizes: TriangularSizes) -> TriangularTransmission:
     """The law by the direct formula."""
     return TriangularTransmission(sizes, friction=0.2)
-
-
-class Coarse:
-    """The error alone, on as many cells as asked for."""
-
-    def __init__(self, transmission: TriangularTransmission, cells: int) -> None:
-        self.error = CellTable(
-            transmission.error,
-            transmission.period,
-            np.unique(np.mod(transmission.kinks(), transmission.period)),
-            cells,
-            DEGREE,
-        )
 
 
 class Sampled:

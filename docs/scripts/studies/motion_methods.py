@@ -24,10 +24,9 @@ from studies.motion_records import (
     FIXED,
     INDEPENDENT,
     LAGGED,
-    NOMINAL,
     PER_POSITION,
-    TABLES,
     TABULATED,
+    TOLERANCE,
     MotionRecord,
     TrainRecord,
 )
@@ -37,8 +36,6 @@ from studies.time_marching import Marching
 Floats = NDArray[np.float64]
 Ask = Callable[[Floats], Floats]
 
-
-_STEPS = (1, 10)  # of marching, to a position
 
 
 class Effort(NamedTuple):
@@ -98,9 +95,8 @@ class MotionCase:
         yield "comparing", self._compare
         yield "40 digits", self._judge
         yield "memory", self._trace
-        for steps in _STEPS:
-            yield f"marching, {steps} a position", partial(self._march, f"{FIXED}, {steps} a position", steps)
-        yield "marching, adaptive", partial(self._march, ADAPTIVE, 0)
+        yield FIXED, partial(self._march, FIXED, 1)
+        yield ADAPTIVE, partial(self._march, ADAPTIVE, 0)
 
     # ---------------------------------------------------------------------------------------------------- the methods
 
@@ -120,9 +116,8 @@ class MotionCase:
         return {method: self._ask(self.direct if method == DIRECT else None, method) for method in PER_POSITION}
 
     def _ask(self, built: Motion | None, method: str) -> Ask:
-        if method in (NOMINAL, LAGGED):
-            superposed = Superposition((built or self.direct)._forward)
-            return partial(superposed.at, lagged=method == LAGGED)
+        if method == LAGGED:
+            return partial(Superposition((built or self.direct)._forward).at, lagged=True)
         made = built or self.train.motion(outputs=self.outputs, tolerance=_tolerance(method))
         return lambda turns: made._unset.at(turns).error
 
@@ -183,7 +178,7 @@ class MotionCase:
             for method in others:
                 off = self.requested[method](turns) - passage.error
                 self.off[method].add(off)
-                if method == TABLES[-1]:
+                if method == TABULATED:
                     self._doubt(turns, np.abs(off))
 
     def _doubt(self, turns: Floats, off: Floats) -> None:
@@ -222,7 +217,7 @@ class MotionCase:
     def rows(self) -> list[MotionRecord]:
         """A record for each method."""
         estimates = [self._of_estimate(method) for method in (BOUND, INDEPENDENT)]
-        composed = [self._of_positions(method) for method in (NOMINAL, LAGGED, *TABLES, DIRECT)]
+        composed = [self._of_positions(method) for method in (LAGGED, TABULATED, DIRECT)]
         return [*estimates, *composed, *(self._of_marching(method) for method in self.marched)]
 
     def _record(self, method: str, output: int, **more: Any) -> MotionRecord:
@@ -294,8 +289,7 @@ class MotionCase:
 
 
 def _tolerance(method: str) -> float | None:
-    name, _, tolerance = method.partition(", ")
-    return float(tolerance) if name == TABULATED else None
+    return TOLERANCE if method == TABULATED else None
 
 
 def _peak(task: Callable[[], Any]) -> float:

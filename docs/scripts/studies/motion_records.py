@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from studies.records import StudyRecords, number_text, seconds_text, table
+from studies.records import StudyRecords
 
 BOUND, INDEPENDENT = "sum of ranges", "independent rms"
-NOMINAL, LAGGED = "superposition", "superposition with lag"
+LAGGED = "superposition with lag"
 DIRECT, TABULATED = "direct", "tabulated"
-FIXED, ADAPTIVE = "marching", "marching, RK45"
-TOLERANCES = (1e-6, 1e-9, 1e-12)
-TABLES = tuple(f"{TABULATED}, {tolerance:.0e}" for tolerance in TOLERANCES)
-PER_POSITION = (DIRECT, *TABLES, NOMINAL, LAGGED)
+FIXED, ADAPTIVE = "marching, 1 a position", "marching, RK45"
+TOLERANCE = 1e-12
+"""Of the tables (pitches)."""
+PER_POSITION = (DIRECT, TABULATED, LAGGED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,50 +97,3 @@ class MotionRecords(StudyRecords):
     trains: Sequence[TrainRecord] = ()
     growth: Sequence[GrowthRecord] = ()
 
-    def tables(self) -> list[str]:
-        """One table for each train, and the growth with the number of pairs."""
-        return [*self.tables_of_trains(), "## Chains of pairs", "", *self.table_of_chains()]
-
-    def table_of_chains(self) -> list[str]:
-        """How preparation and run grow with the pairs of a chain."""
-        return table(_CHAINS, self.growth)
-
-    def tables_of_trains(self) -> list[str]:
-        """What each train does, and all methods on it."""
-        lines = []
-        for train in self.trains:
-            ripple = (f"{name} {each['peak_to_peak']:.4g} ({each['rms']:.4g})" for name, each in train.outputs.items())
-            lines += [
-                f"## {train.family}",
-                "",
-                f"{train.positions} positions over {train.turns:g} turns, {len(train.rippling)} rippling pairs, "
-                f"{train.links} lively links.",
-                f"Peak-to-peak (rms) ripple in degrees: {', '.join(ripple)}.",
-                "",
-                *table(_METHODS, [row for row in self.rows if row.family == train.family]),
-            ]
-        return lines
-
-
-_METHODS: dict[str, Callable[[MotionRecord], str]] = {
-    "method": lambda row: row.method,
-    "greatest error": lambda row: number_text(row.error, ".1e", " deg"),
-    "rms error": lambda row: number_text(row.rms, ".1e", " deg"),
-    "of": lambda row: row.output,
-    "time": lambda row: seconds_text(row.seconds),
-    "time over direct": lambda row: number_text(row.ratio, ".3g"),
-    "links/s": lambda row: number_text(row.rate, ".2g"),
-    "prepared": lambda row: seconds_text(row.prepared),
-    "memory": lambda row: number_text(row.megabytes, ".1f", " MB"),
-    "": lambda row: row.note,
-}
-_CHAINS: dict[str, Callable[[GrowthRecord], str]] = {
-    "pairs": lambda row: str(row.pairs),
-    "declare": lambda row: seconds_text(row.declared),
-    "windows": lambda row: seconds_text(row.windows),
-    "spread and laws": lambda row: seconds_text(row.prepared),
-    "positions": lambda row: str(row.positions),
-    "run": lambda row: seconds_text(row.seconds),
-    "links/s": lambda row: f"{row.rate:.2g}",
-    "positions at once": lambda row: str(row.chunk),
-}

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from geartrain.spherical.graph_set import Aim
-from studies.records import StudyRecords, error_text, number_text, seconds_text, table
+from studies.records import StudyRecords
 
 TARGET = 1e-11
 """Residual of the radii (rad) to which both ways to them are timed."""
@@ -134,20 +134,6 @@ class SphereRecords(StudyRecords):
     fits: Sequence[FitRecord]
     closures: Sequence[ClosureRecord]
 
-    def tables(self) -> list[str]:
-        """Tables of packings, their Newton steps, fits and closures."""
-        lines = ["## Circles", "", *table(_PACKINGS, self.packings)]
-        lines += ["## Residual (rad) after each Newton step", "", *_step_table(self.packings)]
-        return [
-            *lines,
-            "## Axes moved",
-            "",
-            *table(_FITS, self.fits),
-            "## Closure",
-            "",
-            *table(_CLOSURES, self.closures),
-        ]
-
 
 def growth(gears: Sequence[int], seconds: Sequence[float], minimum: int = 90) -> float:
     """The exponent p of seconds ~ gears^p, by least squares of logarithms over `minimum` gears and more."""
@@ -156,52 +142,3 @@ def growth(gears: Sequence[int], seconds: Sequence[float], minimum: int = 90) ->
     return float(np.polyfit(n[kept], s[kept], 1)[0])
 
 
-def _step_table(rows: Sequence[PackRecord]) -> list[str]:
-    columns: dict[str, Callable[[PackRecord], str]] = {
-        "graph": lambda row: row.family,
-        "gears": lambda row: str(row.gears),
-    }
-    for at in range(max(len(row.steps) for row in rows)):
-        columns[str(at + 1)] = lambda row, at=at: f"{row.steps[at][1]:.0e}" if at < len(row.steps) else ""  # type: ignore[misc]
-    return table(columns, rows)
-
-
-_PACKINGS: dict[str, Callable[[PackRecord], str]] = {
-    "graph": lambda row: row.family,
-    "gears": lambda row: str(row.gears),
-    "meshes": lambda row: str(row.meshes),
-    "Newton steps": lambda row: str(len(row.counted)),
-    "time": lambda row: seconds_text(row.newton),
-    "sweeps": lambda row: f"{row.sweeps}" if row.left < TARGET else f"{row.sweeps}, {row.left:.0e} left",
-    "time over Newton": lambda row: f"{'' if row.left < TARGET else 'over '}{row.ratio:.3g}",
-    "whole packing": lambda row: seconds_text(row.seconds),
-    "residual": lambda row: f"{row.residual:.1e}",
-    "in 40 digits": lambda row: f"{row.judged:.1e}",
-    "overlaps": lambda row: str(row.overlaps),
-}
-_FITS: dict[str, Callable[[FitRecord], str]] = {
-    "graph": lambda row: row.family,
-    "gears": lambda row: str(row.gears),
-    "aim": lambda row: row.aim,
-    "teeth": lambda row: f"{row.minimum} to {row.most}",
-    "steps": lambda row: str(row.steps),
-    "time": lambda row: seconds_text(row.seconds),
-    "with packing": lambda row: seconds_text(row.whole),
-    "sizes": lambda row: seconds_text(row.sizing),
-    "residual": lambda row: f"{row.residual:.1e}",
-    "exact": lambda row: "yes" if row.exact else "no",
-    "moved": lambda row: f"{row.moved:.2g} deg",
-}
-_CLOSURES: dict[str, Callable[[ClosureRecord], str]] = {
-    "loops of": lambda row: row.family,
-    "method": lambda row: row.method,
-    "teeth": lambda row: f"10^{row.power}",
-    "loops": lambda row: str(row.loops),
-    "error": lambda row: error_text(row.error),
-    "forecast": lambda row: number_text(row.bound, ".1e"),
-    "wrong": lambda row: str(row.wrong),
-    "at the best tolerance": lambda row: str(row.best),
-    "by forecast": lambda row: "-" if row.bound is None else str(row.own),
-    "unclear": lambda row: "-" if row.bound is None else str(row.unclear),
-    "time a loop": lambda row: seconds_text(row.seconds),
-}

@@ -11,19 +11,19 @@ from math import exp, log, pi
 from pathlib import Path
 
 import numpy as np
+from studies.page import with_numbers
+from studies.records import span, table
 
 from geartrain.errors import GearTrainError
 from geartrain.workshop import ToothSizes
 from geartrain.workshop.sizes.size_design import equal_depth_radii
 from geartrain.workshop.sizes.size_search import SizeSearch
-from studies.page import with_numbers
-from studies.records import span, table
 
 DOCS = Path(__file__).resolve().parents[1]
 PAGE, DATA = DOCS / "best-radii.md", DOCS / "data" / "best_radii.json"
 COUNTS = (10, 12, 15, 20, 24, 30, 40, 48, 60, 80, 96, 120)
 STEEPEST = 5  # of a ratio of counts
-SHOWN = ((12, 24), (15, 30), (15, 60), (20, 60), (24, 48), (48, 24), (48, 48), (48, 96), (60, 15), (96, 24), (96, 96))
+SHOWN = ((12, 24), (15, 60), (24, 48), (48, 48), (48, 96), (60, 15), (96, 96))
 FRICTION, HALF_ANGLE, WINDOW = 0.2, pi / 6, 0.5
 Row = dict[str, float]
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
@@ -171,12 +170,6 @@ def test_half_of_the_drawn_teeth_close() -> None:
 
 
 # records -------------------------------------------------------------------------------------------------------------
-
-
-def test_records_survive_json_and_print_as_tables(records: SphereRecords) -> None:
-    again = SphereRecords.from_dict(json.loads(json.dumps(records.to_dict())))
-    assert again.to_markdown() == records.to_markdown()
-    assert "| hull | 29 | 54 |" in again.to_markdown()
 
 
 def test_steps_count_to_the_target_and_ratios_with_them(records: SphereRecords) -> None:

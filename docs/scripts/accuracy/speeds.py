@@ -6,7 +6,6 @@ from fractions import Fraction
 from statistics import median
 from typing import Any
 
-from accuracy import Comparison, comparisons
 from studies.left_out_records import LeftOutRecords
 from studies.measurement import LIMIT
 from studies.page import error_over_time, picture
@@ -25,6 +24,8 @@ from studies.tooth_number_records import (
     TeethRecord,
     TeethRecords,
 )
+
+from accuracy import Comparison, comparisons
 
 PUBLIC = 44.7  # s: time that the public brute-force tool states for the printed question
 QUESTION = "tropical month", 3, "30:100", "15:40"
@@ -106,9 +107,7 @@ def _miss(row: TeethRecord) -> str:
 
 
 def _closures(sphere: SphereRecords, method: str, power: int) -> list[Any]:
-    return [
-        row for row in sphere.closures if (row.method, row.power) == (method, power) and row.family != "planetary"
-    ]
+    return [row for row in sphere.closures if (row.method, row.power) == (method, power) and row.family != "planetary"]
 
 
 def _speeds() -> dict[str, object]:
@@ -119,7 +118,9 @@ def _speeds() -> dict[str, object]:
         if method == "exact" and row.seconds and links > 500 and family not in ("grid", "drift")
     }
     raw = [row.error for (_, _, method), row in speed.items() if method == "scipy spsolve" and row.error is not None]
-    refined = [row.error for (_, _, method), row in speed.items() if method == "refined floats" and row.error is not None]
+    refined = [
+        row.error for (_, _, method), row in speed.items() if method == "refined floats" and row.error is not None
+    ]
     grid = speed["grid", 9_525, "refined floats"]
     drift, one = speed["drift", 100_001, "exact"], speed["drift", 100_001, "exact, one output"]
     tree = speed["tree", 1_000_001, "exact"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from math import log
 
-from accuracy import Comparison, comparisons
 from studies.dynamics_study import RESTITUTIONS, DynamicsRecords, PairRecord
 from studies.mesh_study import DIRECT, SCANNED, TABULATED
 from studies.motion_records import ADAPTIVE, BOUND, FIXED, INDEPENDENT, LAGGED, MotionRecord, MotionRecords
@@ -12,10 +11,17 @@ from studies.page import error_over_time, picture
 from studies.records import Record, error_text, number, read, seconds_text, span
 from studies.shape_study import ShapeRecords, WorkRecord, quickest
 
+from accuracy import Comparison, comparisons
+
 SAMPLED = "sampled, 100000"
 MILLION = 1_000_000  # angles to which times of transmission functions are scaled, building included
 PAIRS = ("48/96", "3/7", "100000/100000")
-TRAINS = ("moon-triangular", "price-1974, triangular teeth", "freeth-2021, pins", "freeth-2021, pins and triangular teeth")
+TRAINS = (
+    "moon-triangular",
+    "price-1974, triangular teeth",
+    "freeth-2021, pins",
+    "freeth-2021, pins and triangular teeth",
+)
 RIGID, SOFT = "rigid steps", "teeth that yield"
 MINIMUM = 1e-16
 
@@ -209,7 +215,11 @@ def _dynamics() -> dict[str, object]:
         "steps": f"{last.steps:,}",
         "step_rate": span([2 * row.steps / row.seconds / 1e6 for row in rows if row.steps > 30_000]),
         "events": span((pair_rows(each, "events")[0].seconds for each in RESTITUTIONS), seconds_text),
-        "near_steps": " and ".join(f"{row.steps:,}" for row in records.train if row.steps > 50_000 and not row.stiffness and not row.restitution),
+        "near_steps": " and ".join(
+            f"{row.steps:,}"
+            for row in records.train
+            if row.steps > 50_000 and not row.stiffness and not row.restitution
+        ),
         "calm": number(apart(0.0, "stands")),
         "calm_share": number(100 * apart(0.0, "apart")),
         "chaos": number(apart(0.3, "stands")),

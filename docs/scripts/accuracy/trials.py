@@ -5,11 +5,12 @@ from __future__ import annotations
 from math import log10
 from typing import Any
 
-from accuracy import Comparison, comparisons
 from studies.cut_pair_trials import EVERY, PLACES
 from studies.page import HUES, error_over_time, picture
 from studies.records import error_text, number, read, seconds_text, span, table
 from studies.uncertainty_records import COUNTS, DISPLACED, SINGLY, RateRecord, UncertaintyRecords, at_one
+
+from accuracy import Comparison, comparisons
 
 UNITS = {COUNTS: "combination", PLACES: "tooth pitch", EVERY: "tooth pitch", DISPLACED: "tooth pitch"}
 NAMES = {
@@ -50,7 +51,7 @@ def figures() -> dict[str, object]:
 def rates() -> str:
     """Batches against loops over single solutions."""
     found = []
-    for loop, batch in _pairs():
+    for _loop, batch in _pairs():
         unit = UNITS[batch.family]
         found.append(
             Comparison(

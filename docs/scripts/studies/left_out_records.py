@@ -112,4 +112,3 @@ class LeftOutRecords(StudyRecords):
     def lost(self) -> list[LeftOutRecord]:
         """Answers that lack the train itself: there must be none."""
         return [row for row in self.rows if (row.is_whole and row.listed and row.rank is None) or row.reached is False]
-

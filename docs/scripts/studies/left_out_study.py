@@ -81,7 +81,9 @@ def left_out(
             step(known, trees[part], (*part, lost), limit, short)
     order = {(*part, lost): at for at, (part, lost) in enumerate(_questions(trees))}
     rows = sorted((key for key in known if key in order), key=order.__getitem__)
-    return LeftOutRecords(TITLE, [_tree_record(*part, tree) for part, tree in trees.items()], [known[key] for key in rows])
+    return LeftOutRecords(
+        TITLE, [_tree_record(*part, tree) for part, tree in trees.items()], [known[key] for key in rows]
+    )
 
 
 def _add_new(known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
@@ -253,8 +255,6 @@ def _tree_record(name: str, part: str, tree: SpurTree) -> TreeRecord:
 def _is_exact(tree: SpurTree) -> bool:
     """Whether no pointer has a tolerance."""
     return all(dial.is_exact for dial in evidence_question(lost_evidence(tree, tree.able[:1])).problem.dials)
-
-
 
 
 def continued() -> LeftOutRecords:

@@ -16,9 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.teeth import PairVerdict
 from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
-from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
+from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from studies.measurement import Step, Task, measure, taken

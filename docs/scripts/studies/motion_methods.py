@@ -37,7 +37,6 @@ Floats = NDArray[np.float64]
 Ask = Callable[[Floats], Floats]
 
 
-
 class Effort(NamedTuple):
     """Positions in all, rounds whose median counts, positions that are marched to, positions judged in 40 digits."""
 

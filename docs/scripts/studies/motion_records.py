@@ -96,4 +96,3 @@ class MotionRecords(StudyRecords):
     rows: Sequence[MotionRecord]
     trains: Sequence[TrainRecord] = ()
     growth: Sequence[GrowthRecord] = ()
-

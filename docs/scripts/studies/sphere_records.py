@@ -140,5 +140,3 @@ def growth(gears: Sequence[int], seconds: Sequence[float], minimum: int = 90) ->
     n, s = np.log(np.array([gears, seconds], dtype=float))
     kept = np.array(gears) >= minimum
     return float(np.polyfit(n[kept], s[kept], 1)[0])
-
-

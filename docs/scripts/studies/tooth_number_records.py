@@ -89,4 +89,3 @@ class TeethRecords(StudyRecords):
         """The rows, question by question."""
         keys = dict.fromkeys(row.question for row in self.rows)
         return [[row for row in self.rows if row.question == key] for key in keys]
-

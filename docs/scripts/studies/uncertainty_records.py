@@ -101,5 +101,3 @@ def slope(rows: Sequence[ErrorRecord]) -> tuple[float, float]:
 def at_one(rows: Sequence[ErrorRecord]) -> float:
     """What the error would be with one trial, by the geometric mean of errors times roots of trials."""
     return exp(sum(log(row.rms) + log(row.trials) / 2 for row in rows) / len(rows))
-
-

@@ -146,5 +146,3 @@ def _checked(row: RateRecord, error: float | None, differing: int, checked: int,
 
 def _estimates(case: str, effort: Effort) -> list[ErrorRecord]:
     return errors_of(case, jams(case, effort.blocks), effort.numbers)
-
-

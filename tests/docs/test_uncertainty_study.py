@@ -96,7 +96,7 @@ def test_counts_in_a_batch_are_solved_trains(records: UncertaintyRecords) -> Non
         assert abs(speeds["metonic"]) == month
         assert float(requested.told()["metonic"][0][at]) == pytest.approx(float(speeds["metonic"]), rel=1e-14)
     rates = [row for row in records.rates if row.family == COUNTS]
-    assert len(rates) == 4
+    assert len(rates) == 3
     assert rates[0].method == SINGLY
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import log
 
 from studies.dynamics_study import RESTITUTIONS, DynamicsRecords, PairRecord
-from studies.mesh_study import DIRECT, SCANNED, TABULATED
+from studies.mesh_study import DIRECT, TABULATED
 from studies.motion_records import ADAPTIVE, BOUND, FIXED, INDEPENDENT, LAGGED, MotionRecord, MotionRecords
 from studies.page import error_over_time, picture
 from studies.records import Record, error_text, number, read, seconds_text, span
@@ -127,7 +127,6 @@ def _mesh() -> dict[str, object]:
         "tabulated": f"{max(errors(TABULATED)):.1e}",
         "sampled": span(errors(SAMPLED), lambda value: f"{value:.0e}"),
         "sampled_speed": number(100 * max(errors(SAMPLED, "speed"))),
-        "scan": span(rows[pair, SCANNED, "path"].seconds / rows[pair, DIRECT, "path"].seconds for pair in pairs),
         "built": span((rows[pair, DIRECT, "path"].seconds for pair in pairs), seconds_text),
         "growth": f"{large.seconds / small.seconds:.1f}",
     }
@@ -255,7 +254,6 @@ def draw() -> None:
             "geartrain: direct": [DIRECT],
             "geartrain: tabulated": [TABULATED],
             "samples, 100 to 100,000": [f"sampled, {count}" for count in counts],
-            "scan of all tooth pairs": [SCANNED],
         }
         points = {
             name: [(seconds(mesh, "48/96", way), mesh["48/96", way, "error"].error) for way in methods]

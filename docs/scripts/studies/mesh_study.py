@@ -21,14 +21,14 @@ from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from studies.measurement import Step, Task, measure, taken
-from studies.mesh_methods import Sampled, plain_transmission, scanned
+from studies.mesh_methods import Sampled, plain_transmission
 from studies.records import StudyRecords
 from studies.reference_solutions import reference
 
 Floats = NDArray[np.float64]
 Function = Callable[[Floats], Floats]
 
-DIRECT, SCANNED, TABULATED = "direct", "scan of all couples", "tabulated"
+DIRECT, TABULATED = "direct", "tabulated"
 QUANTITIES = ("error", "speed")
 _PAIRS: tuple[tuple[int, int, float, float | None], ...] = (
     # teeth, half angle in deg, excess (None: a third of the way from jamming to losing contact)
@@ -102,14 +102,13 @@ def _steps(quick: bool) -> Iterator[Step]:
         yield from _of_a_pair(_Pair(z1, z2, beta, excess, angles), _SAMPLES[:2] if quick else _SAMPLES)
     for z in () if quick else _GROWTH:
         pair = _Pair(z, z, 30.0, None, angles, "growth ", 1 / 2)
-        for method in (DIRECT, SCANNED):
-            yield _step(pair, method, "path", partial(pair.build, method))
+        yield _step(pair, DIRECT, "path", partial(pair.build, DIRECT))
 
 
 def _of_a_pair(pair: _Pair, samples: Sequence[int]) -> Iterator[Step]:
     """Building, then evaluating, by every method."""
     sampled = [f"sampled, {count}" for count in samples]
-    methods = (DIRECT, SCANNED, *sampled, TABULATED)
+    methods = (DIRECT, *sampled, TABULATED)
     for method in methods:
         yield _step(pair, method, "path", partial(pair.build, method))
     for quantity in QUANTITIES:
@@ -159,8 +158,6 @@ class _Pair:
         sizes = self._fresh()
         transmission = plain_transmission(sizes)
         name, _, count = method.partition(", ")
-        if name == SCANNED:
-            return scanned(sizes)
         if name == "sampled":
             return Sampled(sizes, int(count))
         _ = transmission.intervals

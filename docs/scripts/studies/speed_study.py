@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections import deque
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,7 +13,6 @@ import numpy as np
 
 from geartrain import GearTrain, load
 from geartrain.kinematics import WillisEquation, WillisSystem
-from geartrain.kinematics.circuits import find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.kinematics.speeds.float_speeds import prepare, solve_floats
@@ -22,7 +20,7 @@ from geartrain.kinematics.speeds.padded_rows import PaddedRows
 from geartrain.numerics.arrays import Floats
 from studies.measurement import Task, measure
 from studies.records import StudyRecords
-from studies.train_families import FAMILIES, Data
+from studies.train_families import FAMILIES
 
 SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
 _GRID_EXACT = 2_100
@@ -58,34 +56,29 @@ class SpeedRecords(StudyRecords):
 def speeds(most: int = 1_000_000, minimum: int = 0, families: Collection[str] = tuple(FAMILIES)) -> SpeedRecords:
     """Measure all methods on `families` from `minimum` to `most` links; the largest size on trees only."""
     rows: list[SpeedRecord] = []
-    for family, train, data in _trains(most, minimum, families):
+    for family, train in _trains(most, minimum, families):
         print(family, len(train.declaration.links), file=sys.stderr, flush=True)
-        rows += _measure_all(family, train, data)
+        rows += _measure_all(family, train)
     return SpeedRecords("Speeds: error against run time", rows)
 
 
-def _trains(most: int, minimum: int, families: Collection[str]) -> Iterator[tuple[str, GearTrain, Data | None]]:
-    """Two shipped trains, then each family as it grows, with the data it is declared from."""
+def _trains(most: int, minimum: int, families: Collection[str]) -> Iterator[tuple[str, GearTrain]]:
+    """Two shipped trains, then each family as it grows."""
     for name in ("pennestri-2002", "freeth-2021") if minimum == 0 else ():
-        yield name, load(name), None
+        yield name, load(name)
     for family in families:
         for size in SIZES:
             if minimum <= size <= most and (size < SIZES[-1] or family == "tree"):
-                data = FAMILIES[family](size)
-                yield family, GearTrain.declare(data), data
+                yield family, GearTrain.declare(FAMILIES[family](size))
 
 
-def _measure_all(family: str, train: GearTrain, data: Data | None) -> list[SpeedRecord]:
+def _measure_all(family: str, train: GearTrain) -> list[SpeedRecord]:
     links, last = len(train.declaration.links), list(train.declaration.links)[-1]
     rows: list[SpeedRecord] = []
 
     def take(method: str, task: Task, error_of: Callable[[Any], float | None] = lambda _: None) -> None:
         rows.append(SpeedRecord(family, links, method, *measure(task, error_of)))
 
-    declared = train.declaration
-    if data is not None:
-        take("(declare: checked models from plain data)", lambda: GearTrain.declare(data))
-        take("(find the circuits)", lambda: find_circuits(declared, find_tree(declared)))
     system = train.equations()
     coupled = family == "grid" and links > _GRID_EXACT
     drifted = family == "drift" and links > _DRIFTED
@@ -102,12 +95,6 @@ def _measure_all(family: str, train: GearTrain, data: Data | None) -> list[Speed
     if drifted:
         return rows
     truth = None if exact is None else np.array([float(exact[link]) for link in train.declaration.links])
-    if family in ("chain", "drift", "tree", "lattice"):
-        take(
-            "walking in floats",
-            lambda: _walk(train),
-            lambda found: _error([found[link] for link in train.declaration.links], truth),
-        )
     matrix, equations = prepare(system)
     shuffled = _Shuffled(matrix, links)
     moving = [at for at, link in enumerate(train.declaration.links) if link in matrix.at]
@@ -160,24 +147,6 @@ def _holds(row: WillisEquation, speeds: Mapping[str, Fraction]) -> bool:
         top = top * speed.denominator + coefficient * speed.numerator * bottom
         bottom *= speed.denominator
     return top * row.right.denominator == row.right.numerator * bottom
-
-
-def _walk(train: GearTrain) -> dict[str, float]:
-    """An ordinary train link by link in floats, the plainest loop there is."""
-    edges: dict[str, list[tuple[str, float]]] = {}
-    for circuit in train.circuits:
-        edges.setdefault(circuit.i, []).append((circuit.j, -circuit.a / circuit.b))
-        edges.setdefault(circuit.j, []).append((circuit.i, -circuit.b / circuit.a))
-    (start, speed), *_ = train.declaration.case(None).inputs.items()
-    speeds = {train.declaration.frame: 0.0, start: float(speed)}
-    queue = deque([start])
-    while queue:
-        here = queue.popleft()
-        for there, ratio in edges.get(here, ()):
-            if there not in speeds:
-                speeds[there] = speeds[here] * ratio
-                queue.append(there)
-    return speeds
 
 
 def _compiled(matrix: PaddedRows, equations: Sequence[WillisEquation]) -> tuple[Any, Any]:

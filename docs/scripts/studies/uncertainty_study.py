@@ -79,15 +79,14 @@ def _counts(effort: Effort) -> list[RateRecord]:
     ways: list[tuple[str, int, Callable[[], Any]]] = [
         (SINGLY, effort.counted, partial(requested.singly, effort.counted)),
         (f"fit or not, {len(requested.question.witnesses)} outputs, drawn", effort.combinations, requested.decided),
-        ("the same, all in a row", requested.followed, requested.neighbours),
         (f"speeds of {len(requested.question.outputs)} outputs, with bounds", effort.combinations, requested.told),
     ]
     rows, singles = _measured(COUNTS, case, 1, ways, effort.rounds)
     error, share = requested.off(singles)
     differing = requested.differing(singles)
     fitting = sum(fits for _, fits in singles)
-    notes = ("", f"{fitting} of those checked fit", "", f"errors are {share:.2g} of their bounds at most")
-    checks = ((None, 0, 0), (None, differing, len(singles)), (None, 0, 0), (error, 0, 0))
+    notes = ("", f"{fitting} of those checked fit", f"errors are {share:.2g} of their bounds at most")
+    checks = ((None, 0, 0), (None, differing, len(singles)), (error, 0, 0))
     return [_checked(row, *check, note) for row, check, note in zip(rows, checks, notes, strict=True)]
 
 

@@ -58,9 +58,9 @@ def test_the_quick_run_finds_every_train_again(quick: LeftOutRecords) -> None:
     assert len(rows) == len(quick.rows) == len(quick.whole) == 1 + (4 + 6) + (3 + 3)
     assert not quick.lost
     drum = rows["vitruvius-hodometer", "drum"]  # 1 > 400: the counts are the bounds
-    assert (drum.added, drum.mechanisms, drum.rank) == (1, [0, 1], [1, 1])
+    assert (drum.added, drum.mechanisms, drum.rank) == (1, [0, 1], (1, 1))
     pivot = rows["isfahan-astrolabe-1221", "pivot"]  # (8, 13), (16, 26), (24, 39), (32, 52), beside two equal wheels
-    assert (pivot.added, pivot.mechanisms, pivot.rank) == (2, [0, 0, 8], [1, 8])
+    assert (pivot.added, pivot.mechanisms, pivot.rank) == (2, [0, 0, 8], (1, 8))
     assert all(row.rank[0] <= row.rank[1] <= sum(row.mechanisms) for row in quick.whole if row.rank)
 
 

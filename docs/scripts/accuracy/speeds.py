@@ -69,12 +69,20 @@ def table() -> str:
         found.append(
             Comparison(name, error_text(own.error), own.seconds, method, error_text(other.error), other.seconds)
         )
-    for name, way in ((QUESTION, EVERY), (QUESTION, WALKED), (PI, PAIRS)):
-        own, other = last(name, PRODUCTS), last(name, way)
-        what = f"tooth numbers: {name[0]}, {name[1]} stages, counts {name[2]}" + (
-            f" over {name[3]}" if name[3] != name[2] else ""
+    for question, way in ((QUESTION, EVERY), (QUESTION, WALKED), (PI, PAIRS)):
+        best, best_of_way = last(question, PRODUCTS), last(question, way)
+        ratio, stages, wheels, pinions = question
+        counts = wheels if wheels == pinions else f"{wheels} over {pinions}"
+        found.append(
+            Comparison(
+                f"tooth numbers: {ratio}, {stages} stages, counts {counts}",
+                _miss(best),
+                best.seconds,
+                "loop over every set" if way == EVERY else way,
+                _miss(best_of_way),
+                best_of_way.seconds,
+            )
         )
-        found.append(Comparison(what, _miss(own), own.seconds, f"{way} (tables)", _miss(other), other.seconds))
     sphere = SphereRecords.read("sphere")
     for family in ("hull", "trapezohedron"):
         row = [each for each in sphere.packings if each.family == family][-1]
@@ -99,7 +107,7 @@ def table() -> str:
             median(row.seconds for row in floats),
         )
     )
-    return comparisons(found).replace("every set (tables)", "loop over every set").replace(" (tables)", "")
+    return comparisons(found)
 
 
 def _miss(row: TeethRecord) -> str:
@@ -204,7 +212,7 @@ def _found_again() -> dict[str, object]:
         "told_only": sum(rank[1] == 1 for rank in told),
     }
     times = [row.seconds for row in records.whole if row.seconds is not None]
-    return {name: f"{value:,}" for name, value in numbers.items()} | {"search": seconds_text(median(times))}
+    return {**{name: f"{value:,}" for name, value in numbers.items()}, "search": seconds_text(median(times))}
 
 
 def _sphere() -> dict[str, object]:

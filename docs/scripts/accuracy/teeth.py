@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import log
 
 from studies.dynamics_study import RESTITUTIONS, DynamicsRecords, PairRecord
@@ -99,7 +100,7 @@ SHAPES = {
 METHODS = {ADAPTIVE: "time integration, RK45", FIXED: "time integration, RK4"}
 
 
-def _best(rows: list[WorkRecord], problem: str, method: str) -> WorkRecord:
+def _best(rows: Sequence[WorkRecord], problem: str, method: str) -> WorkRecord:
     """The quickest run to 1e-12, or else the one with the smallest error."""
     own = [row for row in rows if (row.problem, row.method) == (problem, method)]
     return quickest(own, 1e-12) or min(own, key=lambda row: row.error or 1.0)
@@ -205,7 +206,7 @@ def _dynamics() -> dict[str, object]:
 
     def apart(restitution: float, what: str) -> float:
         one, other = [row for row in records.train if row.restitution == restitution and not row.stiffness][-2:]
-        return abs(getattr(one, what) - getattr(other, what))
+        return float(abs(getattr(one, what) - getattr(other, what)))
 
     rows = [row for each in RESTITUTIONS for row in pair_rows(each, RIGID)]
     last = pair_rows(0.0, RIGID)[-1]

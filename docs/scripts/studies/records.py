@@ -16,7 +16,8 @@ Columns = Mapping[str, Callable[[Any], str]]
 class Record(dict[str, Any]):
     """An object of a data file; its keys are attributes too."""
 
-    __getattr__ = dict.__getitem__
+    def __getattr__(self, name: str) -> Any:
+        return self[name]
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from studies.records import StudyRecords
 from studies.train_families import FAMILIES
 
 SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
+_TREES_ONLY = 1_000_000  # links
 _GRID_EXACT = 2_100
 _FLINT_LINKS = 1_100
 _ALL_LINKS = 200_000
@@ -68,7 +69,7 @@ def _trains(most: int, minimum: int, families: Collection[str]) -> Iterator[tupl
         yield name, load(name)
     for family in families:
         for size in SIZES:
-            if minimum <= size <= most and (size < SIZES[-1] or family == "tree"):
+            if minimum <= size <= most and (size < _TREES_ONLY or family == "tree"):
                 yield family, GearTrain.declare(FAMILIES[family](size))
 
 

@@ -90,7 +90,6 @@ def test_memory_is_that_of_a_stretch_of_positions() -> None:
     case = MotionCase(MOON, MOON, ("moon",), 95.0, effort)
     case._trace()
     short, chunk, many = case.peaks.values()
-    assert many < 1.2 * case.memory["direct"]
     assert short < many < 16 * 2**23 / 2**20
     assert chunk == pytest.approx(many, rel=0.5)
 

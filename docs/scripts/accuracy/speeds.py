@@ -115,7 +115,7 @@ def _miss(row: TeethRecord) -> str:
 
 
 def _closures(sphere: SphereRecords, method: str, power: int) -> list[Any]:
-    return [row for row in sphere.closures if (row.method, row.power) == (method, power) and row.family != "planetary"]
+    return [row for row in sphere.closures if (row.method, row.power) == (method, power)]
 
 
 def _speeds() -> dict[str, object]:

@@ -22,11 +22,9 @@ class MotionRecord:
 
     links        that an error reaches and an output depends on
     seconds      for all positions, without preparation
-    megabytes    peak of memory that the positions take
     error, rms   greatest and root mean square error (deg) of the output that has the greatest, `output`; that of the
                  peak-to-peak ripple for the sum of ranges, and that of its rms for independent phases
     ratio        seconds over those of the direct composition in the same round
-    prepared     seconds from the declaration to the first position, every law and window found anew
     positions    that were worked out; marching is extrapolated from fewer to all
     """
 
@@ -34,12 +32,10 @@ class MotionRecord:
     links: int
     method: str
     seconds: float | None = None
-    megabytes: float | None = None
     error: float | None = None
     note: str = ""
     rms: float | None = None
     ratio: float | None = None
-    prepared: float | None = None
     positions: int = 0
     output: str = ""
 

@@ -118,7 +118,7 @@ def _percent(value: float | None) -> str:
 
 
 def main() -> None:
-    """Write the page, with `--data` from radii found anew."""
+    """Write the page, with `--data` after a new search."""
     if "--data" in sys.argv[1:]:
         text = ",\n".join(json.dumps(row) for row in find())
         DATA.write_text(f"[\n{text}\n]\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The pages of accuracy: figures and a picture of each, read from docs/data/; the text is the file NAME.md beside it.
+"""The pages of accuracy: figures and a picture of each, read from docs/data/; the text is NAME.md in this folder.
 
 speeds    speeds, tooth numbers, reconstruction, gears on a sphere: docs/accuracy.md
 teeth     transmission functions, tooth shapes, motion, dynamics: docs/mesh-accuracy.md

@@ -195,7 +195,7 @@ def _found_again() -> dict[str, object]:
     records = LeftOutRecords.read("left-out")
     ranks = [row.rank for row in records.whole if row.rank is not None]
     ranked = [row for row in records.rows if row.first is not None]
-    told = [row.told for row in records.rows if row.told is not None]
+    seen = [row.told for row in records.rows if row.told is not None]
     numbers = {
         "questions": records.possible,
         "trains": len({tree.train for tree in records.trees}),
@@ -207,9 +207,9 @@ def _found_again() -> dict[str, object]:
         "ranked": len(ranked),
         "first": sum(row.first == 1 for row in ranked),
         "only": sum(rank[1] == 1 for rank in ranks),
-        "told": len(told),
-        "told_first": sum(rank[0] == 1 for rank in told),
-        "told_only": sum(rank[1] == 1 for rank in told),
+        "seen": len(seen),
+        "seen_first": sum(rank[0] == 1 for rank in seen),
+        "seen_only": sum(rank[1] == 1 for rank in seen),
     }
     times = [row.seconds for row in records.whole if row.seconds is not None]
     return {**{name: f"{value:,}" for name, value in numbers.items()}, "search": seconds_text(median(times))}

@@ -39,8 +39,8 @@ def meshes() -> dict[tuple[str, str, str], Record]:
 
 def seconds(rows: dict[tuple[str, str, str], Record], pair: str, method: str) -> float:
     """Building and a million angles."""
-    built, asked = rows[pair, method, "path"], rows[pair, method, "error"]
-    return float(built.seconds + asked.seconds / asked.angles * MILLION)
+    built, evaluated = rows[pair, method, "path"], rows[pair, method, "error"]
+    return float(built.seconds + evaluated.seconds / evaluated.angles * MILLION)
 
 
 def motions() -> dict[tuple[str, str], MotionRecord]:
@@ -111,7 +111,7 @@ def _mesh() -> dict[str, object]:
     pairs = [pair for pair, method, what in rows if (method, what) == (DIRECT, "error")]
 
     def errors(method: str, what: str = "error") -> list[float]:
-        return [row.error for (_, name, asked), row in rows.items() if (name, asked) == (method, what)]
+        return [row.error for (_, name, quantity), row in rows.items() if (name, quantity) == (method, what)]
 
     def rate(method: str) -> list[float]:
         found = (rows[pair, method, "error"] for pair in pairs)
@@ -241,7 +241,7 @@ def _drawn() -> dict[str, object]:
 def _torques() -> dict[str, object]:
     rows = read("extremes").cases
     return {
-        "torques": f"{max(row.error for row in rows if row.name == 'power that circulates'):.0e}",
+        "torques": f"{max(row.error for row in rows if row.name == 'recirculating power'):.0e}",
         "friction": f"{max(row.error for row in rows if 'constant driver torque' in row.extreme):.0e}",
     }
 

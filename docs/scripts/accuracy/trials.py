@@ -23,23 +23,14 @@ SHOWN = (
     "differential near locking",
     "pin and slot of ratio 1 on an arm",
     "twelve pairs, 10 to 1 each",
-    "pairs in a row, an error in each",
+    "pairs in a row, each with a transmission error",
     "efficiency near friction locking",
     "clearance at an end of the window",
-    "teeth almost apart",
-    "power that circulates",
-    "pin near the offset",
-    "pairs that depend on each other",
+    "tips that hardly overlap",
+    "recirculating power",
+    "pin near the axis of its slot",
+    "four pairs in a ring",
 )
-TEXTS = {
-    "efficiency near friction locking": "efficiency near friction locking",
-    "clearance at an end of the window": "clearance at an end of its window",
-    "pairs in a row, an error in each": "pairs in a row, each with a transmission error",
-    "power that circulates": "recirculating power",
-    "teeth almost apart": "tips that hardly overlap",
-    "pin near the offset": "pin near the axis of its slot",
-    "pairs that depend on each other": "four pairs in a ring",
-}
 MINIMUM = 1e-17
 
 
@@ -82,8 +73,8 @@ def extremes() -> str:
     """The most extreme run of each chosen case."""
     cases = read("extremes").cases
     columns = {
-        "case": lambda row: TEXTS.get(row.name, row.name),
-        "how extreme": lambda row: row.extreme.removesuffix(": laws missed by"),
+        "case": lambda row: row.name,
+        "how extreme": lambda row: row.extreme,
         "error against 50 digits": lambda row: f"{row.error:.1e} {row.unit}",
         "bound checked by a test": lambda row: f"{row.bound:.0e}",
         "time": lambda row: seconds_text(row.seconds),
@@ -173,7 +164,7 @@ def draw() -> None:
         axes[1].legend(frameon=False, fontsize=8.5)
         units: dict[str, list[tuple[float, float]]] = {}
         for row in read("extremes").cases:
-            units.setdefault(row.unit.replace("of itself", "relative"), []).append((row.seconds, row.error))
+            units.setdefault(row.unit, []).append((row.seconds, row.error))
         error_over_time(axes[2], "Extreme cases against 50 digits", "error", units, MINIMUM)
         for line in axes[2].lines:
             line.set_linestyle("")

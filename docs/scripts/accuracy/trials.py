@@ -153,7 +153,7 @@ def draw() -> None:
         axes[0].invert_yaxis()
         axes[0].set_title("Rates", fontsize=11)
         axes[0].legend(frameon=False, fontsize=8.5)
-        labels = "uniform pitch deviations, exact reference", "normal pitch deviations, long run as reference"
+        labels = "uniform pitch deviations", "normal pitch deviations"
         for at, (case, label) in enumerate(zip(records.slopes, labels, strict=True)):
             rows = [row for row in records.errors if row.case == case]
             trials = [row.trials for row in rows]
@@ -161,7 +161,7 @@ def draw() -> None:
             axes[1].plot(trials, [row.expected for row in rows], color=HUES[at], lw=1, ls="--")
         axes[1].set(xscale="log", yscale="log", xlabel="trials", ylabel="rms error of a probability")
         axes[1].set_title("Estimates (dashed: independent trials)", fontsize=11)
-        axes[1].legend(frameon=False, fontsize=8.5)
+        axes[1].legend(frameon=False, fontsize=8.5, loc="upper right")
         units: dict[str, list[tuple[float, float]]] = {}
         for row in read("extremes").cases:
             units.setdefault(row.unit, []).append((row.seconds, row.error))

@@ -13,7 +13,7 @@ from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, finite
 
-MOST_NAMES = 12
+MOST_NAMES = 12  # names listed in a sentence; the others are counted
 _MAIN = 3  # maximum number of links in the summary of an answer
 
 

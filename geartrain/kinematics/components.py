@@ -294,7 +294,9 @@ def reduce_components(parts: Components) -> ReducedSystem:
 
 @dataclass(frozen=True)
 class SolvedPart:
-    """Links and circuits of a train, or of the part that affects requested links; components are computed on first use."""
+    """Links and circuits of a train, or of the part that affects requested links; components are computed on first
+    use.
+    """
 
     links: tuple[str, ...]
     frame: str

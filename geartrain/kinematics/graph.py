@@ -89,7 +89,9 @@ def adjacency_labels(train: Train) -> list[list[str]]:
 
 
 def adjacency_kinds(train: Train) -> list[list[str]]:
-    """Return the kind of the edge between any two links: revolute, gear or the kind of the coupling, "several", or ""."""
+    """Return the kind of the edge between any two links: revolute, gear or the kind of the coupling, "several", or
+    "".
+    """
     at = {link: position for position, link in enumerate(train.links)}
     cells = [["" for _ in at] for _ in at]
     for (first, second), _, kind, _, _ in _edges(train):

@@ -66,7 +66,9 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
 
 
 def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
-    """Return whether a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth overlap)."""
+    """Return whether a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth
+    overlap).
+    """
     wheel = train.wheels[name][1]
     return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
 
@@ -398,7 +400,9 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Return the answer with float speeds and error estimates, and with true errors if the exact solution is known."""
+        """Return the answer with float speeds and error estimates, and with true errors if the exact solution is
+        known.
+        """
         from geartrain.kinematics.speeds import solve_floats
 
         truth = solution.speeds if solution is not None else {}

@@ -49,7 +49,9 @@ _NEEDS = {
 def check_kinds(
     train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rules K1, K2 and K5: kinds of wheels that do not suit their axes, their mates, or their sides."""
+    """Yield findings of rules K1, K2 and K5: kinds of wheels that do not suit their axes, their mates, or their
+    sides.
+    """
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
         yield BuildFinding("K5", "error", _on_one_side(train, one, other, shared))
@@ -181,7 +183,9 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes, each once for all states."""
+    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes, each once for all
+    states.
+    """
     reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
@@ -275,7 +279,9 @@ _EQUAL_SKEW = 1e-6  # relative tolerance of distances: written positions are rou
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: the distance of skew axes differs from the sum of the pitch radii m z/(2 cos(helix))."""
+    """Yield findings of rule K4: the distance of skew axes differs from the sum of the pitch radii m z/(2
+    cos(helix)).
+    """
     axes = Axes(train, tree)
     for pair in pairs:
         if pair.parallel or any(wheel.helix_angle is None for wheel in pair.declared):

@@ -109,7 +109,9 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Canonical form of the meshes; it is equal for planets that mesh with the same central wheels in the same way."""
+        """Canonical form of the meshes; it is equal for planets that mesh with the same central wheels in the same
+        way.
+        """
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -336,7 +338,9 @@ def planet_contact(planet: Planet, mesh: AssemblyMesh, other: Planet | None = No
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each candidate."""
+    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each
+    candidate.
+    """
 
     count: Callable[[CountRef], Any]
     """Function that returns the value of a tooth count: a number or an array."""
@@ -493,7 +497,9 @@ def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
 
 
 class _EqualPlanets:
-    """Equal sets of planets on one carrier. They are evenly spaced unless the positions of all their axes are declared."""
+    """Equal sets of planets on one carrier. They are evenly spaced unless the positions of all their axes are
+    declared.
+    """
 
     def __init__(
         self,
@@ -684,7 +690,9 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the tip clearance between a planet and the mates of its neighbours [modules]; None if it is unknown."""
+        """Return the tip clearance between a planet and the mates of its neighbours [modules]; None if it is
+        unknown.
+        """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
             return None
@@ -700,7 +708,9 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle between neighbouring planets whose tips do not overlap [turn]; see `_tip_diameter`."""
+        """Return the smallest angle between neighbouring planets whose tips do not overlap [turn]; see
+        `_tip_diameter`.
+        """
         found = 0.0
         for mesh in _one_mesh_per_wheel(planet):
             reach = self._axis_distance(planet, planet.own(mesh))

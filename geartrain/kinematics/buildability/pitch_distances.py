@@ -306,7 +306,9 @@ class PitchDistances:
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return the distance of two axes as a root quantity and a factor; distances with the same root are comparable."""
+        """Return the distance of two axes as a root quantity and a factor; distances with the same root are
+        comparable.
+        """
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:

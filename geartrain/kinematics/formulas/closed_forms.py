@@ -34,7 +34,9 @@ _VALUES = (2, 3, 5, 7, 11, 13)  # primes: sums of their products rarely vanish
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """Factored polynomial: an integer times powers of variables times sums, no two of which have a variable in common."""
+    """Factored polynomial: an integer times powers of variables times sums, no two of which have a variable in
+    common.
+    """
 
     content: int
     """Integer factor; 0 for the zero polynomial."""
@@ -241,7 +243,9 @@ class ClosedForm(Result):
 
     @property
     def poles(self) -> tuple[str, ...]:
-        """Conditions for a zero denominator, as equations between products of tooth counts; empty if it cannot vanish."""
+        """Conditions for a zero denominator, as equations between products of tooth counts; empty if it cannot
+        vanish.
+        """
         sums = self._factored(self.formula.denominator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 

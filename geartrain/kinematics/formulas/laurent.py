@@ -41,7 +41,9 @@ class TooLongError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Laurent:
-    """Laurent polynomial: rational coefficients times monomials in `width` variables. Equal polynomials compare equal."""
+    """Laurent polynomial: rational coefficients times monomials in `width` variables. Equal polynomials compare
+    equal.
+    """
 
     width: int
     terms: Mapping[Exponents, Fraction]
@@ -121,7 +123,9 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the minimum exponent of every variable: the exponents of the largest monomial that divides all terms."""
+        """Return the minimum exponent of every variable: the exponents of the largest monomial that divides all
+        terms.
+        """
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
     def shifted(self, by: Exponents) -> Laurent:

@@ -287,7 +287,9 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of link `to` of a circuit over the speed of its other link, both relative to their carrier."""
+        """Return the speed of link `to` of a circuit over the speed of its other link, both relative to their
+        carrier.
+        """
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())

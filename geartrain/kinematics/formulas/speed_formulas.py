@@ -84,7 +84,9 @@ class OutputFormula(Result):
 
     @property
     def value(self) -> Fraction | None:
-        """Speed at the declared tooth counts and input speeds [unit of the train]; None if it is not determined there."""
+        """Speed at the declared tooth counts and input speeds [unit of the train]; None if it is not determined
+        there.
+        """
         values = [share.ratio.value for share in self.shares]
         if any(value is None for value in values):
             return None

@@ -52,7 +52,9 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graph of each component with an inconsistent loop; most gains are 1 in the chosen units of speed."""
+    """Return the gain graph of each component with an inconsistent loop; most gains are 1 in the chosen units of
+    speed.
+    """
     size = len(parts.links)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
     gains = {chord: _gain(parts, chord) for chord in parts.breaking}

@@ -264,7 +264,9 @@ class TJoin(NamedTuple):
 
 
 def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None:
-    """Return a smallest removal for one block with gains 1 and -1; None if it is not planar or has too many odd faces."""
+    """Return a smallest removal for one block with gains 1 and -1; None if it is not planar or has too many odd
+    faces.
+    """
     import networkx as nx
 
     nodes = _merged_edges(network)
@@ -524,7 +526,9 @@ def _better_packing(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
 
 
 def _loop_proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> list[LoopPacking]:
-    """Return loops that prove a matching to be smallest, if any are found: odd faces, or loops without a common mesh."""
+    """Return loops that prove a matching to be smallest, if any are found: odd faces, or loops without a common
+    mesh.
+    """
     apart: list[GainLoop] = []
     used: set[int] = set()
     for loop in sorted(odd, key=len):

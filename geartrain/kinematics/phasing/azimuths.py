@@ -88,7 +88,9 @@ class PitchPoints:
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """Constant c as an integer multiple of 1/`scale`, with azimuths measured from the first contact of each family."""
+        """Constant c as an integer multiple of 1/`scale`, with azimuths measured from the first contact of each
+        family.
+        """
         scale, found = self.scale, []
         for circuit, (p, q) in zip(self.circuits, self.part, strict=True):
             here, there = p.numerator * (scale // p.denominator), q.numerator * (scale // q.denominator)

@@ -1,4 +1,6 @@
-"""Phases of all meshes as one linear system modulo a pitch: residues of a cycle basis, link angles, distributed errors."""
+"""Phases of all meshes as one linear system modulo a pitch: residues of a cycle basis, link angles, distributed
+errors.
+"""
 
 from __future__ import annotations
 
@@ -460,7 +462,9 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integer pitches to add to the constants of meshes, which minimise the residues of loops with compound wheels."""
+        """Integer pitches to add to the constants of meshes, which minimise the residues of loops with compound
+        wheels.
+        """
         basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
@@ -536,7 +540,9 @@ class PhaseSystem:
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """Return the error of every mesh [pitch] at given angles of links [turn]; 0 for meshes whose loops cannot turn."""
+        """Return the error of every mesh [pitch] at given angles of links [turn]; 0 for meshes whose loops cannot
+        turn.
+        """
         return self._errors(self._link_rows, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
@@ -572,7 +578,9 @@ class PhaseSystem:
         return np.array(found)
 
     def _distribute(self, errors: Floats) -> list[float]:
-        """Return angles of links with distributed errors [turn]; carriers keep their angles unless gears connect them."""
+        """Return angles of links with distributed errors [turn]; carriers keep their angles unless gears connect
+        them.
+        """
         if self.coupling.rows:
             together = np.mod(self._iterate(self._link_rows, np.array(self.tree_angles), errors), 1.0)
             return [float(angle) for angle in together]

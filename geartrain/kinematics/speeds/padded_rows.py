@@ -78,7 +78,9 @@ class PaddedRows:
         return total + low
 
     def prescribe(self, x: Floats, right: Floats) -> None:
-        """Set prescribed speeds, which have rows with a single coefficient 1, to their exact values in `x`, in place."""
+        """Set prescribed speeds, which have rows with a single coefficient 1, to their exact values in `x`, in
+        place.
+        """
         single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
         own = self.coefficients[single, 0] == 1
         x[self.columns[single[own], 0]] = right[single[own]]

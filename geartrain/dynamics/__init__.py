@@ -7,7 +7,8 @@ here with `GearTrain.mechanics`. Both return results of the classes in this pack
 
 Torques are balanced with the transpose of the Willis system, A^T x + T = 0 (docs/torques.md, equation 3). The loss of
 each pair follows from the direction of power in the frame of its carrier (5). Transmission errors propagate by the same
-rows, a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2). Each error is evaluated at its driver's angle, which includes the errors of other pairs (3).
+rows, a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2). Each error is evaluated at its driver's
+angle, which includes the errors of other pairs (3).
 """
 
 from __future__ import annotations

@@ -3,8 +3,8 @@
 This module contains the arrays that the kernel reads, the kernel, and the composition that calls it. `ErrorComposition`
 evaluates equations (2) to (4) of docs/motion.md with arrays of all positions, one transmission function after the
 other. The kernel evaluates blocks of about two thousand positions, whose angles and errors stay in the processor's
-cache. A pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair. Without
-dead centres, delta is a periodic function of S, which is tabulated like any transmission function.
+cache. A pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair.
+Without dead centres, delta is a periodic function of S, which is tabulated like any transmission function.
 """
 
 from __future__ import annotations

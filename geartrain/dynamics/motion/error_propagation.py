@@ -1,9 +1,8 @@
 """Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved block by block (its section 2).
 
-a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta the error of the pair's driven side.
-This is the Willis system without the mean speeds. Blocks of the block triangular form (matching and strongly connected
-components) are
-solved once, exactly. Every link is then a sum over a few earlier links.
+a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta the error of the pair's driven
+side. This is the Willis system without the mean speeds. Blocks of the block triangular form (matching and strongly
+connected components) are solved once, exactly. Every link is then a sum over a few earlier links.
 
 Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
 docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Transmission functions have

@@ -2,9 +2,9 @@
 them.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
-equation (3) of docs/motion.md, which includes the errors of earlier pairs. The equation S_m(x) = kink + an integer number of periods
-is solved for x. The values of S_m at the ends of a narrow step determine the number of kinks in it, and each is located
-by false position. If a driver reverses, the step is divided at the reversal.
+equation (3) of docs/motion.md, which includes the errors of earlier pairs. The equation S_m(x) = kink + an integer
+number of periods is solved for x. The values of S_m at the ends of a narrow step determine the number of kinks in it,
+and each is located by false position. If a driver reverses, the step is divided at the reversal.
 """
 
 from __future__ import annotations

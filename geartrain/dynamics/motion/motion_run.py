@@ -300,7 +300,7 @@ class MotionRun(Tabular, Pictured):
         self.reversing_drivers |= search.reversing_drivers
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
-        """Repeat the run with random phases of the pairs that declare none.
+        """Repeat the run with random phases of the pairs that declare no phase.
 
         Parameters
         ----------
@@ -309,7 +309,7 @@ class MotionRun(Tabular, Pictured):
         seed : int
             Random seed, 0 or more.
         on_done : callable
-            Callback, as in `run`.
+            Progress function, as in `run`.
         """
         self.seed = seed if count else None
         if seed < 0:
@@ -321,42 +321,43 @@ class MotionRun(Tabular, Pictured):
             self.phase_statistics.append(other.statistics)
 
     def find_estimates(self, on_done: OnDone = _ignore) -> None:
-        """Compute the fast estimates, with their true error.
+        """Compute first-order estimates of peaks and rms values, with their true errors.
 
         Parameters
         ----------
         on_done : callable
-            Callback, as in `run`.
+            Progress function, as in `run`.
         """
         from geartrain.dynamics.motion.superposition import find_estimates
 
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
     def find_spectra(self, on_done: OnDone = _ignore) -> None:
-        """Compute the spectra by exact order.
+        """Compute the spectrum of every output by exact orders of the input.
 
         Parameters
         ----------
         on_done : callable
-            Callback, as in `run`.
+            Progress function, as in `run`.
         """
         self.spectra = find_spectrum(self.motion, self.turns, self.samples, on_done=on_done)
 
     @property
     def _position_columns(self) -> list[str]:
-        """Column names of a table of all positions."""
+        """Column names of the table of all positions."""
         names = self.motion.outputs
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the columns of one stretch: turns, then angle [rad], error [rad] and speed of each output.
+        """Return the table columns for some positions: revolutions of the input, then angle [rad], error [rad] and
+        speed [1] of each output.
 
         An angle is the sum of starting angle, mean motion and error.
 
         Parameters
         ----------
         passage : ErrorSamples
-            Stretch of the run.
+            Errors at consecutive positions of the run.
 
         Returns
         -------
@@ -371,7 +372,7 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if the last row of a table is not of this run.
+        """Raise an error if the last row of a partial table does not belong to this run.
 
         Parameters
         ----------
@@ -383,7 +384,7 @@ class MotionRun(Tabular, Pictured):
         Raises
         ------
         GearTrainError
-            If this run has other turns in this row, or fewer positions.
+            If this run has another position in this row, or fewer positions.
         """
         # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))

@@ -117,7 +117,7 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
     solution = own.solution(case)
     if not solution.verdict or not any(case.inputs.values()):
         what = f"'{declared.name}' does not move"
-        raise QuestionError(Problem(what, solution.verdict.text, "drive it from an input"))
+        raise QuestionError(Problem(what, solution.verdict.text, "declare a non-zero speed under `inputs`"))
     circuits, drivers = own.circuits_without(without), train.drivers(case.state, without)
     links = tuple(declared.links)
     parts = SolvedPart(links, declared.frame, circuits, tuple(case.inputs)).reduced.components

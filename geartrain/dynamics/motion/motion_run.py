@@ -391,4 +391,4 @@ class MotionRun(Tabular, Pictured):
         if rows > self.samples or row.split(",")[0] != repr(turns):
             why = f"its row {rows} is at {row.split(',')[0]} turns, but this run has {turns!r} there"
             fix = "give the same turns and samples, or omit --resume to start again"
-            raise GearTrainError(Problem("the partial file is of another run", why, fix))
+            raise GearTrainError(Problem("the partial file belongs to another run", why, fix))

@@ -61,7 +61,7 @@ class LoadGroup:
         return LoadGroup(self.count + other.count - twice, tuple(names[:_NAMED]))
 
 
-NOTHING = LoadGroup(0, ())
+NOTHING = LoadGroup(0, ())  # no load
 
 
 class LoadInfluence(NamedTuple):

@@ -84,7 +84,7 @@ def _forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, Li
     return {link: found.get(number, {number: Fraction(1)}) for link, number in at.items()}
 
 
-_ONE = Fraction(1)
+_ONE = Fraction(1)  # efficiency without loss
 
 
 @dataclass(frozen=True)

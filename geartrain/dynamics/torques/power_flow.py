@@ -236,31 +236,32 @@ class PowerFlow(Result):
     KEYS = ("streams", "loops")
 
     power_in: Fraction = Fraction(0)
-    """Power that enters the train [torque times the train's unit of speed]."""
+    """Power that enters the train [unit of torque times the train's unit of speed]."""
     streams: tuple[PowerStream, ...] = ()
     """Streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Losses by pair and bearing, where they are not 0."""
+    """Pair or bearing -> lost power, for losses other than 0, in the same unit."""
     loops: tuple[RecirculatingPower, ...] = ()
-    """Recirculating power, largest first."""
+    """Power loops, sorted by falling power."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:
-        """All nodes that power passes."""
+        """All nodes through which power flows."""
         return tuple(dict.fromkeys(end for stream in self.streams for end in (stream.source, stream.target)))
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in all pairs and bearings."""
+        """Power lost in all pairs and bearings [unit of torque times the train's unit of speed]."""
         return sum(self.losses.values(), Fraction(0))
 
     @property
     def shares(self) -> tuple[PowerLoss, ...]:
-        """Losses with their fractions of the total."""
+        """Losses with their fractions of the power input and of the total loss."""
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
     def surplus(self, node: PowerNode) -> Fraction:
-        """Return the power that a node takes in but neither passes on nor loses: 0 except at `in` and `out`.
+        """Return the power that flows into a node minus the power that flows out and the loss; 0 except at `in` and
+        `out`.
 
         Parameters
         ----------
@@ -270,7 +271,7 @@ class PowerFlow(Result):
         Returns
         -------
         Fraction
-            Power in less power out and losses [torque times the train's unit of speed].
+            Power in minus power out and losses [unit of torque times the train's unit of speed].
         """
         taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
         given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
@@ -278,7 +279,7 @@ class PowerFlow(Result):
 
 
 def find_power_flow(found: Torques) -> PowerFlow:
-    """Compute the power streams under given torques.
+    """Compute the power streams between shafts and pairs from computed torques.
 
     Parameters
     ----------
@@ -288,7 +289,7 @@ def find_power_flow(found: Torques) -> PowerFlow:
     Returns
     -------
     PowerFlow
-        Power flow, empty if torques are unknown or some pairs share load in an undetermined way.
+        Power flow; empty if torques are unknown, or if redundant pairs share the load in an undetermined way.
 
     Examples
     --------
@@ -319,14 +320,14 @@ def find_power_flow(found: Torques) -> PowerFlow:
 
 
 def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
-    """Return the shaft of every locked link, named by all its links."""
+    """Return the shaft of every locked link; the name of a shaft contains all its links."""
     pairs = list(locks)
     groups = joined_groups(chain(*pairs), pairs)
     return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
 
 
 def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
-    """Yield pairs and bearings with the power that each of their links gives them."""
+    """Yield each pair and bearing with the power that flows into it from each of its links."""
     speed = found.speeds
     for pair in found.pairs.values():
         yield (
@@ -345,7 +346,8 @@ def has_torque_units(train: Train, state: str | None) -> bool:
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
-    """Return the watts in one unit of power: N m times the train's unit of speed; None if either has no units.
+    """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are plain
+    numbers.
 
     Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
     have units.

@@ -72,7 +72,8 @@ class TrainMechanics(Shown):
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """Train with each equal planet as a separate link, so that planets share loads; this train if it has no copies.
+        """Train with each equal planet as a separate link, so that planets share loads; this train if it has no
+        copies.
         """
         # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self

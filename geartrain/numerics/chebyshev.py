@@ -67,7 +67,8 @@ class ChebyshevSeries:
 
 @lru_cache(maxsize=32)
 def points(count: int) -> tuple[Floats, Floats]:
-    """Return the Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to coefficients.
+    """Return the Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to
+    coefficients.
     """
     x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
     # at these points the matrix is as well conditioned as a cosine transform, so that inverting it is accurate

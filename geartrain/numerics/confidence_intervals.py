@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 CONFIDENCE = 0.95
-PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)
+PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)  # 95 % range, quartiles and median
 
 
 def deviations(confidence: float = CONFIDENCE) -> float:

@@ -170,7 +170,7 @@ def abridged_text(value: Fraction | int, most: int = 40) -> str:
     return f"({count_digits(top)} digits)" + (f"/({count_digits(bottom)} digits)" if bottom != 1 else "")
 
 
-_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
+_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))  # SI prefixes; below 1e-6 nano is used
 
 
 def watts_text(power: float) -> str:

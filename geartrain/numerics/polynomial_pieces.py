@@ -69,7 +69,8 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
 
 
 def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple[PolynomialPiece, float]:
-    """Return the piece that interpolates the curve at Chebyshev nodes, and the relative size of its last coefficients.
+    """Return the piece that interpolates the curve at Chebyshev nodes, and the relative size of its last
+    coefficients.
     """
     half, middle = (end - start) / 2, start + (end - start) / 2
     t = middle + half * np.concatenate([_NODES, _BETWEEN])
@@ -85,7 +86,8 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
 
 
 def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floats]:
-    """Return value and derivative at u of the pieces with index `piece`; `coefficients` has the shape (COUNT, pieces).
+    """Return value and derivative at u of the pieces with index `piece`; `coefficients` has the shape (COUNT,
+    pieces).
     """
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
@@ -135,7 +137,8 @@ def ends(coefficients: Floats) -> Floats:
 
 
 def _turns(column: Floats) -> Floats:
-    """Return approximate stationary points u of a polynomial; their errors have only second-order effects on its value.
+    """Return approximate stationary points u of a polynomial; their errors have only second-order effects on its
+    value.
     """
     slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
     u = np.linspace(-1, 1, 257)

@@ -76,7 +76,7 @@ IRRATIONAL: dict[str, tuple[str, Fraction]] = {
     "rad": ("angle", _TURNS_PER_RADIAN),
     "rad/s": ("speed", _TURNS_PER_RADIAN),
 }
-_EXACT = Fraction(0), Fraction("1e300")
+_EXACT = Fraction(0), Fraction("1e300")  # bounds of quantities that are used only in exact arithmetic
 _FLOATS = Fraction(1, 10**30), Fraction(10**30)  # the tenth power of such a number is still a float
 _SIZES = Fraction(1, 10**12), Fraction(10**6)  # lengths of bodies, in m or plain: sizes that can be laid out and drawn
 _BOUNDS = {"length": _SIZES, "length or fraction": (_FLOATS[0], _SIZES[1])} | {
@@ -120,7 +120,8 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm and plain numbers.
+    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm and plain
+    numbers.
     """
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]

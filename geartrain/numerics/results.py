@@ -28,7 +28,7 @@ from geartrain.errors import MissingExtraError, printable
 from geartrain.numerics.exact import abridged_text, fraction_text
 from geartrain.numerics.long_float import LongFloat
 
-_SHOWN = 20
+_SHOWN = 20  # rows of a table that are printed
 
 
 class Shown:

@@ -97,6 +97,7 @@ def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector
 def unit_or_z(u: Vector) -> Vector:
     """Return a vector scaled to length 1; z for a zero vector."""
     length = size(u)
+    # a shorter vector is the rounding error of a zero vector
     return scaled(u, 1 / length) if length > 1e-12 else (0.0, 0.0, 1.0)
 
 

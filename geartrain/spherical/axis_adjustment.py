@@ -177,6 +177,7 @@ def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
 
 def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals: list[float]) -> AxisAdjustment:
     error, J = tangency(axes, meshes, z, pitch)
+    # with almost no damping the first steps are those of Newton's method
     size, damping = float(np.abs(error).max()), 1e-12
     stalled = 0
     for _ in range(_MOST_STEPS):
@@ -194,6 +195,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
         # Levenberg: less damping after a success, more after a failure
         damping = max(damping / 10, 1e-12) if better else damping * 100
         residuals.append(float(np.abs(error).max()))
+        # converged to rounding, no further progress, or no descent at any damping
         if size < 1e-15 or stalled > 12 or (stalled and size < 1e-13) or damping > 1e6:
             break
     return AxisAdjustment(axes, pitch, float(np.abs(error).max()), ())

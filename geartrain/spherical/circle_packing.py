@@ -52,7 +52,8 @@ def circle_vector(centre: complex, radius: float) -> Floats:
 
 
 def line_vector(normal: complex, offset: float) -> Floats:
-    """Return the half-plane normal.x >= offset as a vector of the same kind as for a circle: (normal, offset, offset).
+    """Return the half-plane normal.x >= offset as a vector of the same kind as for a circle: (normal, offset,
+    offset).
     """
     return np.array([normal.real, normal.imag, offset, offset])
 
@@ -266,11 +267,13 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
         points = touch[:, :3] / np.linalg.norm(touch[:, :3], axis=1)[:, None]
         v = centring_step(points)
         length = float(np.linalg.norm(v))
+        # centred to rounding; a zero step has no direction
         if length < 1e-15:
             break
         # a long boost would lose digits
         v *= min(1.0, _LONGEST / length, _descent_fraction(points, v))
         vectors = vectors @ boost(v)
+        # convergence is quadratic, so this was the last step that changes anything
         if length < 1e-14:
             break
     return vectors
@@ -315,6 +318,7 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
         better, enough = size < best[0], size < 1e-13 and size > best[0] / 4
         if better:
             best = (size, axes, cones)
+        # above 1e-11 an increase of the residual is not due to rounding, and the iteration continues
         if enough or not (better or size > 1e-11):
             break
         axes = moved(axes, moves[: 2 * len(axes)].reshape(-1, 2))

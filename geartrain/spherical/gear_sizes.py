@@ -62,7 +62,8 @@ _SAME = 1e-11
 
 
 def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
-    """Return the tooth number of every gear; raise `QuestionError` with the kinds whose tooth numbers are not chosen.
+    """Return the tooth number of every gear; raise `QuestionError` with the kinds whose tooth numbers are not
+    chosen.
     """
     missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
     if missing:

@@ -107,7 +107,11 @@ class GearSphere(Result):
         sizing = self.sizing
         if sizing is None:
             raise QuestionError(
-                Problem("the sphere cannot be drawn", "its gears have no tooth numbers", "give --teeth")
+                Problem(
+                    "the sphere cannot be drawn",
+                    "its gears have no tooth numbers",
+                    "give them, such as --teeth 5=20,3=12",
+                )
             )
         angles = {} if self.closure is None else self.closure.angles
         # phases are fractions of a pitch, which need the tooth numbers

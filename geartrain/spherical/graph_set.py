@@ -147,7 +147,8 @@ def turning_senses(found: nx.Graph[Any], names: Sequence[Hashable]) -> Ints:
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
-    """Return the regions of a planar embedding as walks of gear numbers; raise `QuestionError` for a non-planar graph.
+    """Return the regions of a planar embedding as walks of gear numbers; raise `QuestionError` for a non-planar
+    graph.
     """
     import networkx as nx
 
@@ -334,7 +335,7 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
         raise QuestionError(
             Problem(
                 f"no teeth given for {', '.join(missing)}",
-                "`teeth` replaces all rounding",
+                "with `teeth` no tooth number is rounded from the packing",
                 "give the teeth of every gear",
             )
         )

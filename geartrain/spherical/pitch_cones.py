@@ -125,7 +125,8 @@ def mesh_angles(axes: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
 
 
 def frames(axes: Floats) -> Floats:
-    """Return two unit vectors perpendicular to each axis that form a right-handed frame with it, shape (gears, 2, 3).
+    """Return two unit vectors perpendicular to each axis that form a right-handed frame with it, shape (gears, 2,
+    3).
     """
     # the cross product is taken with the coordinate axis farthest from it, so its length is at least 0.8
     minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
@@ -135,7 +136,8 @@ def frames(axes: Floats) -> Floats:
 
 
 def azimuths(axes: Floats, at: Ints, to: Ints) -> Floats:
-    """Return the direction of axis `to` about axis `at` [rad], counterclockwise from the first vector of its `frames`.
+    """Return the direction of axis `to` about axis `at` [rad], counterclockwise from the first vector of its
+    `frames`.
     """
     across = frames(axes)[at]
     first, second = (np.einsum("px,px->p", across[:, k], axes[to]) for k in (0, 1))

@@ -336,7 +336,8 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
 
 
 def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tuple[int, ...], Floats, float]:
-    """Return a face as a cycle of vertices, counterclockwise seen from outside, with its outward normal and its height.
+    """Return a face as a cycle of vertices, counterclockwise seen from outside, with its outward normal and its
+    height.
     """
     index = np.array(sorted(members))
     centre = vertices[index].mean(axis=0)
@@ -491,7 +492,8 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
 
 @cache
 def _group(p: int) -> Floats:
-    """Return all products of the mirrors of [p, 3], shape (24, 48 or 120, 3, 3); entries are rounded to exact values.
+    """Return all products of the mirrors of [p, 3], shape (24, 48 or 120, 3, 3); entries are rounded to exact
+    values.
     """
     entries = np.array([sign * x for x in (0, 0.5, 1, PHI / 2, (PHI - 1) / 2) for sign in (1, -1)])
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)

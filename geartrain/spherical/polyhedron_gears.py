@@ -359,7 +359,9 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
         if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 1:
             raise QuestionError(
                 Problem(
-                    f"{count} is not a tooth number of kind '{kind}'", "tooth numbers are integers from 1", "correct it"
+                    f"{count} is not a tooth number of kind '{kind}'",
+                    "tooth numbers are integers from 1",
+                    "give a number such as 20",
                 )
             )
     wide = {kind: int(given[name]) for name in given for kind in _matching_kinds(name, known)}

@@ -136,6 +136,7 @@ def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats,
         # singular values below 1e-9 are noise of the finite differences
         step = -np.linalg.lstsq(_slopes(wrong, unknown), residual, rcond=1e-9)[0]
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max(initial=0.0)), 1e-300))
+        # written with `not`, so that NaN outside the domain counts as no descent
         while np.abs(step).max() > 1e-16 and not np.linalg.norm(wrong(unknown + step)) < np.linalg.norm(residual):
             step = step / 2
         if np.abs(step).max() <= 1e-16:

@@ -101,7 +101,8 @@ class SeenLink(NamedTuple):
     sense: int = 1
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference, from values of all links about their own axes.
+        """Return the value of the link minus the value of its reference, from values of all links about their own
+        axes.
         """
         return float(values[self.of] - self.sense * values[self.base])
 

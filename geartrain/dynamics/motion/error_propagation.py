@@ -211,7 +211,8 @@ class PropagationBlock(NamedTuple):
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """Propagation of pair errors to links: blocks `parts` in order of solution, with indices into `links` and `pairs`.
+    """Propagation of pair errors to links: blocks `parts` in order of solution, with indices into `links` and
+    `pairs`.
     """
 
     links: tuple[str, ...]

@@ -402,7 +402,8 @@ class Motion(Shown):
 
     @cached_property
     def _compiled(self) -> dict[bool, CompiledComposition | None]:
-        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are requested.
+        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are
+        requested.
         """
         return {}
 

@@ -111,7 +111,8 @@ class SpeedRanges:
         self._extremes = RangeExtremes(minimum - spread, most + spread)
 
     def over(self, phase: Floats, travel: Interval) -> Interval:
-        """Return bounds on the speed ratio for driver angles from `phase` + travel.low to `phase` + travel.high [rad].
+        """Return bounds on the speed ratio for driver angles from `phase` + travel.low to `phase` + travel.high
+        [rad].
         """
         scale = self.cells / self.period
         first, last = (np.floor((phase + end) * scale) for end in travel)
@@ -121,7 +122,8 @@ class SpeedRanges:
 
 
 def error_difference(one: ErrorSamples, other: ErrorSamples) -> ErrorSamples:
-    """Return the errors of `one` minus the errors of `other` at the same positions, with the reversing drivers of both.
+    """Return the errors of `one` minus the errors of `other` at the same positions, with the reversing drivers of
+    both.
     """
     both = one.reversing_drivers | other.reversing_drivers
     return ErrorSamples(one.turns, one.error - other.error, one.rate - other.rate, both)

@@ -187,7 +187,8 @@ class SampledPeaks:
 
 
 def _peaks(passage: ErrorSamples, part: slice) -> tuple[Floats, Floats]:
-    """Return the maxima of `signed` errors and rates in a slice of positions, and their positions, shape (outputs, 4).
+    """Return the maxima of `signed` errors and rates in a slice of positions, and their positions, shape (outputs,
+    4).
     """
     found, turns = [], []
     for each in (passage.error[:, part], passage.rate[:, part]):

@@ -141,7 +141,8 @@ class ErrorEstimates(Result):
 def find_estimates(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, ErrorEstimates]:
-    """Return the first-order estimates of every output's error, compared with the composition at `samples` positions.
+    """Return the first-order estimates of every output's error, compared with the composition at `samples`
+    positions.
     """
     superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))

@@ -112,7 +112,8 @@ class _InfluenceSolver:
             (self.holding_rows[symbol].add if symbol in own else self.holding_rows[symbol].discard)(row)
 
     def go(self) -> bool:
-        """Solve the system block by block, or as a whole if a block leaves a torque open that a later block may need.
+        """Solve the system block by block, or as a whole if a block leaves a torque open that a later block may
+        need.
         """
         self._start()
         done = self._through(self.balance.parts)
@@ -148,7 +149,8 @@ class _InfluenceSolver:
         return {column: None if form is None else self._merged(form) for column, form in found.items()}
 
     def _merged(self, form: LinearForm) -> LinearForm:
-        """Return the form with loads of one sign replaced by a new symbol for their sum, if no other row contains them.
+        """Return the form with loads of one sign replaced by a new symbol for their sum, if no other row contains
+        them.
         """
         # symbols in no remaining row are not needed separately; only their sum continues
         signs = {value > 0 for value in form.values()}

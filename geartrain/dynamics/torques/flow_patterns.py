@@ -232,7 +232,8 @@ def _forms(known: Mapping[int, Fraction]) -> dict[int, LinearForm]:
 def _candidates(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Iterator[Sides]:
-    """Yield the driving sides that may be consistent; if several torques are lossy, float solutions exclude the others.
+    """Yield the driving sides that may be consistent; if several torques are lossy, float solutions exclude the
+    others.
     """
     every = ({**base, **dict(zip(lossy, sides, strict=True))}
              for sides in product(*(columns[column].sides for column in lossy)))  # fmt: skip

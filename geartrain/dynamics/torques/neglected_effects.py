@@ -90,7 +90,8 @@ class _NonuniformPair:
 
 
 def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, SpeedBounds] | None:
-    """Return speed bounds of the links that may reverse in their bearings; None if there are too many nonuniform pairs.
+    """Return speed bounds of the links that may reverse in their bearings; None if there are too many nonuniform
+    pairs.
     """
     nonuniform = list(_nonuniform_pairs(setting))
     if len(nonuniform) > _MOST_NONUNIFORM:

@@ -136,7 +136,8 @@ def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, with the cause: shares, bearing friction, or tooth friction.
+    """Return the verdict that no torques balance the load, with the cause: shares, bearing friction, or tooth
+    friction.
     """
     names = question.names
     if not question.enough:
@@ -318,7 +319,8 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """Return the loads and the links with unknown torques; a verdict if there is no load or no torque can be requested.
+    """Return the loads and the links with unknown torques; a verdict if there is no load or no torque can be
+    requested.
     """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):

@@ -237,7 +237,8 @@ class NeglectedEffect(Result):
 
     @property
     def counts(self) -> bool:
-        """False for effects that change no mean value: variation within a revolution, and the choice between two means.
+        """False for effects that change no mean value: variation within a revolution, and the choice between two
+        means.
         """
         return self.what not in ("variation within a turn", "mean efficiency")
 

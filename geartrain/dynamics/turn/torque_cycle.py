@@ -335,6 +335,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}
         shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}
+        # a pair that transmits the whole power has 1 to rounding
         return {name: share for name, share in shares.items() if share > 1 + 1e-9}
 
     def at(self, turns: float) -> float:

@@ -89,7 +89,8 @@ class ContactLosses(ABC):
         """
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values whose signs change where the torques have kinks but the speed ratio has none; None by default.
+        """Return values whose signs change where the torques have kinks but the speed ratio has none; None by
+        default.
         """
         del at
         return None
@@ -361,7 +362,8 @@ class BearingTorques(NamedTuple):
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """Return the friction of every link with bearing friction; viscous drag is included if its absolute speed is known.
+    """Return the friction of every link with bearing friction; viscous drag is included if its absolute speed is
+    known.
     """
     train, unit = setting.train, _radians_per_second(setting)
     found = {}

@@ -566,6 +566,7 @@ class _EqualPlanets:
         else a note.
         """
         minimum = max((self._minimum_angle(planet, _STUB) for planet in self.planet.walk()), default=0.0)
+        # 1e-9: an angle that is an integer number of steps to rounding needs no further step
         steps = max(1, ceil(minimum * self.step - 1e-9))
         fits = self.number * steps <= self.step
         whole, rest = divmod(self.step, self.number)
@@ -721,6 +722,7 @@ class _EqualPlanets:
     def _maximum_number(self) -> int:
         """Return the maximum number of evenly spaced planets whose tips do not overlap."""
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
+        # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number
 
 

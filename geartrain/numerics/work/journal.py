@@ -72,7 +72,12 @@ class Journal:
         plain = json.loads(json.dumps(question))
         header = _START + f'"question":{json.dumps(plain, ensure_ascii=False)}}}\n'.encode()
         if len(header) >= _MOST_HEADER_BYTES:
-            raise _refused("the question is too long for a journal", "it has 10 MB or more", "shorten it", self.path)
+            raise _refused(
+                "the data that identify the run are too long for a journal",
+                "they have 10 MB or more",
+                "shorten `question`",
+                self.path,
+            )
         self._at = array("q")  # position of the line of a task in the file; -1: not stored
         self._count, self._synced, self._dirty = 0, monotonic(), False
         if self.path.exists() and not self.path.is_file():
@@ -102,14 +107,14 @@ class Journal:
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
         if not begun or len(first) == _MOST_HEADER_BYTES:
-            why = "its first line is not that of a journal"
+            why = "its first line is not the first line of a journal"
             raise _refused("the file is not a journal", why, "give another file", self.path)
         if torn or not resume:
             return 0
         try:
             theirs = json.loads(first)["question"]
         except (ValueError, KeyError):
-            why = "its first line, the question, is damaged"
+            why = "its first line, which identifies the run, is damaged"
             raise _refused("the journal cannot be resumed", why, "remove it to begin again", self.path) from None
         self._compare(theirs, question)
         end = len(first)
@@ -156,12 +161,14 @@ class Journal:
             raise _refused(
                 f"task {task} of the journal cannot be read",
                 "the file was changed during the run",
-                "begin again",
+                "remove the journal to begin again",
                 self.path,
             )
         if found[4].decode() != mark:
             why = "the work was divided into other tasks when this journal was begun"
-            raise _refused(f"task {task} of the journal is now another task", why, "begin again", self.path)
+            raise _refused(
+                f"task {task} of the journal is now another task", why, "remove the journal to begin again", self.path
+            )
         return found[5].decode()
 
     def keep(self, task: int, mark: str, text: str) -> None:
@@ -238,7 +245,7 @@ def _only_writer(path: Path) -> Iterator[None]:
         lock.acquire()
     except Timeout:
         raise _refused(
-            "another run is writing this journal", "two runs would mix their results", "wait for its end", path
+            "another run is writing this journal", "two runs would mix their results", "wait until it ends", path
         ) from None
     try:
         yield
@@ -261,7 +268,7 @@ def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
 
 def _another(difference: str, path: Path) -> Problem:
     fix = "give the same options to resume; omit --resume, or remove the file, to begin again"
-    return Problem("the journal belongs to another question", difference, fix, str(path))
+    return Problem("the journal belongs to another run", difference, fix, str(path))
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:

@@ -80,7 +80,8 @@ class ProcessPool(WorkerPool):
         return theirs
 
     def _discard_pool(self) -> None:
-        """Discard a broken pool and fail its futures, because a future submitted at that moment would never complete.
+        """Discard a broken pool and fail its futures, because a future submitted at that moment would never
+        complete.
         """
         pool, self._pool = self._pool, None
         if pool is not None:

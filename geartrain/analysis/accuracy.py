@@ -134,6 +134,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
         rows: list[MethodAccuracy] = []
         try:
             rows.extend(measure(train, state, positions))
+        # a stage that does not apply to the train is reported with its reason
         except GearTrainError as error:
             neglected[stage] = error.problems[0].what
         fastest = min((row.seconds for row in rows), default=0.0)
@@ -272,11 +273,13 @@ def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[Me
     if not found.verdict:
         raise QuestionError(Problem(f"{found.verdict.kind}: {found.verdict.text}"))
     through = max(map(abs, found.powers.values()), default=0)
+    # external power must equal the loss
     missed = abs(sum(found.powers.values()) - found.loss) / through if through else 0
     reference = "power balance"
     yield MethodAccuracy("torques", "balance with losses", seconds, float(missed), "relative", reference)
     used = train.motion(state, tuple(train.declaration.links))._forward.used
     passages = sum(float(each.cycles) for each in used)
+    # a shorter run for long trains limits the number of tooth engagements
     span = min(1.0, _PASSAGES / (len(used) * passages)) if passages else 0.0
     mean = None
     for samples in _SAMPLES if span else ():

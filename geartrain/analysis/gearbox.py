@@ -229,6 +229,7 @@ def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
 def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> GearState:
     declared, state = train.declaration, answer.state or ""
     engaged, given = declared.states[state].engaged, declared.case(state).inputs
+    # unit of speed: the input, or another input if the input is at rest
     drive = next((name for name in (source, *given) if answer.speeds.get(name)), "")
     unit = Fraction(answer.speeds[drive]) if drive else 1
     speeds = {name: Fraction(speed) / unit for name, speed in answer.speeds.items()}

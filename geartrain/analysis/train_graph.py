@@ -97,6 +97,7 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
         data["speed"] = Lazy(partial(found.speed, link))
     for _, _, data in graph.edges(data=True):
         if data["kind"] == "revolute":
+            # edges have the same keys, None for turning pairs
             data.update(dict.fromkeys(_OF_PAIRS), axis=data["label"])
             continue
         name = data["label"]
@@ -111,7 +112,7 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
 
 def _frozen(graph: Graph) -> Graph:
-    """Freeze the nodes, edges and declared attributes of a graph; other attributes can still be added."""
+    """Return the graph with frozen nodes, edges and declared attributes; other attributes can be added."""
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
     for name in vars(graph).keys() - before:  # methods replaced by nx.freeze

@@ -39,6 +39,7 @@ def find_modules(declared: Train) -> Mapping[str, float]:
         name = waiting.popleft()
         for mate in mates.get(name, ()):
             if mate not in found:
+                # mates have equal normal modules; the transverse module grows with the helix angle
                 found[mate] = found[name] * declared.wheels[mate][1].slant / declared.wheels[name][1].slant
                 waiting.append(mate)
     return found

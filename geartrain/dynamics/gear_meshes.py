@@ -67,6 +67,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
         assert mesh is not None
         return mesh
 
+    # the form "ideal" has no teeth
     real = (name for name, (_, _, form) in forms.items() if form is not None and form.form != "ideal")
     return ItemwiseMapping(real, made)
 

@@ -69,6 +69,7 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
         return PairSpeed(None, Problem(what, why, fix, mesh.place))
     assert unit is not None
     assert radius is not None
+    # the radius is that of the pair's first wheel, so its speed is needed
     first = mesh.gear.pair[0] in setting.train.links[circuit.i].wheels
     other = setting.relative(circuit.j, circuit.carrier)
     if not first and other is not None:

@@ -122,6 +122,7 @@ class _Toothing:
         try:
             meshes = train.meshes
         except GearTrainError as error:
+            # other wheels are still cut; these problems are reported for the wheels concerned
             meshes, self.unbuilt = (), error.problems
         self.meshes = {mesh.name: mesh for mesh in meshes}
         self.sizes = find_sizes(meshes)
@@ -235,6 +236,7 @@ class _Toothing:
             raise GearTrainError(Problem(f"a {kind} has no plane outline", why, fix))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
             check_size(self._wheel(each).count or 1)
+        # `unbuilt` does not say which pairs are faulty, so all wheels with a form are refused
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
         if not self.pairs[name] and (turning := self._escapement_sense(name)):

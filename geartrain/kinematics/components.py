@@ -199,10 +199,12 @@ def _nodes(
     for at, (_, _, i, j, k, a, b, _, _) in enumerate(circuits):
         carrier = index[k]
         here = node(index[i], carrier)
+        # a follower prescribes the slot's relative speed 0, and relates no two nodes
         if b == 0:
             holding.append(at)
             continue
         there = node(index[j], carrier)
+        # a w_i + b w_j = 0 gives each relative speed from the other
         edges[here].append((at, there, -a, b))
         edges[there].append((at, here, -b, a))
     return node_link, node_carrier, edges, holding

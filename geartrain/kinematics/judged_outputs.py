@@ -271,6 +271,7 @@ def judge_outputs(
     is_rotation   function that returns whether all axes between two links are parallel
     """
     moving = [speed for speed in case.inputs.values() if speed]
+    # a ratio to the input is defined only for a single moving input
     drive = moving[0] if len(moving) == 1 else None
     for name, output in case.outputs.items():
         of, base = output.links(name, train.frame)

@@ -70,6 +70,7 @@ def _with_total_inertia(train: Train, part: Link) -> Link:
         return part
     wheels = {}
     for name, wheel in part.wheels.items():
+        # mass of wheels follows from their density, so it is multiplied too
         density = wheel.density or train.density
         wheels[name] = wheel if density is None else wheel.changed(density=_multiplied(density, number))
     bearing = part.bearing
@@ -146,6 +147,7 @@ def _name_conflicts(train: Train) -> Iterator[Problem]:
     for link, part in train.links.items():
         mine = {joint.axis for joint in train.revolutes if train.frame not in joint.pair and link in joint.pair}
         pairs = [gear.id for gear in train.gears if gear.id and link in {train.wheels[wheel][0] for wheel in gear.pair}]
+        # copy 1 has the declared name
         for at in range(2, 1 + part.copies):
             for kind, own, all_of in (
                 ("link", [link], train.links),
@@ -238,6 +240,7 @@ class _Expansion:
             "gears": [index for index, _ in gears],
             "couplings": [index for index, _ in couplings],
         }
+        # messages about copies name the line of the declared part
         made._marks = _Places(self.declared, indices)
         return made
 

@@ -492,6 +492,7 @@ class TrainKinematics(Shown):
         if wanted is not None:
             verdict = self._output_verdict(case, verdict, relative(*wanted) is not None, wanted)
             shown = wanted if case.outputs else wanted[:1]
+            # other links were solved only as far as the output needs them
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
 

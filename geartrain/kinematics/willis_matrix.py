@@ -117,6 +117,7 @@ def independent_rows(
     ]
     if len(rows) > len(links):
         at = {link: column for column, link in enumerate(links)}
+        # the right-hand side is a column too, so that contradicting rows are not redundant
         forms = [
             residues({at[link]: Fraction(c) for link, c in row.terms if link in at} | {_GIVEN: -row.right})
             for row in rows

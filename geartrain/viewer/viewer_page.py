@@ -80,6 +80,7 @@ def page(
                 "pass one scene, or two with compare=True",
             )
         )
+    # the default layout needs no entry
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
     program = _built("viewer.js")

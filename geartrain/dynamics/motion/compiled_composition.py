@@ -153,6 +153,7 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
     transmissions: list[TransmissionTable | None] = []
     gains: list[float] = []
     for step in composition.steps:
+        # coupled pairs need Newton's method, which the kernel has not
         if step.coupled and len(step.sources) > 1:
             return None
         own = _fed_back(composition, step) if step.coupled else None
@@ -189,6 +190,7 @@ def _order(composition: ErrorComposition) -> CompositionOrder:
     known = _ranges([[place[link] for link in step.known] for step in steps])
     from_known = _matrices([step.from_known for step in steps])
     from_sources = _matrices([step.from_sources for step in steps])
+    # an output is its link minus its reference link; links without error have no row
     seen = [
         [(place[link], sign) for link, sign in ((each.of, 1), (each.base, -each.sense)) if link in place]
         for each in composition.outputs
@@ -257,18 +259,21 @@ def compose(
     delta, slope = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
     scratch, cell = np.zeros(BLOCK), np.zeros(BLOCK, dtype=np.int32)
     behind[:] = 0
+    # blocks fit in the processor's cache
     for begin in range(0, len(turns), BLOCK):
         size = min(BLOCK, len(turns) - begin)
         here = turns[begin : begin + size]
         for step in range(len(order.own_start) - 1):
             _carry(order, step, size, held)
             first, last = order.sources[step], order.sources[step + 1]
+            # angle and speed of each driver, from its mean motion and the errors of links
             for source in range(first, last):
                 S, w = angle[source - first, :size], turning[source - first, :size]
                 _phase(sources, source, transmissions.period[source], plain, here, S)
                 _turn(sources, source, size, held, S, w)
             for source in range(first, last):
                 e, v = delta[source - first, :size], slope[source - first, :size]
+                # error and slope of each transmission function at this angle
                 transmission_along(
                     transmissions, source, angle[source - first, :size], e, v, scratch[:size], cell[:size]
                 )
@@ -290,6 +295,7 @@ def _carry(order: CompositionOrder, step: int, size: int, held: Floats) -> None:
                 into[:] = 0.0
             for known in range(first, last):
                 factor, other = order.from_known[at + known - first], held[kind, order.known[known], :size]
+                # the first term overwrites the row, which an earlier link may have used
                 if known == first:
                     for position in range(size):
                         into[position] = factor * other[position]

@@ -172,6 +172,7 @@ class ErrorComposition:
                 continue
             sources = tuple(of_pair[part.pairs[at]] for at in pairs)
             inside = set(part.links)
+            # the errors of this step move the driver of one of its own pairs
             coupled = any(inside.intersection(self._ends(source)) for source in sources)
             lively.update(part.links)
             steps.append(

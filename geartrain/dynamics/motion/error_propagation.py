@@ -311,6 +311,7 @@ def _solve(
     inside = {column: number for number, column in enumerate(block.columns)}
     known = tuple(dict.fromkeys(column for row in block.rows for column in rows[row] if column not in inside))
     pairs = tuple(own[row] for row in block.rows if own[row] >= 0)
+    # earlier links and pair errors are symbols (negative columns), which elimination does not solve for
     symbol = {column: -1 - number for number, column in enumerate(known)}
     forms: list[LinearForm] = []
     for row in block.rows:

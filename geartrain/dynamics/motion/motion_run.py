@@ -90,6 +90,7 @@ def find_spectrum(
     found = {}
     for at, name in enumerate(motion.outputs):
         found[name] = _expected(superposed, harmonics, at, most)
+    # lines of all outputs are measured in one pass through the run
     orders = sorted({line.order for lines in found.values() for line in lines})
     if not orders:
         on_done(samples)

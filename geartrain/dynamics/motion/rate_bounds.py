@@ -275,7 +275,9 @@ class RateBounds:
             start = np.mod(
                 phase.cycles(source.cycles) * transmission.period + source.start + first, transmission.period
             )
+            # the driver covers at least the range between its end angles
             travel = source.mean * angle + (last - first)
+            # a driver that can turn back may leave this range at both ends
             back = np.nan_to_num(
                 np.maximum(0.0, -speed.low) * angle, nan=transmission.period, posinf=transmission.period
             )

@@ -149,6 +149,7 @@ def find_estimates(
     for passage in motion._stretches(turns, samples):
         for at, tally in enumerate(true):
             tally.add(passage.error[at], passage.rate[at])
+        # statistics of the estimated error, and of its difference from the exact one
         for counted, tallies in ((False, nominal), (True, lagged)):
             error = superposed.at(passage.turns, counted)
             for at, (own, off) in enumerate(zip(*tallies, strict=True)):

@@ -150,6 +150,7 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
                 pattern[mesh.id] = column.side_of(mesh, partial.sides[at])
     multipliers = {mesh.id: found[mesh.id] for mesh in balance.meshes}
     plain = [partial.values[at] for at, column in enumerate(balance.columns) if not column.meshes]
+    # columns without meshes are in the order: unknown torques, brakes, locks
     unknown, held = len(balance.unknown), len(balance.held)
     external = dict(zip(balance.unknown, plain, strict=False))
     brakes = dict(zip(balance.held, plain[unknown:], strict=False))
@@ -252,7 +253,7 @@ def _iterate(
     converge.
 
     In each iteration every mesh is reversed through which power flows against the assumed direction. The iteration ends
-    if there is no such mesh, or if a pattern repeats.
+    if no such mesh remains, or if a pattern repeats.
     """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []

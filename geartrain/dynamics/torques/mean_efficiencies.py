@@ -52,6 +52,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     tooth = setting.meshes[circuit.id]
     if tooth.wheels.friction_law is not None:
         speed = pitch_line_speed(setting, circuit, tooth)
+        # undetermined relative motion: `find_neglected_effects` reports these losses
         if speed.value is None and speed.problem is None:
             return MeanEfficiencies()
         tooth = at_speed(tooth, speed.known())

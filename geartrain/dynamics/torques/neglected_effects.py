@@ -120,6 +120,7 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
         tooth = setting.meshes.get(circuit.id)
         if tooth is None or tooth.rigid:
             continue
+        # the row a w_i + b w_j = 0 deviates by -own / mean times (tau - mean) times the driver's speed
         first = tooth.driver == circuit.wheels[0]
         driver, own = (circuit.i, circuit.a) if first else (circuit.j, circuit.b)
         mean = Fraction(tooth.transmission.ratio)

@@ -124,9 +124,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty if there is no
-    cycle.
-    """
+    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty without one."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -140,7 +138,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle in the selected streams, found by iterative depth-first search; empty if there is no cycle."""
+    """Return one cycle in the selected streams, found by iterative depth-first search; empty without a cycle."""
     after: dict[PowerNode, list[int]] = {}
     for at in open_:
         after.setdefault(streams[at].source, []).append(at)
@@ -306,6 +304,7 @@ def find_power_flow(found: Torques) -> PowerFlow:
     ends = [(shafts.get(link, PowerNode("shaft", link)), link, power) for link, power in found.powers.items()]
     streams += [PowerStream(PowerNode("in", link), shaft, power) for shaft, link, power in ends if power > 0]
     for node, given in _takers(found):
+        # powers of links on one shaft are added, because they are locked together
         net: dict[PowerNode, Fraction] = {}
         for link, power in given:
             shaft = shafts.get(link, PowerNode("shaft", link))

@@ -81,6 +81,7 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
     moving = {link for motion in motions if motion.power for link in motion.speeds}
     outputs = (output.of or name for name, output in setting.case.outputs.items())
     borne = (link for link in setting.train.links if setting.tree.parent.get(link, ("",))[0] == setting.train.frame)
+    # links at which a torque can be applied are suggested first: inputs, outputs, links that turn on the frame
     likely = [link for link in dict.fromkeys((*setting.case.inputs, *outputs, *borne)) if link in moving]
     torques = {link: torque for link in likely if (torque := balancing_torque(motions, link)) is not None}
     helpful = {link: torque for link, torque in torques.items() if not known.get(link)}
@@ -108,6 +109,7 @@ def find_torque_verdict(
     if not flows:
         return _unbalanced(question, complete)
     but = _neglected_note(neglected)
+    # undetermined torques come first, because the number of patterns then has no meaning
     if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
         verdict = _indeterminate(flows, question)
         return replace(verdict, text=verdict.text + but)
@@ -145,11 +147,13 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
         return TorqueVerdict("unbalanced", text)
     if shares := question.balance.shares:
         pairs = dict.fromkeys(name for _, parts in shares for name in parts)
+        # without the shares there is a solution, so they are the cause
         if find_flow_patterns(replace(question.balance, shares=()))[0]:
             text = (
                 f"the declared shares of {', '.join(pairs)} contradict the balance, which has a solution without them"
             )
             return TorqueVerdict("contradictory", text)
+    # a larger load turns the train, so the constant friction of bearings is the cause
     if question.has_friction and question.heavily_loaded():
         text = (
             f"the load is too small to overcome the friction of the bearings, and no torque on {names} compensates for "
@@ -252,6 +256,7 @@ def find_ties(
     shares
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
+    # pins in slots have different angles at equal planets
     apart |= {link for circuit in circuits if circuit.kind not in _EVEN for link in (circuit.i, circuit.j)}
     by_planet: dict[str, list[tuple[_Key, str]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
@@ -480,6 +485,7 @@ def build_balance(
     held = {*requested, *case.fixed, *(link for lock in locks for link in lock)}
     shares = find_shares(train, setting.circuits, {*held, *known})
     shared = {name for _, parts in shares for name in parts}
+    # planets with declared shares need not be loaded equally
     planets = {link for mesh in meshes if mesh.id in shared for link in mesh.links[:2]}
     return TorqueBalance(
         tuple(link for link in train.links if link != train.frame),

@@ -97,10 +97,12 @@ def drivers_are_certain(train: TurnBalance) -> bool:
         add(rows[link], torque)
     for link in train.bearings:
         carrier = setting.tree.parent[link][0]
+        # friction in a moving bearing acts on two links
         if carrier != frame:
             return False
         add(rows[link], -float(setting.speeds[link]))
     for block in balance.parts:
+        # in coupled pairs a torque may be a difference of known ones
         if len(block.rows) != 1 or len(block.columns) != 1:
             return False
         known, column = senses.get(block.rows[0], set()), train.columns[block.columns[0]]

@@ -211,6 +211,7 @@ class _RunResults:
         torque, neglected, period = own.torque(found), self._neglected(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
+        # repr: the label of a position has all digits
         labels = [repr(each) for each in self.run.cells.turns.tolist()]
         return TorqueCycle(
             train.setting.case.state,
@@ -312,6 +313,7 @@ class _RunResults:
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
         """Return the energies over the run [J, or plain torque times rad]."""
         found, requested = self.run.found, len(self.run.train.requested)
+        # powers are over the speed of the input, so the integral is over its angle in radians
         weights = self.run.cells.weights * 2 * np.pi
         driving, loading = found.powers[:requested], found.powers[requested:]
 

@@ -192,6 +192,7 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
             if valid.any():
                 found.append(_Trial(layer, sides, values, valid))
                 left = left & ~valid
+            # signs of the computed torques are the next patterns; one-sided torques keep side 0
             wanted = np.where(values >= 0, 1, -1) * np.array([[len(each.sides) > 1] for each in own])
             fresh |= dict.fromkeys(map(tuple, np.unique(wanted[:, left].T, axis=0).tolist()))
         patterns = {sides: None for sides in fresh if sides not in patterns}
@@ -553,6 +554,7 @@ class TurnBalance:
         for link, load in self.loads.items():
             acting[self.outside.index(link)] += load
         slipping = [self._speed(motion, link, self.setting.tree.parent[link][0]) for link in self.bearings]
+        # power lost in a bearing: friction torque times speed
         rubbed = [
             self._rubbing(state, link, each) * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)
         ]

@@ -252,6 +252,7 @@ def check_shared_wheels(
     for one, other in combinations(free, 2):
         if one.axis_pair != other.axis_pair or not set(one.wheels) & set(other.wheels):
             continue
+        # outlines build teeth, so they are requested only for pairs that share a wheel
         found = outlines()
         if one.name not in found or other.name not in found:
             continue

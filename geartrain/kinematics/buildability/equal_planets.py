@@ -180,6 +180,7 @@ class TrainAssembly:
                 self.tree.axis_seen_from(circuit.carrier, circuit.j),
             ),
             (self.part(circuit.wheels[0]), self.part(circuit.wheels[1])),
+            # coefficients of one sign: external pair, whose wheels turn in opposite senses
             1 if circuit.a * circuit.b > 0 else -1,
             0 if first.internal else 1 if second.internal else None,
             first.kind == second.kind == "spur",
@@ -539,6 +540,7 @@ class _EqualPlanets:
 
     def _check_placed(self, rule: str, points: Sequence[tuple[float, float]]) -> Iterator[BuildFinding]:
         turns = [atan2(y, x) / tau for x, y in points]
+        # planets mesh at multiples of 1/step turn from the first one: the distance to the nearest is in pitches
         misses = [self.step * (turn - turns[0]) for turn in turns]
         off = [abs(miss - round(miss)) for miss in misses]
         worst = max(off)

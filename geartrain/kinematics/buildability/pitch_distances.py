@@ -372,6 +372,7 @@ class PitchDistances:
                 why = "the offset of a pin is the distance of the two axes"
                 place = self.train.place("couplings", at[circuit.id])
                 yield BuildFinding("P1", "error", Problem(what, why, "move an axis, or correct the offset", place))
+            # the offset determines the distance if no positions are declared
             elif apart is None:
                 self.sizes.join(_MM, node, offset)
                 self.placed[node] = f"the offset of '{circuit.id}'"
@@ -390,6 +391,7 @@ class PitchDistances:
             (millimetres(there[0]), millimetres(there[1]), millimetres(there[2])),
             (millimetres(here[0]), millimetres(here[1]), millimetres(here[2])),
         )
+        # distance of parallel axes: component of their offset normal to the direction
         across = cross(apart, (x, y, z))
         far = sqrt(dot(across, across) / dot((x, y, z), (x, y, z)))
         if far:
@@ -419,6 +421,7 @@ class PitchDistances:
             return
         low, high = pair.bounds
         shifts = _needed_shifts(pair, found)
+        # if only one wheel declares a module, the distance may be right and the module wrong
         rule = "M2" if pair.modules.count(None) == 1 else "P1"
         module = self.module(pair.wheels[0]) or Fraction(1)
         first, second = (f"'{wheel}' {count}" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
@@ -435,6 +438,7 @@ class PitchDistances:
         why = f"their pitch circles {'are' if off > 0 else 'overlap by'} {_mm(abs(off) * module)}" + (
             " apart" if off > 0 else ""
         )
+        # module with which the wheels have the given distance
         fits = found / wanted * module
         fix = f"{move}, " + (
             f"or remove the module: the distance requires {_mm(fits)}"
@@ -462,6 +466,7 @@ class PitchDistances:
         off, other, scale = best
         low, high = pair.bounds
         minimum, most = (bound * scale for bound in other.bounds)
+        # a distance at which both pairs run: the ranges overlap
         level: BuildLevel = "note" if max(low, minimum) <= min(high, most) else "error"
         yield BuildFinding("P2", level, self._two_distances(pair, other, scale, off, level == "error"))
 
@@ -507,10 +512,12 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     if normal is None:
         return ""
     slant = pair.declared[0].slant if pair.declared[0].is_helical else 1.0
+    # transverse pressure angle of helical teeth
     across = atan(tan(normal) * slant)
     cosine = cos(across) * float(pair.touching / distance)
     if cosine >= 1:
         return ""
+    # sum of the tooth counts, with a ring their difference
     teeth = float(2 * pair.touching) / slant
     total = (inv(acos(cosine)) - inv(across)) * teeth / (2 * tan(normal))
     if not _SHIFTS[0] <= total <= _SHIFTS[1]:
@@ -518,6 +525,7 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     first, second, what = total / 2, total / 2, "the sum of the shifts"
     if pair.ring is not None:
         ring, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
+        # only the difference of the shifts matters in a pair with a ring
         first, second, what = 0.0, total, f"the shift of '{ring}' minus that of '{mate}', which `pair` names first,"
     key = f"shift: [{first:.4g}, {second:.4g}]"
     key = key if pair.form is not None else f"tooth_form: {{form: involute, {key}}}"

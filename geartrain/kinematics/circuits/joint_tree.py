@@ -188,6 +188,7 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
         If the teeth are not aligned.
     """
     lean = wheels[0].helix + wheels[1].helix
+    # both sides are tried if the positions do not determine the sense of the angle
     fits = [
         (sense, way)
         for way in ((side,) if side else (1, -1))
@@ -196,6 +197,7 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     ]
     if not fits:
         raise GearTrainError(_not_aligned(wheels, angle, side))
+    # both sides may give the same sense of rotation
     if len({sense for sense, _ in fits}) == 1:
         return fits[0][0], ""
     note = (
@@ -361,11 +363,13 @@ class Axes:
                 sense, note = crossed_sense((wheel_i, wheel_j), *self._crossing(*labels))
                 return z_i, sense * self.sign(labels[0]) * self.sign(labels[1]) * z_j, note
             check_parallel(wheel_i, wheel_j)
+        # plane wheels: an external pair reverses the sense of rotation, an internal one does not
         if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not side_by_side and (wheel_i.internal or wheel_j.internal):
             what = "a ring on an axis that is not parallel to its mate's"
             raise GearTrainError(Problem(what, "a ring and its mate have parallel axes", "use a bevel pair"))
+        # bevel and crown wheels: the sense depends on the sides on which their cones open
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
         if wheel_i.internal or wheel_j.internal:

@@ -56,6 +56,7 @@ class FactoredPolynomial:
         given = Laurent.of(terms, width)
         if not given:
             return cls(0, (0,) * width, ())
+        # the monomial factor is split off first, then known factors, then separable ones
         powers = given.lowest()
         rest = given.shifted(tuple(-power for power in powers))
         left = rest
@@ -66,6 +67,7 @@ class FactoredPolynomial:
         sums = [_positive_at_point(each, point) for each in (*found, *_separate_factors(left)) if len(each) > 1]
         back = product([Laurent.of(each, width) for each in sums], width)
         exponents = next(iter(back.terms))
+        # one coefficient determines the integer factor, because the product is known up to it
         content = rest.terms[exponents] / back.terms[exponents]
         assert back.scaled(content) == rest, "factors multiply to the whole"
         return cls(int(content), powers, tuple(sums))
@@ -280,12 +282,14 @@ class ClosedForm(Result):
 
     def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
         """Return a short sum over one of its terms as 1 plus quotients, such as 1 + z_r/z_s; "" for other formulas."""
+        # only a short sum over a monomial that is one of its terms
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
             return ""
         one = next((term for term in top.sums[0] if term.exponents == bottom.powers), None)
         if one is None or one.coefficient * top.content % bottom.content:
             return ""
         words: list[str] = []
+        # the term that cancels comes first, as the 1 in 1 + z_r/z_s
         for term in sorted(top.sums[0], key=lambda each: each is not one):
             value = Fraction(term.coefficient * top.content, bottom.content)
             powers = tuple(a - b for a, b in zip(term.exponents, bottom.powers, strict=True))

@@ -496,6 +496,7 @@ def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquation
             continue
         denominator = solution.denominator(value)
         outputs[name], common = make_formula(name, wheels, value.numerator, denominator)
+        # a cancelled factor that can vanish hides tooth counts at which the train is locked or free
         if not common.is_definite:
             cancelled[name] = common
     stated = [(equations.origin[row], left) for row, left in solution.conditions]

@@ -310,8 +310,10 @@ def _formula(label: str, wheels: Sequence[str], grouping: MonomialGrouping, top:
     """Return the formula for two coprime polynomials in the monomials of the groups."""
     used = sorted(variable for members in grouping.members for variable in members)
     spread = [grouping.back(each, len(wheels)) for each in (top, bottom)]
+    # exponents are made non-negative by a common monomial factor
     lowest = list(map(min, *(each.lowest() for each in spread if each))) if top else list(spread[1].lowest())
     spread = [each.shifted(tuple(-power for power in lowest)) for each in spread]
+    # canonical form: coprime integer coefficients, the first one of the denominator positive
     first = max(spread[1].terms.items())[1]
     scale = (1 if first > 0 else -1) / top.content(bottom)
     groups = tuple(

@@ -148,6 +148,7 @@ def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ())
         check_choice("output", name, case.outputs)
     counts = {name: wheel.count for name, (_, wheel) in train.wheels.items() if wheel.count}
     free = {name: (count,) for name, count in counts.items()}
+    # superposition: one solution for a unit speed of each input, with the others at rest
     units = {link: dict.fromkeys(case.inputs, 0) | {link: 1} for link in case.inputs}
     found = {link: find_formulas(train, state, free, unit) for link, unit in units.items()}
     for name in outputs or case.outputs:

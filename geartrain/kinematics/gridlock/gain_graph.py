@@ -200,6 +200,7 @@ def biconnected_blocks(network: GainGraph) -> list[list[int]]:
     """Return the meshes of each biconnected component, by the algorithm of Hopcroft and Tarjan (1973) without
     recursion.
     """
+    # depth-first number of each node, and the lowest number that its subtree reaches by one back edge
     order, low = [0] * network.size, [0] * network.size
     used = bytearray(len(network.ends))
     found: list[list[int]] = []
@@ -218,6 +219,7 @@ def biconnected_blocks(network: GainGraph) -> list[list[int]]:
                     continue
                 used[mesh] = 1
                 there = network.other(mesh, here)
+                # back edge
                 if order[there]:
                     pending.append(mesh)
                     low[here] = min(low[here], order[there])
@@ -232,6 +234,7 @@ def biconnected_blocks(network: GainGraph) -> list[list[int]]:
                 if stack:
                     above = stack[-1][0]
                     low[above] = min(low[above], low[here])
+                    # no back edge leaves the subtree: the node above separates it, and its meshes are a block
                     if low[here] >= order[above]:
                         found.append(pending[start:])
                         del pending[start:]

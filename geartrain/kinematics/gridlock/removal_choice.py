@@ -158,6 +158,7 @@ def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
     loops: list[GainLoop] = []
     if max(len(network.at[start]), len(network.at[end])) > most:
         return loops
+    # neighbours of the start, from which the last mesh of a loop returns to it
     near = {network.other(last, start): last for last in network.at[start] if last != mesh}
     for second in network.at[end]:
         middle = network.other(second, end)
@@ -168,6 +169,7 @@ def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
             continue
         if middle in near:
             loops.append([(start, mesh), (end, second), (middle, near[middle])])
+        # loops of four meshes through nodes with many meshes are skipped to bound the cost
         if len(network.at[middle]) > most:
             continue
         for third in network.at[middle]:

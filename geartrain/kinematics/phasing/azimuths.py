@@ -143,6 +143,7 @@ class _Axis:
 def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> PitchPoints:
     """Return the pitch points of all gear pairs, in the pose in which moving axes are declared."""
     axes = _axes(train)
+    # an undeclared axis is parallel to z, without a position
     plain = _Axis(_Z, 0.0, _Z, None, Fraction(0))
     placed: list[Circuit] = []
     ways: list[tuple[IntegerVector, IntegerVector]] = []
@@ -187,11 +188,13 @@ def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
 def _axes(train: Train) -> dict[str, _Axis]:
     """Return the declared axes in integer coordinates; positions are multiples of one length for the whole train."""
     points = {label: [part.base for part in axis.position] for label, axis in train.axes.items() if axis.position}
+    # a common unit of length makes all coordinates integers
     unit = math.lcm(*{part.denominator for point in points.values() for part in point})
     senses: list[IntegerVector] = [_Z]
     known: dict[tuple[str, ...], tuple[IntegerVector, float, IntegerVector]] = {}
     found: dict[str, _Axis] = {}
     for label, axis in train.axes.items():
+        # equal texts are parsed once, because large trains repeat directions
         key = tuple(figure.text for figure in axis.direction)
         if key not in known:
             known[key] = _direction(axis.direction, senses)

@@ -314,6 +314,7 @@ def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
         before = cycle.meshes[-1]
         for node, mesh in zip(cycle.nodes, cycle.meshes, strict=True):
             came, goes = (_wheel(problem, one, node) for one in (before, mesh))
+            # different wheels: the loop passes over a compound wheel
             gears.append(came if came == goes else f"{came}+{goes}")
             if came != goes:
                 over |= {came: _sum_change(problem, before, node, row), goes: _sum_change(problem, mesh, node, row)}
@@ -564,6 +565,7 @@ class MeshPhasing(Result):
         elif self.kind == "misses":
             yield f"phase closure: {len(self.missing)} of {loops} miss{'es' if len(self.missing) == 1 else ''}"
         elif self.kind == "closes":
+            # accuracy of the least accurate loop
             near = f"to {max(one.slack for one in self.problem.conditions):.1g} pitch"
             ways = {"exact": "exactly", "recognised": "exactly, with angles inferred from rounded positions"}
             yield f"phase closure: {loops} close{'s' if count == 1 else ''}, {ways.get(self.how, near)}"

@@ -446,6 +446,7 @@ class PhaseSystem:
             before = cycle.meshes[-1]
             for node, mesh in zip(cycle.nodes, cycle.meshes, strict=True):
                 came = family[before][self.ends[before][1] == node]
+                # contacts of different families have an unknown angle between them
                 if came != family[mesh][self.ends[mesh][1] == node]:
                     return None
                 found.append(came)
@@ -487,6 +488,7 @@ class PhaseSystem:
         parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
         found: list[Number] = list(nodes)
         level = node_depths(parts)
+        # from the roots outwards, so that the predecessor is known
         for node in sorted(range(len(nodes)), key=level.__getitem__):
             up = parts.node_parent[node]
             if up < 0:

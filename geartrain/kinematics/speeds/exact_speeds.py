@@ -164,9 +164,11 @@ def _describe_contradiction(
     moving = [text for text, _, speed in inputs if speed]
     held = [stated.text for stated, _ in used if stated.kind != "input"]
     prescriptions = tuple(dict.fromkeys(stated.declared for stated, _ in used))
+    # loops whose equations are in the certificate
     chords = [reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"]
     loops = tuple(parts.loop(chord) for chord in chords)
     shut = f"{abridged_names([*map(str, loops)], '; ')} {'does' if len(loops) == 1 else 'do'} not close"
+    # one input: it is locked; several: their speeds contradict each other
     if len(inputs) == 1:
         link = inputs[0][0].split(" = ")[0]
         if loops:
@@ -175,6 +177,7 @@ def _describe_contradiction(
             by = " and ".join(held) if held else f"the pairs {abridged_names(_pairs(reduced, given, structural))}"
             text = f"input '{link}' is locked to the frame: {by}"
         return Verdict("locked", text, prescriptions=prescriptions, loops=loops)
+    # the relation between the inputs with coprime integer factors
     scale = lcm(*(value.denominator for _, value, _ in inputs))
     numbers = [int(value * scale) for _, value, _ in inputs]
     common = gcd(*numbers) * (1 if numbers[0] > 0 else -1)
@@ -351,6 +354,7 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
             moving.append((link, coefficient))
     if target < 0:
         return -1
+    # one other moving link: the speed is stored as a short ratio to it
     if len(moving) == 1:
         link, coefficient = moving[0]
         speeds.follow(target, link, -coefficient, lead)
@@ -475,6 +479,7 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
     echelon = eliminate_within(rows, budget)
     if echelon.conditions:
         return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
+    # all inputs 0: speeds are 0 also for a locked train, so the rank decides
     if not any(case.inputs.values()) and _is_immobile(reduced, case, budget):
         return Solution(stationary_verdict(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
     forms = echelon.forms(budget)

@@ -119,6 +119,7 @@ def _assign_exponents(lines: Sequence[Mapping[int, int]], found: dict[int, float
     for row, line in enumerate(lines):
         for column in line:
             users.setdefault(column, []).append(row)
+    # breadth-first search from links with known exponents
     queue = deque(column for line in lines if found.keys() & line for column in line if column not in found)
     while queue:
         column = queue.popleft()

@@ -73,7 +73,7 @@ class LongTable:
             raise unfinished_file(self.partial, error) from None
 
     def _truncate_to_whole_rows(self) -> int:
-        """Truncate the partial file after its last complete row; return the number of complete rows."""
+        """Cut the partial file off after its last complete row; return the number of complete rows."""
         rows, end = -1, 0
         with self.partial.open("rb") as file:
             for line in file:

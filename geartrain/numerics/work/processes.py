@@ -144,7 +144,7 @@ def _interrupts_blocked() -> Iterator[None]:
 
 
 def _start_worker(leash: Connection) -> None:
-    """Initialise a new worker: ignore SIGINT, and watch the pipe to the parent process."""
+    """Prepare a new worker: ignore SIGINT, and watch the pipe to the parent process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_watch_leash, args=(leash,), daemon=True).start()
 

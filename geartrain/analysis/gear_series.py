@@ -190,6 +190,7 @@ def find_gears(
     found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, ordered, free, locked)
     if gears < 2:
         return found
+    # the decimal as written: 1.05 is 21/20, not the nearest float
     low, high = (Fraction(str(step)) for step in steps)
     links = _links(forward, low, high, single)
     widest, evenest = _widest(forward, links, gears), _evenest(forward, links, gears)
@@ -298,6 +299,7 @@ def _widest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSer
     best: list[tuple[Fraction, tuple[int, ...]] | None] = [(ratio, (at,)) for at, ratio in enumerate(ratios)]
     for _ in range(number - 1):
         best = [
+            # the smallest last ratio gives the largest spread from a given first gear
             min(((end, (at, *way)) for to in links[at] for end, way in filter(None, [best[to]])), default=None)
             for at in range(len(gears))
         ]
@@ -336,6 +338,7 @@ def _evenest_from(
         for at, (sum_, double, way) in reach.items():
             for to in links[at]:
                 more = not _is_single(gears[at], gears[to])
+                # tuples are compared: sum of squares, double shifts, then order of gears
                 new = round(sum_ + (logs[at] - logs[to]) ** 2, _FIGURES), double + more, (*way, to)
                 after[to] = min(after.get(to, new), new)
         reach = after

@@ -743,6 +743,7 @@ class GearTrain:
         for pair in pairs:
             check_choice("gear pair", pair, declared)
         teeth = {"form": form, **known[form].with_defaults(parameters)}
+        # forms of single pairs would override the form of the train, so they are deleted
         own = None if not pairs else teeth
         changes: dict[str, Any] = {} if pairs else {"tooth_form": teeth}
         changes["gears"] = [

@@ -169,6 +169,7 @@ def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
             at.setdefault(wheel, []).append(mesh)
     done: set[str] = set()
     for first in meshes:
+        # a new search for each connected set of pairs
         waiting = deque([first])
         while waiting:
             mesh = waiting.popleft()

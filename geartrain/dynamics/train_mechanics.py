@@ -158,6 +158,7 @@ class TrainMechanics(Shown):
             return ()
         drivers = self.drivers(state)
         driven = tuple(mesh.driven_by(drivers[mesh.name]) for mesh in self.teeth)
+        # only friction that depends on speed needs the load case
         if all(mesh.wheels.friction_law is None for mesh in driven):
             return driven
         from geartrain.dynamics.pair_speeds import at_own_speeds

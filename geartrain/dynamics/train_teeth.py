@@ -221,6 +221,7 @@ class _Toothing:
                     found[name] = self._one(name, requested)
                 except GearTrainError as error:
                     problems[name] = error.problems
+                    # pictures show such a wheel with the teeth of its first pair
                     approximations[name] = self._cut(name, requested[:1])
             except GearTrainError as error:
                 problems.setdefault(name, error.problems)

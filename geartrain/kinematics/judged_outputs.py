@@ -328,6 +328,7 @@ def goal_of(train: Train, target: Target) -> RatioGoal:
     else:
         row, days = period_table()[target.name or ""], train.unit_days or Fraction(1)
         label = row.name if turns == 1 else f"{turns} turns in {row.name}"
+        # rows of the period table are periods in days, or speeds
         speed = turns * (days / row.value if row.kind == "period" else abs(row.value))
     if target.sense is None:
         return RatioGoal(label, speed, False)

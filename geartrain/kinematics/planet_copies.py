@@ -168,6 +168,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
     for at, gear in enumerate(train.gears):
         first, second = (train.wheels[wheel][0] for wheel in gear.pair)
         counts = {train.links[link].copies for link in (first, second)}
+        # a single mate is shared by all copies
         if len(counts) > 1 and 1 not in counts:
             yield _unequal(train, first, second, "gears", at)
     for at, coupling in enumerate(train.couplings):
@@ -309,6 +310,7 @@ class _Expansion:
                 fix = f"give axis '{self.tree.axis(carrier)}' a position, or remove that of '{label}'"
                 why = "copies are spaced about the axis of their carrier, which has no position"
                 raise DeclarationError([Problem(what, why, fix, self.declared.place("axes", label))])
+            # rotation about the carrier's axis, which may not pass through the origin
             place = plus(about.point, turned(minus(axis.point, about.point), about.way, angle))
             changes["position"] = tuple(Quantity.parse(f"{_decimal(part)} mm", "length", plain=False) for part in place)
         return axis.changed(**changes)

@@ -214,6 +214,7 @@ def _sources(composition: ErrorComposition, gains: Sequence[float]) -> ComposedS
     return ComposedSources(
         factor,
         *split(factor),
+        # rounding error of the factor, for Dekker's product
         np.array([float(source.cycles - Fraction(float(source.cycles))) for source in used]),
         np.array([source.start for source in used]),
         np.array([source.mean for source in used]),
@@ -418,6 +419,7 @@ class CompiledComposition:
         outputs, used = len(self.composition.outputs), self.composition.used
         error, rate = np.empty((outputs, len(turns))), np.empty((outputs, len(turns)))
         behind = np.zeros(len(used), dtype=np.int64)
+        # within one period a plain product is accurate enough
         plain = PLAIN / farthest if farthest else np.inf
         compose.chosen(self.fast)(self.arrays, turns, plain, error, rate, behind)
         back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)

@@ -261,6 +261,7 @@ class ErrorComposition:
         found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
         for at, seen in enumerate(self.outputs):
             for link, sign in ((seen.of, 1), (seen.base, -seen.sense)):
+                # links without a row have no error
                 if link in self.place:
                     found[0][at] += sign * error[self.place[link]]
                     found[1][at] += sign * rate[self.place[link]]

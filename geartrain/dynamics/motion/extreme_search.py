@@ -201,7 +201,9 @@ class StepSearch:
         kinks = [search.between(InputSteps(low, high)).turns for search in self._kink_searches]
         edges = np.unique(np.concatenate([low, high, *kinks]))
         middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+        # step that contains each piece; gaps between steps are dropped
         within = np.maximum(np.searchsorted(low, middle) - 1, 0)
+        # pieces end slightly before a kink, where one-sided limits are taken
         beside = np.maximum(_BESIDE * (high - low)[within], _ULPS * np.spacing(np.abs(middle)))
         held = (middle < high[within]) & (width > _NO_PIECE * beside)
         middle, half = middle[held], (width / 2 - beside)[held]
@@ -219,6 +221,7 @@ class StepSearch:
             peak = self._peak(values[sought], sought)
             if peak is not None:
                 likely.setdefault(peak[0], []).append(peak[1])
+        # the composition is evaluated at the maxima of the polynomials, so that values are not interpolated
         if likely:
             turns = [middle[piece] + half[piece] * u for piece, places in likely.items() for u in places]
             self._count(self._at(np.array(turns)))
@@ -306,6 +309,7 @@ class ExtremeSearch:
         end = _period_end(self._parts, start, end)
         left: dict[tuple[int, ...], list[BoundedSteps]] = {group: [] for group in self._groups}
         for steps in self._first(start, end):
+            # the first round bounds all outputs together, later rounds search groups separately
             bounded = self._whole.bounded(steps)
             for group, parts in left.items():
                 parts.append(bounded.of_outputs(list(group), self._whole))

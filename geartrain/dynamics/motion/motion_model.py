@@ -54,6 +54,7 @@ class PointerCompositions:
         sources = tuple(
             replace(
                 each,
+                # backlash displaces the driver; `set_back` is its advance at position 0 due to other pairs
                 phase=each.phase + found.driver_shift(each, backlash),
                 set_back=found.driver_shift(each, teeth + pins),
             )
@@ -394,6 +395,7 @@ class Motion(Shown):
         links = sum(len(step.links) for step in composition.steps)
         if not links or not is_fast(self.fast, samples * links / _PACE):
             return composition
+        # compiled once for each direction
         if (turns >= 0) not in self._compiled:
             from geartrain.dynamics.motion.compiled_composition import compiled_composition
 

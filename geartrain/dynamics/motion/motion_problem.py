@@ -158,6 +158,7 @@ def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[st
     for wheel, pairs in of_wheel.items():
         for (one, axis), (other, second) in permutations(pairs, 2):
             if one.carrier == other.carrier and axis == second:
+                # one mate is a ring, the other is not
                 opposite = (one.a * one.b < 0) != (other.a * other.b < 0)
                 found.setdefault((one.id, wheel), []).append((other.id, opposite))
     return found

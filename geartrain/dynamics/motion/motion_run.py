@@ -295,6 +295,7 @@ class MotionRun(Tabular, Pictured):
             self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
+        # samples miss sharp peaks, so extremes are searched between them
         composition = self.motion._forward if self.turns >= 0 else self.motion._backward
         search = ExtremeSearch(composition)
         count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)

@@ -66,6 +66,7 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
             continue
         unit = np.zeros((len(spread.pairs), 1))
         unit[source.pair] = 1.0
+        # effective inertia: sum of J g^2 for a unit jump of the driven side
         struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
         driver = abs(source.mean * speed)
         jumps = tuple(leap.size * driver for leap in leaps)
@@ -133,6 +134,7 @@ def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperati
     if inertia is None or leaps is None or steepest is None:
         return None
     void = sqrt(load / (inertia * steepest)) / (2 * pi) if load is not None and steepest > 0 else None
+    # the limiting speed does not depend on the speed of operation
     if omega1 is None:
         return PairImpacts(inertia, void=void)
     energies = collision_energies(leaps, inertia, omega1)

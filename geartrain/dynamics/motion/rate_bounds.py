@@ -218,6 +218,7 @@ class RateBounds:
         for step in self.composition.steps:
             base = [_summed(row, [links[link] for link in step.known], still) for row in step.from_known]
             inside = dict(zip(step.links, base, strict=True))
+            # driver speeds with the errors of earlier links; the step's own are added in `_pair_rates`
             turning = [self._turning(at, {**links, **inside}, still) for at in step.sources]
             rates = self._pair_rates(step, turning, phase, angle, shifts)
             for link, known, row in zip(step.links, base, step.from_sources, strict=True):

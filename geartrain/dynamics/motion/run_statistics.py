@@ -208,6 +208,7 @@ def count_extremes(
     """
     low, high = sorted((0.0, turns))
     search.over(low, high)
+    # the run is too long for a complete search: the neighbourhood of sampled peaks is searched
     if search.uncertainty.any():
         search.around(peaks.turns.reshape(len(tallies), -1), abs(step), low, high)
     for tally, (most, minimum, fast, slow), uncertainty in zip(

@@ -93,6 +93,7 @@ class _InfluenceSolver:
         self.rows: dict[int, LinearForm] = {row: {} for row in self.balance.rows}
         self.holding_rows: dict[int, set[int]] = {}
         at = {link: row for row, link in enumerate(self.balance.links)}
+        # sorted, so that the order of declaration has no effect
         for name in sorted(self.loads):
             symbol = self._symbol(LoadGroup(1, (name,)))
             for link, torque in self.loads[name].items():
@@ -128,6 +129,7 @@ class _InfluenceSolver:
             forms = self._solve(block)
             if forms is None:
                 return False
+            # an undetermined torque may be determined by a later block
             if block is not blocks[-1] and None in forms.values():
                 return None
             for column, form in forms.items():

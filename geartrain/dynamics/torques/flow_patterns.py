@@ -115,6 +115,7 @@ def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list
         for partial in partials:
             found, tried = _solutions(balance.columns, block, partial.rows)
             complete &= tried
+            # an undetermined torque may be determined by a later block
             if block is not blocks[-1] and any(value is None for _, values in found for value in values.values()):
                 return None
             followed += _branches(balance.columns, partial, found)
@@ -209,6 +210,7 @@ def _is_consistent(
     demands: list[LinearForm] = []
     for column in bound:
         form = solved.get(column, {column: Fraction(1)})
+        # required sign of the torque: power in the direction of the side
         way = -sides[column] * columns[column].turn
         demands.append({at: way * value for at, value in form.items()})
         if columns[column].barred:

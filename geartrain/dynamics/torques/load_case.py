@@ -62,6 +62,7 @@ def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | 
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))
         if not speed:
+            # the loads do work in a motion in which the link is at rest
             if motion.power:
                 return None
             continue
@@ -228,6 +229,7 @@ class LoadCase:
                 continue
             carrier = self.tree.parent[link][0]
             relative = self.relative(link, carrier) or Fraction(0)
+            # Coulomb friction has the sign of the relative speed
             torque = friction * ((relative > 0) - (relative < 0))
             reaction = Fraction(0) if carrier == self.train.frame else self.sense(carrier) * torque
             found.append(BearingTorque(link, carrier, -self.sense(link) * torque, reaction, torque * relative))

@@ -70,6 +70,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
         return None
     form = setting.train.form_of(gear)
     angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
+    # 15 digits, so that equal efficiencies are equal fractions
     found = [Fraction(f"{screw_efficiency(*pair, friction.sliding, angle):.15g}") for pair in (helix, helix[::-1])]
     return MeanEfficiencies((found[0], found[1]), (found[0], found[1]), exact=False)
 

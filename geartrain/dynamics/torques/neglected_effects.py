@@ -140,6 +140,7 @@ def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[
     for row in system.equations:
         form: LinearForm = {column[link]: Fraction(value) for link, value in row.terms}
         if row.kind not in ("input", "fixed", "lock", "frame") and row.label in number:
+            # the deviation of the pair is a symbol, with inputs fixed
             form[-1 - number[row.label]] = -nonuniform[number[row.label]].factor
         rows.append(form)
     forms = eliminate(rows).forms()

@@ -128,6 +128,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
+    # bisection over the widths: streams of at least this power contain a cycle or not
     widths = sorted({power for power in left if power > min(left[at] for at in best)})
     low, high = 0, len(widths)
     while low < high:

@@ -324,7 +324,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """Return the loads and the links with unknown torques; a verdict if there is no load or no torque can be
+    """Return the loads and the links with unknown torques; a verdict if no load is declared or no torque can be
     requested.
     """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
@@ -574,6 +574,7 @@ def _torques(
 def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPattern) -> PairTorque:
     x = flow.solved.multipliers[mesh.id]
     first, second, carrier = (x * each for each in mesh.torques(flow.pattern.get(mesh.id, 0)))
+    # power flows from the first link to the second if the multiplier is opposite to the rolling speed
     ahead = ((x < 0) - (x > 0)) * mesh.turn
     return PairTorque(
         mesh.id,

@@ -225,6 +225,7 @@ class TorqueBalance:
         lossy = [mesh for mesh in meshes if mesh.loses]
         turn = lossy[0].turn if lossy else 0
         sides = lossy[0].sides if lossy else (0,)
+        # sides of the other meshes refer to the first lossy one
         blank = TorqueUnknown({}, meshes, sides, turn, bool(lossy) and lossy[0].efficiency(sides[0]) <= 0)
         pieces = {
             side: _row(entry for mesh in meshes for entry in self._entries(mesh, blank.side_of(mesh, side)))
@@ -303,6 +304,7 @@ def generic_balance(balance: TorqueBalance) -> TorqueBalance:
     meshes = tuple(
         replace(
             mesh,
+            # equal planets get equal coefficients, other meshes different ones
             a=_SCALES[0] * mesh.a + group.get(mesh.id, len(balance.ties) + at),
             b=_SCALES[1] * (mesh.b or -1),
             forward=Fraction(1),

@@ -269,6 +269,7 @@ class PairContact:
             else self.source.transmission.reversed_motion()
         )
         tau = np.full(len(at.turning), self.ratio) if transmission is None else transmission.speed(at.S)
+        # the driving side follows from the flank and from the sense of motion
         found = self.losses.torques(tau, transmission, at, side * np.sign(at.turning), static)
         driven, driver = self.sense * found.driven, -self.way * found.driver
         return PairForce(driver, driven, found.barred) if self.first else PairForce(driven, driver, found.barred)

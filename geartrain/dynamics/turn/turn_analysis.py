@@ -339,6 +339,7 @@ class _RunResults:
             np.where(found.valid, found.losses, 0) @ weights,
             np.where(found.valid, found.passed, 0) @ weights,
         )
+        # noise around a torque of 0 is not a change of flanks
         changes = [_changes(row, self._closes) for row in sign_beyond(found.pressed, RunScales.of(found).pressed)]
         bearings = len(self.run.train.bearings)
         changes += [0] * bearings

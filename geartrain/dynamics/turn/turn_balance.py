@@ -111,6 +111,7 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
     for sides in product(*(each.sides for each in own)):
         values, valid = _solve(own, block, layer, sides)
         for other in found:
+            # patterns that differ only in torques of 0 give the same solution
             if (both := valid & other.valid).any():
                 near = np.abs(values - other.values) <= SAME * np.max(np.abs(values), axis=0, initial=0.0)
                 valid &= ~(both & near.all(axis=0))
@@ -130,6 +131,7 @@ def _solve(
         values, valid = _divided(own[0].pieces[sides[0]].get(block.rows[0]), known)
     else:
         values, valid = _eliminated(own, block, layer, sides)
+    # signs must agree with the pattern, and barred torques must be 0
     valid = valid & layer.valid & ~contradicts(values, np.array(sides)[:, None])
     scale = np.max(np.abs(values), axis=0, initial=0.0)
     for each, side, value in zip(own, sides, values, strict=True):
@@ -529,6 +531,7 @@ class TurnBalance:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]
         power = [way * (each.values[self.requested_columns] * speeds).sum(axis=0) for each in layers]
+        # minimum power input means minimum loss, because loads are given
         which = np.argmin([np.where(each.valid, p, np.inf) for each, p in zip(layers, power, strict=True)], axis=0)
         found = layers[0].copy()
         for at, layer in enumerate(layers[1:], 1):

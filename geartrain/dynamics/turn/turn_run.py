@@ -164,6 +164,7 @@ class TurnRun:
         contact.
         """
         train = self.train
+        # flanks in contact at a few positions: their functions' kinks are searched exactly
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
         sets = {frozenset[str](): 0}
         rows = [train.pairs.index(name) for name in train.flanked]
@@ -217,6 +218,7 @@ class TurnRun:
             signs = self.signs(found, scales)
             kinks, places = find_kinks(lambda turns: self.signs(self.train.at(turns), scales), cells, signs)
         coarse = self._coarse(cells, found, total)
+        # a cell with a kink is divided there first
         coarse[kinks] = False
         wide = np.flatnonzero(coarse)
         return np.concatenate([kinks, wide]), np.concatenate([places, cells.middles[wide]])
@@ -248,6 +250,7 @@ class TurnRun:
                 np.sign(found.turning),
                 np.sign(found.slipping),
                 np.sign(found.kinks),
+                # a change of the number of solutions is a kink too
                 found.layers[None],
                 sign_beyond(found.powers[:requested], scales.power),
                 sign_beyond(found.powers[requested:outside], scales.power),

@@ -60,6 +60,7 @@ def check_kinds(
         if set(pair.kinds) not in _MATES:
             yield BuildFinding("K2", "error", _incompatible_kinds(pair))
         elif pair.parallel and shape != "spur":
+            # undeclared directions may only be missing, so the finding is then a note
             declared = all(label in train.axes for label in pair.axes)
             yield BuildFinding("K1", "error" if declared else "note", _parallel_axes_problem(pair, shape, declared))
         elif not pair.parallel:
@@ -111,6 +112,7 @@ def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) ->
             "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
             pair.place,
         )
+    # worms and crossed helical wheels need skew axes, bevel and crown wheels intersecting axes
     if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
     far = f"pass each other at {offset * 1000:.6g} mm" if offset else "intersect"
@@ -288,6 +290,7 @@ def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: Pitc
         if pair.parallel or any(wheel.helix_angle is None for wheel in pair.declared):
             continue
         module, offset = sizes.module(pair.wheels[0]), passing_distance(axes, pair.axes)
+        # intersecting axes are reported by rule K1
         if module is None or not offset:
             continue
         radii = [float(module) * (wheel.count or 0) / 2 / cos(wheel.helix) for wheel in pair.declared]

@@ -235,6 +235,7 @@ class TrainAssembly:
             alike: dict[object, list[PlanetSet]] = {}
             for links in self._groups(carrier):
                 one = self._set(carrier, links)
+                # planets that mesh in a loop have no canonical form, so such a set has no copies
                 alike.setdefault(one.planets.form if one.planets else one.links, []).append(one)
             for first, *others in alike.values():
                 found.append(PlanetSet(carrier, first.planets, first.links, tuple(others)))
@@ -700,6 +701,7 @@ class _EqualPlanets:
         if A is None or B is None or mesh.ring is not None or self.points is not None:
             return None
         D = self._mesh_distance(mesh)
+        # the triangle of the three axes does not exist
         if not abs(A - B) <= D <= A + B:
             return None
         tips = self._tip_diameter(planet, mesh) + self._tip_diameter(other, mesh)

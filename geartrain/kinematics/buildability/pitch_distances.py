@@ -233,6 +233,7 @@ class PitchPair:
             sized = self.modules != (None, None)
             low = high = low + (SHIFT if sized else max(SHIFT, _FREE * wanted))
         elif form.any_distance and form.conjugate:
+            # involutes run with more backlash: closer together with a ring, farther apart otherwise
             low, high = (low + SHIFT, high) if self.ring is not None else (low, high + SHIFT)
         elif form.any_distance:
             low = high = _LOOSE * wanted
@@ -327,6 +328,7 @@ class PitchDistances:
                 self.sizes.join(_MM, ("wheel", name), millimetres(wheel.module))
         for pair in self.pairs:
             first, second = (("wheel", wheel) for wheel in pair.wheels)
+            # a contradiction is reported at the pair that would join different modules
             ratio = self.sizes.ratio(first, second)
             if ratio is not None and ratio != 1:
                 yield self._two_pitches(pair)
@@ -403,6 +405,7 @@ class PitchDistances:
             if not pair.has_distance:
                 continue
             node, wheel = ("axes", *pair.axis_pair), ("wheel", pair.wheels[0])
+            # the first pair between two axes defines their distance, others are compared with it
             found = self.sizes.ratio(node, wheel)
             if found is None:
                 self.sizes.join(wheel, node, pair.distance)
@@ -484,6 +487,7 @@ class PitchDistances:
             why = f"two axes have only one distance, and the teeth must compensate for {self._length(off, module)}"
             return Problem(what, why, _COMPENSATE, pair.place)
         why = f"two axes have only one distance, and these differ by {self._length(off, module)}"
+        # the distance is half of the sum of the tooth counts
         teeth = 2 * off
         fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
         fix += ", or give each pair its own pinion and module" if shared else ", or give one pair another module"

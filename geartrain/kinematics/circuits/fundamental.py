@@ -172,6 +172,7 @@ def _carrier(tree: Tree, i: str, j: str) -> str | None:
     if top_i is not None and top_i == top_j:
         return top_i
     for carrier, other, axis_other in ((top_i, j, axis_j), (top_j, i, axis_i)):
+        # the frame has no axis, and a link does not carry itself
         if carrier is None or carrier == other or carrier not in parent:
             continue
         if parent[carrier][1] == axis_other or top[carrier] == other:
@@ -255,6 +256,7 @@ def bevels_on_one_side(
     for circuit in circuits:
         if circuit.kind != "gear" or any(train.wheels[wheel][1].kind != "bevel" for wheel in circuit.wheels):
             continue
+        # only pairs on axes that are not parallel have an apex
         if not is_rotation(circuit.i, circuit.j):
             first, second = circuit.wheels
             mates.setdefault(second, []).append((first, circuit.i, circuit.b > 0))

@@ -225,8 +225,10 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
     worm, wheel = wheels[at], wheels[1 - at]
     if worm.helix_angle is None:
         return None
+    # b1 + b2 = S, or S plus half a turn: both sides if the positions do not determine the sign
     leans = [remainder(way * angle - worm.helix, pi) for way in ((side,) if side else (1, -1))]
     if wheel.helix_angle is not None:
+        # without a hand both signs of the declared angle are possible
         declared = {wheel.helix} if wheel.hand else {wheel.helix, -wheel.helix}
         leans = [lean for lean in leans if any(abs(lean - each) <= _SAME for each in declared)]
     if not leans:
@@ -481,6 +483,7 @@ class JointLines:
         steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
         found: list[JointOnLine] = []
         for start, end, label in steps:
+            # consecutive joints on one line are one joint
             if found and self._same_line(found[-1][2][-1], label):
                 before = found.pop()
                 labels = before[2] if before[2][-1] == label else (*before[2], label)
@@ -525,6 +528,7 @@ class _Bodies:
         """
         closed: list[tuple[Rigid, JointOnLine]] = []
         waiting = list(across)
+        # closing a joint may leave fewer open joints in other chains, so it is repeated
         while waiting:
             able = [rigid for rigid in waiting if self._lines.rigid(self._labels(rigid))]
             if not able:
@@ -553,6 +557,7 @@ def _joint_by_joint(
     locks = [lock for lock in case.locks if lock not in spread]
     causes: dict[tuple[str, ...], tuple[str, ...]] = {}
     for rigid, (start, end, _) in stops:
+        # a joint of the frame is closed by a brake, other joints by a lock
         if frame in (start, end):
             link = end if start == frame else start
             fixed.append(link)

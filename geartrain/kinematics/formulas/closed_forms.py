@@ -86,6 +86,7 @@ def _separate_factors(p: Laurent) -> Iterator[Laurent]:
     groups = [{at} for at in used]
     for i, j in combinations(used, 2):
         one, other = (next(group for group in groups if at in group) for at in (i, j))
+        # inseparable variables are in one factor: their groups are merged
         if one is not other and not _are_separable(p, i, j):
             groups.remove(other)
             one |= other

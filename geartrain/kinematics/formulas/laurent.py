@@ -274,6 +274,7 @@ def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
         rest = _pseudo_remainder(p, q, at)
         if not rest:
             return (content * q).primitive()
+        # a non-zero remainder without the variable: only the contents have a common divisor
         if not _degree(rest, at):
             return content
         p, q = q, _divide_exactly(rest, _content(rest, at)).primitive()
@@ -348,6 +349,7 @@ def _image(p: Laurent, at: int, point: Sequence[int]) -> list[int]:
 def _remainder(p: Sequence[int], q: Sequence[int]) -> list[int]:
     """Return the remainder of the division of two univariate polynomials modulo the prime."""
     rest = list(p)
+    # schoolbook division with the inverse of the leading coefficient
     inverse = pow(q[-1], -1, PRIME)
     while len(rest) >= len(q):
         factor = rest[-1] * inverse % PRIME

@@ -68,6 +68,7 @@ class SymbolicSolution:
             if factor is not None:
                 add_into(rest, equal, -factor)
         free = {c: entry.modulo(self.point, PRIME) for c, entry in rest.items() if c != GIVEN}
+        # not in the row space of the core: the form contains a free unknown
         if _reduced_row(free, self.span):
             return None
         return _combined(rest, self.values, self.determinants, self.width)
@@ -138,6 +139,7 @@ def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple
         rest = _reduced_row({c: entry.modulo(point, PRIME) for c, entry in row.items() if c != GIVEN}, span)
         if rest:
             lead = min(rest)
+            # leading entries are normalised to 1
             inverse = pow(rest[lead], -1, PRIME)
             span[lead] = {column: value * inverse % PRIME for column, value in rest.items()}
             chosen.append(at)
@@ -250,6 +252,7 @@ class SymbolicEquations:
         self._ratios = self._find_ratios(parts)
         loops = [self._chord(parts, at) for at in (*parts.closing, *parts.breaking)]
         one = Laurent.constant(1, self.width)
+        # a constant product other than 1: the loop locks for all free counts
         never = [chord.circuit for chord in loops if chord.product.is_constant and chord.product != one]
         self.chords = tuple(chord for chord in loops if not chord.product.is_constant)
         self._reduced = reduce_components(replace(parts, breaking=never))
@@ -277,6 +280,7 @@ class SymbolicEquations:
         for start in range(len(parts.node_link)):
             chain = []
             node = start
+            # iterative, because a train can be deeper than the recursion limit
             while node not in found and parts.node_parent[node] >= 0:
                 chain.append(node)
                 node = parts.node_parent[node]
@@ -510,10 +514,12 @@ def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
+        # wheels that never roll impose no condition
         if rolls is not None and not rolls.numerator:
             continue
         loop = equations.parts.loop(chord.circuit)
         left = chord.product - one
+        # wheels that may be at rest: the condition is satisfied there too
         if rolls is not None and not rolls.numerator.is_definite:
             left = left * rolls.numerator
         yield f"loop {' - '.join(loop.links)} closes", left

@@ -120,8 +120,10 @@ def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
     members = []
     lists = []
     for list_, found in classes.items():
+        # the first exponent of a group is positive
         sign = 1 if next(iter(found.values())) > 0 else -1
         members.append({variable: sign * size for variable, size in found.items()})
+        # a common monomial factor makes the exponents non-negative
         minimum = min(sign * step for step in list_)
         lists.append([sign * step - minimum for step in list_])
     powers_of: Iterator[Exponents] = iter(zip(*lists, strict=True) if lists else [()] * len(terms))
@@ -276,6 +278,7 @@ class Formula:
             value, error = quotient.bounded(products_of([group.monomials(columns) for group in self.groups]))
         terms = (*self.numerator, *self.denominator)
         scale = max(abs(term.coefficient) for term in terms)
+        # the bounds are valid only without overflow and underflow
         largest = [log10(Fraction(int(np.max(columns[wheel], initial=1)))) for wheel in self.wheels]
         scaled = ((Fraction(c, scale), exponents) for c, exponents in terms)
         return value, error if in_range(scaled, largest) else np.full_like(error, np.inf)

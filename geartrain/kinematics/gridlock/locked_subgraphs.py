@@ -104,6 +104,7 @@ def _locked_subgraph(parts: Components, jammed: LockedNetwork) -> LockedSubgraph
     network = jammed.network
     found = walk_gain_graph(network)
     choice = choose_removal(network, found)
+    # the loop that proves a single removal is also the example
     steps = choice.bounds[0].loops[0] if choice.method == "one" else open_loop(network, found)
     return LockedSubgraph(
         jammed.carrier,

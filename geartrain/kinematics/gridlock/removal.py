@@ -213,6 +213,7 @@ def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
     """Combine the removals of components without common meshes."""
     parts = tuple(releases)
+    # alternatives exist only for a single component
     if len(parts) == 1:
         return parts[0]
     return MeshRemoval(

@@ -46,6 +46,7 @@ def disjoint_loops(
     used = set(without)
     loops: list[GainLoop] = []
     while (loop := shortest_loop(network, used)) is not None:
+        # firm meshes stay in later searches: they can be in several loops
         loose = [mesh for _, mesh in loop if mesh not in firm and mesh not in network.firm]
         if not loose:
             return None
@@ -114,6 +115,7 @@ def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list
     last = sorted(suspects, key=lambda mesh: suspects[mesh])
     calm = [mesh for mesh in (*tree, *found.chords, *found.breaking) if mesh not in suspects]
     best: list[int] | None = None
+    # two orders, because neither is always better
     for order in ([*calm, *last], [*tree, *found.chords, *found.breaking]):
         first = _inconsistent_meshes(network, order)
         better = _local_search(network, first)
@@ -218,6 +220,7 @@ def _root(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
         chain.append(node)
         node = up[node]
     total: Gain = 1
+    # path compression from the root downwards
     for below in reversed(chain):
         total = total * gain[below]
         up[below], gain[below] = node, total
@@ -352,6 +355,7 @@ def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
     """Return the sign of every node for which all bundles outside `join` are consistent."""
     near: dict[int, list[tuple[int, int]]] = {}
     for (one, two), surplus in bundles.items():
+        # pairs of nodes in the join have the relative sense of the minority of their meshes
         sign = -1 if (surplus < 0) != ((one, two) in join) else 1
         near.setdefault(one, []).append((two, sign))
         near.setdefault(two, []).append((one, sign))
@@ -405,6 +409,7 @@ def _shortest_paths(
     queue = [(0, start)]
     while queue:
         distance, here = heappop(queue)
+        # an outdated entry of the heap
         if here in done:
             continue
         done[here] = distance
@@ -458,10 +463,12 @@ def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
     if singles:
         loop = LoopPacking([open_loop(network, found)], 1)
         return RemovalChoice(sorted(singles)[:1], "one", 1, sorted(singles), [loop])
+    # searches for shortest loops would take quadratic time
     if len(network.ends) > LARGE:
         meshes, loops = greedy_removal(network, found)
         return _greedy(meshes, LoopPacking(loops or [open_loop(network, found)], 1))
     choices = []
+    # a loop lies in one block, so blocks are solved separately
     for block in biconnected_blocks(network):
         part, nodes = network.part(block)
         if not is_balanced(part):
@@ -537,6 +544,7 @@ def _loop_proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> l
         if used.isdisjoint(mesh for _, mesh in loop):
             used.update(mesh for _, mesh in loop)
             apart.append(loop)
+    # a mesh of a planar graph is on at most two faces
     for bound in (LoopPacking(apart, 1), LoopPacking(list(odd), 2)):
         if bound.at_least == minimum:
             return [bound]

@@ -317,6 +317,7 @@ def _azimuths(
         for sense in pair:
             if sense not in frames:
                 frames[sense] = _frame(sense)
+    # azimuth from the components along two perpendicular directions of each axis
     vectors = np.array([[_floats(way) for way in pair] for pair in ways])
     first = np.array([[frames[sense][0] for sense in pair] for pair in senses])
     second = np.array([[frames[sense][1] for sense in pair] for pair in senses])

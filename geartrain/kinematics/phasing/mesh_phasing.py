@@ -293,6 +293,7 @@ class LoopPhase(Result):
             return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
         words = f"{name} misses by {_magnitude_text(self.miss)} pitch at {self.meshes[-1]}{self._accuracy_remark}"
         if self.retime:
+            # the wheel with the smallest rotation is suggested
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
             words += f"; {wheel} turned on its arbor by {turned:.6g} pitch would close it"
         return words
@@ -354,6 +355,7 @@ def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str,
         part: Fraction | float = Fraction(0)
         for one in (before, mesh):
             side = problem.ends[one][1] == node
+            # families cancel in an exact residue, so angles within the family suffice
             angle = contacts.part[one][side] if exact else float(contacts.azimuth[one, int(side)])
             part += _sum_change(problem, one, node, condition.row) * angle
         gear = _wheel(problem, mesh, node)
@@ -565,7 +567,7 @@ class MeshPhasing(Result):
         elif self.kind == "misses":
             yield f"phase closure: {len(self.missing)} of {loops} miss{'es' if len(self.missing) == 1 else ''}"
         elif self.kind == "closes":
-            # accuracy of the least accurate loop
+            # maximum error of all residues
             near = f"to {max(one.slack for one in self.problem.conditions):.1g} pitch"
             ways = {"exact": "exactly", "recognised": "exactly, with angles inferred from rounded positions"}
             yield f"phase closure: {loops} close{'s' if count == 1 else ''}, {ways.get(self.how, near)}"

@@ -95,6 +95,7 @@ def node_depths(parts: Components) -> list[int]:
         while node >= 0 and depth[node] < 0:
             way.append(node)
             node = parts.node_parent[node]
+        # `way` ends at a known node, or at a root with depth 0
         level = depth[node] if node >= 0 else -1
         for below, back in enumerate(reversed(way), 1):
             depth[back] = level + below

@@ -122,6 +122,7 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
     rows += [
         {**reduced.form(reduced.components.index[link]), -1 - at: Fraction(1)} for at, link in enumerate(case.inputs)
     ]
+    # conditions contain only symbols: relations between the inputs
     left = eliminate(map(residues, rows), modulus=PRIME).conditions
     said = [{-1 - column: value for column, value in row.items()} for row in left]
     rank = rank_modulo(said)
@@ -150,6 +151,7 @@ def _tagged(
             PrescriptionStatement("input", case.given(link), case.given(link), speed * signs.get(link, 1))
         )
     for tag, row in enumerate(rows):
+        # the symbols show which equations a contradiction is combined from
         row[-1 - tag] = Fraction(-1)
     return rows, statements
 
@@ -203,6 +205,7 @@ def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: in
     for tag in given:
         if tag < structural and reduced.origin[tag][0] == "share":
             _, link, _ = reduced.origin[tag]
+            # a link in several components couples them; the pairs between such links are concerned
             for node in parts.nodes_of[link]:
                 touched.setdefault(parts.node_group[node], set()).add(node)
     found = {circuit: None for nodes in touched.values() for circuit in parts.path(sorted(nodes))}

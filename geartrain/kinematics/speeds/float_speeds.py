@@ -285,8 +285,10 @@ def _solve_with_scaling(
     near = None
     with suppress(RangeError):
         near = _solve(matrix, rows, given, options)
+    # scaling is needed only for extreme speeds
     if near is not None and _is_ordinary(near.x):
         return near, np.zeros(near.x.shape, dtype=np.int64)
+    # exponents depend on the input speeds, so each case is scaled separately
     cases = [_solve_scaled(matrix, rows, [line[at : at + 1] for line in given], options) for at in range(len(given[0]))]
     found, exponents = zip(*cases, strict=True)
     x, estimate, residual, conditions = zip(*found, strict=True)
@@ -443,6 +445,7 @@ def _rounded_right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequenc
         if None in nearest:
             raise RangeError(_out_of_range(rows[at].label))
         right[at] = nearest
+        # rounding of the inputs is corrected in the residual
         remainder[at] = [float(value - Fraction(near)) for value, near in zip(line, right[at].tolist(), strict=True)]
     return right, remainder
 

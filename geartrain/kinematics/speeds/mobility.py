@@ -100,6 +100,7 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
     null = {column for column, form in forms.items() if not form}
     found = []
     for at, name in enumerate(parts.links):
+        # one moving unknown moves the link; several may cancel, which the exact form decides
         moving = [column for column in reduced.unknowns_of(at) if column not in null]
         if at != parts.frame and (not moving or (len(moving) > 1 and not resolve_form(reduced.form(at), forms))):
             found.append(name)

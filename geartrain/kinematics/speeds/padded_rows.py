@@ -25,6 +25,7 @@ class PaddedRows:
     def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
         self.at = {link: column for column, link in enumerate(links)}
         width = max((len(row.terms) for row in rows), default=0)
+        # rows are padded with coefficient 0 in column 0
         self.columns = np.zeros((len(rows), width), dtype=np.intc)
         self.coefficients = np.zeros((len(rows), width))
         for at, row in enumerate(rows):

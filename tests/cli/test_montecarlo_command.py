@@ -134,7 +134,7 @@ def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path)
         requested | {"geartrain": "0.0.0"},
     ]
     for other in others:
-        with pytest.raises(QuestionError, match="another question"):
+        with pytest.raises(QuestionError, match="another run"):
             Journal(here / "j", other)
     Journal(here / "j", requested).close()
 

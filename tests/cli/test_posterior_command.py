@@ -121,7 +121,7 @@ def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, mo
     assert len(list(train.parent.glob("*.partial.jsonl"))) == 1
     other = call("posterior", train, "--method", "sample", "--samples", "90000", "--resume")
     assert other.exit_code != 0
-    assert "another question" in str(other.exception)
+    assert "another run" in str(other.exception)
     assert json.loads(call("posterior", train, *options, "--resume").stdout) == whole
     assert not list(train.parent.glob("*.partial.jsonl"))
 

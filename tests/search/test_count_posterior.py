@@ -494,7 +494,7 @@ def test_who_does_the_work_changes_nothing(tmp_path: Any) -> None:
     with Journal(tmp_path / "j.jsonl", {"train": "chain"}) as journal:
         assert len(journal) == kept > 1
         assert run(CHAIN, method="sample", samples=60_000, journal=journal) == whole
-    with pytest.raises(QuestionError, match="another question"):
+    with pytest.raises(QuestionError, match="another run"):
         Journal(tmp_path / "j.jsonl", {"train": "planetary"})
 
 

@@ -32,7 +32,7 @@ def _first_or_second(raw: object) -> object:
 
 
 class Lantern(ConjugateToothForm):
-    """Round pins on one wheel, the lantern, and conjugate teeth on the other.
+    """Round pins on one wheel, the lantern, and conjugate teeth on its mate.
 
     A tooth profile is the parallel curve of the epicycloid of the pins' centres, at the distance of a pin radius
     (docs/shapes.md). By default all contact is on one side of the pitch point.
@@ -85,7 +85,7 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None, since the transmission function of these teeth is known at the design centre distance only.
+        """Return None; another centre distance than the design distance is rejected.
 
         Returns
         -------
@@ -108,7 +108,7 @@ class Lantern(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its design centre distance.
+        """Return the pair of these wheels at its design centre distance.
 
         Raises
         ------
@@ -144,7 +144,7 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair with the same total arc of contact, all of it in recess.
+        """Return the pair whose total arc of contact equals the sum of `arcs`, all of it in recess.
 
         The arc is extended by the part that the approaching pins cut off the mate's flanks.
 
@@ -162,8 +162,8 @@ class Lantern(ConjugateToothForm):
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """Return an undercut fault if the approaching pins leave less of the mate's flank than the arcs need, else
-        nothing.
+        """Return an undercut fault if the approaching pins remove part of the flank that the arcs need, else an empty
+        tuple.
         """
         from geartrain.teeth.pair_results import ToothFault
 
@@ -199,7 +199,7 @@ class Lantern(ConjugateToothForm):
         return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
-        """Return the distance of the pins from the axis and their radius, in modules."""
+        """Return the distance of the pins from the axis and their radius [module]."""
         A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
         B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
         z = wheels.z1 if self.pins == 1 else wheels.z2
@@ -221,7 +221,7 @@ class Lantern(ConjugateToothForm):
     def _arcs(
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
-        """Return the arcs (X) on the mate's addendum and on its dedendum.
+        """Return the arcs X of contact on the mate's addendum and on its dedendum [module].
 
         By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
         """

@@ -183,7 +183,6 @@ def arcs_error(text: str) -> QuestionError:
 def _check(
     known: Mapping[str, object], names: Sequence[str], arcs: tuple[float, float], angle: Quantity | None
 ) -> None:
-    """Raise `QuestionError` for unknown names, arcs out of range and pressure angles of 45 deg or more."""
     if not names:
         raise QuestionError(
             Problem("no tooth form is given", "", f"give one or more of: {', '.join(known)}", "--forms")
@@ -259,7 +258,6 @@ def _pair_result(name: str, pair: ConjugatePair, base: PathMeasures | None = Non
 
 
 def _matched_text(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
-    """Return a text that lists the quantities that are equal in all compared pairs."""
     notes = dict.fromkeys(model.matched for model in models if model.matched)
     common = "; ".join([f"arcs of contact, {arcs[0]:g} pitches in approach and {arcs[1]:g} in recess", *notes])
     loads = "one tooth pair bears the whole load, or the tooth pairs in contact share it"

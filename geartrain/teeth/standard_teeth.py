@@ -95,7 +95,6 @@ def _design(
 
 
 def _ring_last(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
-    """Return the two wheels of a pair, with a ring gear as the second."""
     return (second, first) if first.internal else (first, second)
 
 

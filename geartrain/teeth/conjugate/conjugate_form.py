@@ -440,7 +440,6 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
 
 
 def _are_skew(shaft_angle: ShaftAngle) -> bool:
-    """Return whether the axes of two helical wheels are not parallel."""
     try:
         return shaft_angle() is not None
     except RangeError:

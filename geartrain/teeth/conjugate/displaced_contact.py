@@ -373,7 +373,6 @@ def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
 
 
 def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
-    """Return the outline of one wheel: its active flank and the mirror image of that flank."""
     half = pair.halves[gear - 1] / abs(R)
     turn = np.exp(-1j * half)
 
@@ -400,7 +399,6 @@ def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 def _joints(path: PathOfContact) -> list[float]:
-    """Return the arcs X at which the pieces of a path end."""
     ends = ((-1.0, path.approach), (1.0, path.recess))
     return [sign * float(side.travel(np.array(d))) for sign, side in ends for d in side.joints]
 

@@ -204,7 +204,6 @@ def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) ->
 
 
 def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> DisplacedWheelSizes:
-    """Return the sizes of a wheel from its contact radii and the half tooth thicknesses there [module]."""
     foot, top = int(np.argmin(radius)), int(np.argmax(radius))
     lean = float(np.arctan2(half[foot] - half[top], radius[top] - radius[foot]))
     return DisplacedWheelSizes(wheel.z, float(tip - radius[foot]), max(lean, _BLUNT))

@@ -380,7 +380,6 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
 
 
 def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
-    """Return whether two consecutive curves have different directions at their common point."""
     before, after = _direction(last, 1), _direction(new, -1)
     return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)
 

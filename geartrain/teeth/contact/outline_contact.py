@@ -156,7 +156,6 @@ def _deviations(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
 
 
 def _no_contact(count: int) -> tuple[Any, ...]:
-    """Return the fields of `FlankContact` for positions at which no tooth is within range."""
     nan = np.full(count, np.nan)
     none = np.full(count, -1)
     return (

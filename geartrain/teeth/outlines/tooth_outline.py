@@ -276,7 +276,6 @@ def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 def _with_inflections(found: Floats, bends: Floats) -> Floats:
-    """Return the arcs X with the inflections `bends` inserted and other interior arcs near them removed."""
     if not bends.size:
         return np.asarray(found)
     near = _NEAR * abs(found[-1] - found[0])

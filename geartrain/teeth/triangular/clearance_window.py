@@ -330,10 +330,6 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _minimum_excess(sizes: TriangularSizes) -> float:
-    """Return the excess above which the coast flanks have backlash.
-
-    It is 0 if they have backlash at any excess, and the maximum excess if they never have.
-    """
     reach = sizes.maximum_excess
 
     def backlash(excess: float) -> float:

@@ -282,7 +282,6 @@ class RealPath:
 
 
 def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
-    """Return the intervals with neighbours of the same tooth pair and phase joined."""
     found: list[DriveInterval] = []
     for cell in cells:
         last = found[-1] if found else None

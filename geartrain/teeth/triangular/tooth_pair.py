@@ -52,7 +52,6 @@ class ToothPair:
     # ------------------------------------------------------------------------------------------------------- approach
 
     def _flank_line(self, x: Any, m: ModuleType) -> FlankLine:
-        """Return the values `FlankLine` of a contact in approach at x."""
         # half angles: 1 - cos x would cancel near the line of centres
         u, w = m.sin(x / 2), m.cos(x / 2)
         sine, cosine = 2 * u * w, 1 - 2 * u * u
@@ -126,7 +125,6 @@ class ToothPair:
     # --------------------------------------------------------------------------------------------------------- recess
 
     def _driven_apex(self, x: Any, m: ModuleType) -> DrivenApex:
-        """Return the values `DrivenApex` of a contact in recess at x."""
         u = m.sin(x / 2)
         sine, cosine = 2 * u * m.cos(x / 2), 1 - 2 * u * u
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)

@@ -54,8 +54,8 @@ _SCOPE = "circular-arc teeth are for external pairs of spur wheels; a contrate w
 
 
 def addendum_factor(z: int, ratio: float) -> float:
-    """Return the factor f_a of a wheel's addendum [module]: the height above the pitch circle at which the epicycloid meets
-    its mirror image.
+    """Return the factor f_a of a wheel's addendum [module]: the height above the pitch circle at which the epicycloid
+    meets its mirror image.
 
     The wheel drives a pinion of `z` leaves; `ratio` is the wheel's tooth count over the pinion's. The equations in the
     module's docstring are solved by fixed-point iteration, which converges because the slope of b is below one.
@@ -416,7 +416,8 @@ class ArcTooth:
         return GearOutline((ToothFlanks.symmetric(side),), self.z)
 
     def vertices(self) -> Iterator[Vertex]:
-        """Yield the vertices (x, y, bulge) of one tooth from root to root [module]; the tooth's centre line is the x axis.
+        """Yield the vertices (x, y, bulge) of one tooth from root to root [module]; the tooth's centre line is the x
+        axis.
 
         The bulge of an edge is the tangent of a quarter of its angle, so that circular arcs are exact.
         """

@@ -81,7 +81,8 @@ class CycloidalDisc:
         return self.pins / 2 / self.circle
 
     def centres(self, turn: Floats) -> Floats:
-        """Return the positions of a pin's centre in the frame of the disc [module], as complex numbers: docs/reducers.md (2).
+        """Return the positions of a pin's centre in the frame of the disc [module], as complex numbers:
+        docs/reducers.md (2).
 
         turn   angle of the eccentric (rad)
         """
@@ -151,8 +152,8 @@ class CycloidalDisc:
         return found
 
     def loads(self, phase: Floats) -> Floats:
-        """Return the forces on all pins over the tangential force at the disc's pitch circle, shape (pins, ...): docs/reducers.md
-        (5).
+        """Return the forces on all pins over the tangential force at the disc's pitch circle, shape (pins, ...):
+        docs/reducers.md (5).
 
         phase   angle of one pin from the line of centres (rad)
 
@@ -166,7 +167,8 @@ class CycloidalDisc:
         return found
 
     def _loaded_angle(self, arms: Floats) -> Floats:
-        """Return the rotation of the disc under load at which the pins in contact carry the torque [rad]: docs/reducers.md (7).
+        """Return the rotation of the disc under load at which the pins in contact carry the torque [rad]:
+        docs/reducers.md (7).
 
         Pins with longer lever arms come into contact first. Their number is the smallest for which the next pin stays
         free.
@@ -195,7 +197,8 @@ class CycloidalDisc:
         return found
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
-        """Return the load-weighted mean sliding speed over the pitch-line speed, and the power loss over the friction coefficient.
+        """Return the load-weighted mean sliding speed over the pitch-line speed, and the power loss over the friction
+        coefficient.
 
         phase   angle of one pin from the line of centres (rad)
         """
@@ -218,7 +221,8 @@ class CycloidalDisc:
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """Return one lobe about the x axis as a chain of chords that stay inside the lobe, so that the pins clear it.
+        """Return one lobe about the x axis as a chain of chords that stay inside the lobe, so that the pins clear
+        it.
         """
         number = _MIN_CHORDS
         while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:

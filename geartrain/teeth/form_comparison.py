@@ -221,7 +221,8 @@ def _form_result(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> MeasuredForm:
-    """Return the result for one form with these arcs; if the form rejects the wheels, its faults are of kind "refused".
+    """Return the result for one form with these arcs; if the form rejects the wheels, its faults are of kind
+    "refused".
     """
     own = angle if "pressure_angle" in model.model_fields else {}
     try:

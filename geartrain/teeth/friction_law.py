@@ -37,7 +37,8 @@ SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 
 def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: float, viscous: float) -> Floats:
-    """Return the coefficient mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md (16).
+    """Return the coefficient mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md
+    (16).
 
     The Stribeck curve falls from static to kinetic friction, and rises with a viscous term. v and speed are in m/s,
     viscous in s/m.
@@ -77,7 +78,8 @@ def buckingham_constants() -> tuple[float, float, float]:
 
 
 def dokos(v: Floats, slowest: float) -> Floats:
-    """Return the coefficient mu at sliding speeds v [m/s]; it falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed.
+    """Return the coefficient mu at sliding speeds v [m/s]; it falls from 0.53 at `slowest` to 0.18 at 10^7 times that
+    speed.
 
     The coefficient is constant below and above these speeds. Smith prints only both end values and the ratio of speeds
     ("gradually"). Linear interpolation in log v is an assumption, and so is any value of `slowest`.
@@ -283,7 +285,8 @@ _NAME = re.compile(r"[a-z_]+")
 
 
 def law_of_text(raw: object) -> object:
-    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a mapping.
+    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a
+    mapping.
 
     Return it as a declaration has it. Values of a column of a table are separated by colons. Any other input is
     returned unchanged.
@@ -322,7 +325,8 @@ class PairFriction(Shown):
     """Pitch-line speed [m/s]: one value, or one for each position."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
-        """Return the coefficient at sliding speeds over the pitch-line speed; NaN where `sliding` is NaN (no contact).
+        """Return the coefficient at sliding speeds over the pitch-line speed; NaN where `sliding` is NaN (no
+        contact).
         """
         import numpy as np
 

@@ -314,7 +314,8 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot, at constant torque on the slot.
+        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot, at constant torque on the
+        slot.
 
         It is NaN if friction locks.
         """

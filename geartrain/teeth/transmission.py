@@ -218,7 +218,8 @@ class TransmissionFunction(Shown, ABC):
         return []
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return all upward steps of the speed ratio in one pitch, at impacts of teeth; None if they are not computed.
+        """Return all upward steps of the speed ratio in one pitch, at impacts of teeth; None if they are not
+        computed.
         """
         return None
 

@@ -1,4 +1,5 @@
-"""Tables of periodic transmission functions: piecewise polynomials of low degree on uniform cells, divided at the kinks.
+"""Tables of periodic transmission functions: piecewise polynomials of low degree on uniform cells, divided at the
+kinks.
 
 A table is evaluated several times faster than the formula from which it was made. It interpolates the function at
 Chebyshev nodes strictly inside each cell, so that on either side of a kink it follows that side only. Tables do not

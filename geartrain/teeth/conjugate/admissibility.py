@@ -154,12 +154,13 @@ def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def tip_gap(path: PathOfContact) -> float:
-    """Return the angle at the ring gear [rad] between the tip of a pinion tooth and the tip of the ring tooth that it drives.
+    """Return the angle at the ring gear [rad] between the tip of a pinion tooth and the tip of the ring tooth that it
+    drives.
 
-    The angle is taken where the pinion's tip, which is faster, leaves the ring's tip circle. It is negative if the tips
-    collide before that. If the pinion's tip never leaves the circle, the angle is taken on the far side, where the teeth
-    have slipped by half the difference of the tooth numbers. It is infinite unless the pair is a spur pinion in a ring
-    gear with intersecting tip circles.
+    The angle is taken where the pinion's tip, which is faster, leaves the ring's tip circle. It is negative if the
+    tips collide before that. If the pinion's tip never leaves the circle, the angle is taken on the far side, where
+    the teeth have slipped by half the difference of the tooth numbers. It is infinite unless the pair is a spur
+    pinion in a ring gear with intersecting tip circles.
     """
     pitch = path.pitch
     if pitch.bevel or pitch.R2 > 0:
@@ -233,7 +234,8 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
 
 
 def _tangent(pair: InvolutePair, path: PathOfContact, gear: int) -> float:
-    """Return the arc X = R tan(psi) from the pitch point to the point where the line of action touches the base circle.
+    """Return the arc X = R tan(psi) from the pitch point to the point where the line of action touches the base
+    circle.
     """
     R = path.pitch.R1 if gear == 1 else path.pitch.R2
     sine = sin(pair.psi)

@@ -62,7 +62,8 @@ class ConeCirclePiece(PathPiece):
 def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
     """Return the side of a path of contact made by a rolling circle (radius in modules) or cone (half-angle in rad).
 
-    `X` is the length of its arc on the pitch surfaces. Raises `RangeError` if it is longer than half the rolling circle.
+    `X` is the length of its arc on the pitch surfaces. Raises `RangeError` if it is longer than half the rolling
+    circle.
     """
     longest = pi * sin(rho) if pitch.bevel else pi * rho
     # at exactly half the circle the pressure angle is a right angle, with cosine 0
@@ -119,7 +120,8 @@ class PinPiece(PathPiece):
         return self.B + self.sign * np.asarray(d, dtype=float)
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle (L^2 + R^2 - A^2) / (2 R L); it is L / 2R for pins on the pitch circle.
+        """Return the sine of the pressure angle (L^2 + R^2 - A^2) / (2 R L); it is L / 2R for pins on the pitch
+        circle.
         """
         L = self._length(d)
         found: Floats = (L + (self.R - self.A) * (self.R + self.A) / L) / (2 * self.R)
@@ -151,8 +153,8 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     """Return one side of the path of contact of a lantern wheel with the arc X on the pitch circles [module].
 
     `R` is the pitch radius of the lantern, `A` the distance of its pins from the axle and `B` their radius. `inside`
-    selects the side on which the mate's dedendum works. Raises `RangeError` if the arc passes the line of centres (inside)
-    or exceeds half a turn of the lantern.
+    selects the side on which the mate's dedendum works. Raises `RangeError` if the arc passes the line of centres
+    (inside) or exceeds half a turn of the lantern.
     """
     first = pin_angle(R, A, B)
     beta = first - X / R if inside else first + X / R
@@ -259,12 +261,12 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
 
 
 def flank_start(R: float, A: float, B: float, mate: float) -> float:
-    """Return the arc X of the first contact on the part of the mate's flank that the pins do not cut away; -inf if they cut
-    nothing.
+    """Return the arc X of the first contact on the part of the mate's flank that the pins do not cut away; -inf if they
+    cut nothing.
 
-    R, A and B are pitch radius, distance from the axle and radius of the pins [module]. `mate` is the pitch radius of the
-    mate, negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank extends inside the pitch
-    point.
+    R, A and B are pitch radius, distance from the axle and radius of the pins [module]. `mate` is the pitch radius
+    of the mate, negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank extends
+    inside the pitch point.
     """
     first = pin_angle(R, A, B)
     far = first + _FARTHEST * (acos(-1.0) - first)
@@ -319,7 +321,8 @@ def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance from a point of the mate to the pin's centre between the pin angles `low` and `high`.
+    """Return the minimum distance from a point of the mate to the pin's centre between the pin angles `low` and
+    `high`.
     """
     distance = inf
     for _ in range(_NARROWED):

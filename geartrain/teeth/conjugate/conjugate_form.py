@@ -428,7 +428,8 @@ def wheel_specific_parameters(form: ToothForm) -> list[str]:
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` if the two wheels have different tooth parameters and the pair names its ring gear first.
+    """Raise `GearTrainError` if the two wheels have different tooth parameters and the pair names its ring gear
+    first.
     """
     if uneven := wheel_specific_parameters(form):
         ring, pinion = pair

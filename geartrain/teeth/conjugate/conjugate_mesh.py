@@ -53,7 +53,8 @@ class ConjugateDetails(NamedForm, Protocol):
     """Advice on how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if it is undefined.
+        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if it is
+        undefined.
         """
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
@@ -121,7 +122,8 @@ class ConjugateMesh(GearMesh):
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirements on a tooth of `wheel`: its flank as designed, and a root that clears the mate's tip.
+        """Return the requirements on a tooth of `wheel`: its flank as designed, and a root that clears the mate's
+        tip.
         """
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
@@ -294,7 +296,8 @@ class SharedEfficiency(Result):
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """Pair with conjugate teeth as designed; values of gear 1 first, lengths in modules (bevels: rad), angles in rad.
+    """Pair with conjugate teeth as designed; values of gear 1 first, lengths in modules (bevels: rad), angles in
+    rad.
     """
 
     KEYS = (

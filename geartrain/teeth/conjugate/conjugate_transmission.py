@@ -148,7 +148,8 @@ class ConjugateTransmission(ExactRatio):
         return (approach, recess) if self.driver == 1 else (recess, approach)
 
     def contacts(self, S: ArrayLike) -> Floats:
-        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevels], negative in approach.
+        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevels], negative in
+        approach.
 
         Parameters
         ----------

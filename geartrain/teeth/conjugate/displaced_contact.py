@@ -46,8 +46,8 @@ Value = TypeVar("Value")
 def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Floats:
     """Return the azimuths [rad, 0 or more] of points at distance `own` from a gear's axle and `other` from its mate's.
 
-    The azimuth is measured at the axle of `gear` from the line of centres, by the law of cosines, plane or spherical. It
-    is NaN if no such point exists. The axle of a ring gear's mate is on the opposite side.
+    The azimuth is measured at the axle of `gear` from the line of centres, by the law of cosines, plane or
+    spherical. It is NaN if no such point exists. The axle of a ring gear's mate is on the opposite side.
     """
     D = pitch.R1 + pitch.R2
     if gear == 2:
@@ -62,7 +62,8 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 
 
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the arcs X by which both gears have rotated while the tip of `gear` touches given points of its mate's flank.
+    """Return the arcs X by which both gears have rotated while the tip of `gear` touches given points of its mate's
+    flank.
 
     The points are given by radius and azimuth [rad] in the mate's position X = 0. The tip of gear 1 touches beyond the
     recess, the tip of gear 2 before the approach.
@@ -96,7 +97,8 @@ def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
 
 
 def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the displacement of a flank along its normal at the contacts X, per 1 rad of rotation about its pitch point.
+    """Return the displacement of a flank along its normal at the contacts X, per 1 rad of rotation about its pitch
+    point.
 
     The rotation is anticlockwise with X to the right and gear 2 above: z . ((P - P0) x n), on the sphere P0 . (P x n).
     """

@@ -30,7 +30,8 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module] and pressure angle [rad].
+    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module] and pressure angle
+    [rad].
     """
 
     z: float
@@ -80,8 +81,8 @@ class InvoluteWheel:
         return root(self._corner_offset, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
 
     def _corner_offset(self, radius: float) -> float:
-        """Return the azimuth of the corner's trochoid minus the azimuth of the involute at a radius [rad]; negative where the
-        corner cuts.
+        """Return the azimuth of the corner's trochoid minus the azimuth of the involute at a radius [rad]; negative
+        where the corner cuts.
         """
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
@@ -100,7 +101,8 @@ class InvolutePair:
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Total reduction of the tooth thickness of both wheels relative to a pair without backlash, as an arc X [module].
+    """Total reduction of the tooth thickness of both wheels relative to a pair without backlash, as an arc X
+    [module].
     """
 
     @property
@@ -150,8 +152,8 @@ class InvolutePair:
 def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
     """Return the centre distance without backlash [module]: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
 
-    With a ring gear, z1 and x1 of the pinion enter with negative sign. Raises `GearTrainError` if no such distance exists
-    because the negative profile shifts are too large.
+    With a ring gear, z1 and x1 of the pinion enter with negative sign. Raises `GearTrainError` if no such distance
+    exists because the negative profile shifts are too large.
     """
     psi, sign = first.psi, -1 if second.ring else 1
     teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift

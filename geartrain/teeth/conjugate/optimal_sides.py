@@ -70,7 +70,8 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
-    """Return a function for f(d, v) and df/dv of uniform stress, docs/shapes.md (8): S v' + f(d, v) = 0 with v = sin psi.
+    """Return a function for f(d, v) and df/dv of uniform stress, docs/shapes.md (8): S v' + f(d, v) = 0 with v = sin
+    psi.
 
     `psi` is the pressure angle at the pitch point [rad].
     """
@@ -182,7 +183,8 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
 
 
 def _ended_at_arc(piece_maker: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
-    """Return the piece that ends at the arc X, by Newton's method: the derivative of the arc at the end is 1 / cos psi.
+    """Return the piece that ends at the arc X, by Newton's method: the derivative of the arc at the end is 1 / cos
+    psi.
     """
     end, last = guess, inf
     piece = piece_maker(end)
@@ -262,8 +264,8 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 def least_friction(
     pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
 ) -> PathSide:
-    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum contact speed `u` along the
-    dedendum, as a fraction of the pitch-line speed.
+    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum contact speed `u` along
+    the dedendum, as a fraction of the pitch-line speed.
 
     The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) if friction
     depends on speed and `weight` gives mu S at distances d. Raises `RangeError` if the arc is longer than teeth within
@@ -460,7 +462,8 @@ def unreachable_end(end: float) -> RangeError:
 def variation_integrand(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight
 ) -> Floats:
-    """Return the integrand of the first variation: loss of a higher path at d minus the loss saved by its longer arc.
+    """Return the integrand of the first variation: loss of a higher path at d minus the loss saved by its longer
+    arc.
     """
     S, sine = pitch.S(d), sine_of(d)
     cosine = np.sqrt(1 - sine**2)

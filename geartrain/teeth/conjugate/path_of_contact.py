@@ -91,7 +91,8 @@ class CirclePiece(PathPiece):
 
 
 class SampledPiece(PathPiece):
-    """Piece of a path of contact whose sin psi is a given function; X is an integrated Chebyshev series of 1 / cos psi.
+    """Piece of a path of contact whose sin psi is a given function; X is an integrated Chebyshev series of 1 / cos
+    psi.
     """
 
     def __init__(
@@ -230,7 +231,8 @@ class PathSide:
 
 
 def none(psi: float) -> PathSide:
-    """Return a side without contact, for a path that begins or ends at the pitch point with pressure angle `psi` [rad].
+    """Return a side without contact, for a path that begins or ends at the pitch point with pressure angle `psi`
+    [rad].
     """
     return PathSide((RayPiece(psi, 0.0),))
 
@@ -361,7 +363,8 @@ class PathOfContact(Shown):
         return (-approach, recess) if gear == 1 else (recess, -approach)
 
     def radii(self, gear: int) -> tuple[float, float]:
-        """Return the radii at which the active flank of a gear begins (root side) and ends (tip side) [module; rad for bevels].
+        """Return the radii at which the active flank of a gear begins (root side) and ends (tip side) [module; rad for
+        bevels].
 
         Parameters
         ----------

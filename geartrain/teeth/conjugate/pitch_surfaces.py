@@ -122,7 +122,8 @@ class PitchSurfaces:
         return self._turned(points, X / self.reach, -self.R1)
 
     def on_gear2(self, points: Floats, X: Floats) -> Floats:
-        """Transform points of the fixed frame to the frame of gear 2 at X = 0: rotation by -X / reach2 about its axle.
+        """Transform points of the fixed frame to the frame of gear 2 at X = 0: rotation by -X / reach2 about its
+        axle.
         """
         return self._turned(points, -X / self.reach2, self.R2)
 

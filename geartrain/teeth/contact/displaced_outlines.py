@@ -51,7 +51,8 @@ class ToothPairContact(NamedTuple):
     angle: Floats
     """Angle of the driven tooth past the line of centres [rad]."""
     corner: Indices
-    """Tip corners in contact: 1 for the driver's, 2 for the driven wheel's, 3 for both, 0 for none; -1 without contact.
+    """Tip corners in contact: 1 for the driver's, 2 for the driven wheel's, 3 for both, 0 for none; -1 without
+    contact.
     """
 
 
@@ -98,7 +99,8 @@ class ToothPairSearch:
         return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts, which pass the point that divides the line of centres in the ratio of speeds.
+        """Return the unit normals of contacts, which pass the point that divides the line of centres in the ratio of
+        speeds.
 
         At that point itself the result is the normal of the flank.
         """

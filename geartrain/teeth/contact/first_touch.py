@@ -43,7 +43,8 @@ class AxlePlacement:
     ring: Literal[0, 1, 2] = 0
 
     def frame(self, r: Floats, b: Floats) -> DrivenFrame:
-        """Return the polar coordinates about the second axle of points at radii r and azimuths b about the first axle [rad].
+        """Return the polar coordinates about the second axle of points at radii r and azimuths b about the first axle
+        [rad].
 
         For bevels r is the polar angle [rad].
         """
@@ -129,8 +130,8 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Tooth pairs that may touch: driver angle x [rad], shape index of both teeth, angle of the driven tooth `place` [rad],
-    index of the position.
+    """Tooth pairs that may touch: driver angle x [rad], shape index of both teeth, angle of the driven tooth `place`
+    [rad], index of the position.
     """
 
     x: Floats
@@ -247,7 +248,8 @@ class FlankSegmentation:
         return cells._replace(u=u, polar2=polar2)
 
     def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Return radius, azimuth and their derivatives by u of the driver's points about the second axle, shape (4, n).
+        """Return radius, azimuth and their derivatives by u of the driver's points about the second axle, shape (4,
+        n).
         """
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
@@ -312,7 +314,8 @@ class FirstTouchSearch(FlankSegmentation):
         return found
 
     def _estimates(self, segments: FlankSegments) -> tuple[Floats, Floats]:
-        """Return estimates of G and its slope at both ends, shape (2, n) each, from an inversion that is not refined.
+        """Return estimates of G and its slope at both ends, shape (2, n) each, from an inversion that is not
+        refined.
         """
         piece = np.broadcast_to(segments.piece2, segments.u.shape)
         low, high = self.second.ends[:, segments.piece2]

@@ -87,7 +87,8 @@ class FlankTable:
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins at the node.
+        """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins at the
+        node.
         """
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
@@ -100,7 +101,8 @@ class FlankTable:
         return piece[at], u[at], begins[at]
 
     def _sample_points(self, piece: int, cells: int) -> Floats:
-        """Return the values of u at which a piece is sampled: uniform, refined geometrically towards stationary ends.
+        """Return the values of u at which a piece is sampled: uniform, refined geometrically towards stationary
+        ends.
         """
         marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
         for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
@@ -120,7 +122,8 @@ class FlankTable:
 
     @cached_property
     def _bins(self) -> tuple[Floats, Floats]:
-        """Radii at uniform u, shape (pieces, bins + 1), and the same scaled to one increasing row for a single search.
+        """Radii at uniform u, shape (pieces, bins + 1), and the same scaled to one increasing row for a single
+        search.
         """
         pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
         radii = value_alone(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))

@@ -30,7 +30,8 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the front or back flanks of two wheels at one distance; the back flanks are solved as mirror images.
+    """Contact of the front or back flanks of two wheels at one distance; the back flanks are solved as mirror
+    images.
     """
 
     def __init__(

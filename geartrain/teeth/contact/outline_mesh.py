@@ -1,4 +1,5 @@
-"""Mesh of a gear pair whose form defines only the outlines of both wheels; its motion is computed from their contact.
+"""Mesh of a gear pair whose form defines only the outlines of both wheels; its motion is computed from
+their contact.
 """
 
 from __future__ import annotations
@@ -73,7 +74,8 @@ class OutlineMesh(GearMesh):
         return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
-        """Return a report of speed ratio, transmission error, backlash and efficiency in both directions of power flow.
+        """Return a report of speed ratio, transmission error, backlash and efficiency in both directions of power
+        flow.
         """
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 

@@ -58,8 +58,8 @@ class OutlineGears:
 class OutlineTransmission(TransmissionFunction):
     """Transmission function of two outlines.
 
-    `driver` is the driving wheel, 1 or 2; `direction` -1 reverses the motion. At S = 0 a driver's tooth is on the line of
-    centres; the driven angle is 0 where flanks touch.
+    `driver` is the driving wheel, 1 or 2; `direction` -1 reverses the motion. At S = 0 a driver's tooth is on the
+    line of centres; the driven angle is 0 where flanks touch.
     """
 
     def __init__(self, gears: OutlineGears, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:

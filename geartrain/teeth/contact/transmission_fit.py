@@ -122,7 +122,8 @@ class PiecewiseTransmission:
         return max(0.0, -extremes(slopes)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error over a period and its rms deviation [rad]; NaN if contact has gaps.
+        """Return the mean of the transmission error over a period and its rms deviation [rad]; NaN if contact has
+        gaps.
         """
         return moments(self.errors, self.halves)
 

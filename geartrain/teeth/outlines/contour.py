@@ -34,7 +34,8 @@ class Contour(Shown):
     points: Floats
     """Vertices (n, 2) [mm]; the last one is joined to the first."""
     bulges: Floats
-    """Bulge of the edge that leaves each vertex, shape (n,): tan(sweep / 4), 0 if straight, positive if it turns left.
+    """Bulge of the edge that leaves each vertex, shape (n,): tan(sweep / 4), 0 if straight, positive if it turns
+    left.
     """
 
     @classmethod

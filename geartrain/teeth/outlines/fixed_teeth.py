@@ -85,7 +85,8 @@ def _vertices(pitch: float, radius: float, root: float, face: float) -> Iterator
 
 
 def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
-    """Return the tooth of the flexible wheel of a strain wave with z teeth, or of its ring gear; both have straight flanks.
+    """Return the tooth of the flexible wheel of a strain wave with z teeth, or of its ring gear; both have straight
+    flanks.
 
     `backlash` is an arc of the pitch circle [module].
     """

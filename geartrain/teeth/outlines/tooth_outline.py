@@ -50,7 +50,8 @@ class RootFillet:
 def fillet(
     flank: FlankCurve, widening: float, root: float, radius: float, z: float, relief: float = 0.0
 ) -> RootFillet | None:
-    """Return the fillet of `radius` between the flank and the circle of radius `root` [module]; None if it does not fit.
+    """Return the fillet of `radius` between the flank and the circle of radius `root` [module]; None if it does not
+    fit.
 
     widening   half angle of the tooth at the pitch circle (rad)
     relief     angle (rad) by which the straight line is turned from the flank's tangent into the tooth
@@ -144,7 +145,8 @@ class ToothOutline:
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """Return the vertices of one tooth about the x axis from root to root; the last edge lies on the root circle.
+        """Return the vertices of one tooth about the x axis from root to root; the last edge lies on the root
+        circle.
         """
         half = self._half()
         origin = (0.0, 0.0)
@@ -318,8 +320,8 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the unit tangent towards the root, normal to the contact normal: radial component, and component towards the
-    tooth space.
+    """Return the unit tangent towards the root, normal to the contact normal: radial component, and component towards
+    the tooth space.
     """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi

@@ -49,7 +49,8 @@ class MatePassage:
     """Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel."""
 
     radius: Floats
-    """Radii about the wheel's axle [module]; `aside` holds the angles from the centre line of the nearest tooth [rad].
+    """Radii about the wheel's axle [module]; `aside` holds the angles from the centre line of the nearest tooth
+    [rad].
     """
     aside: Floats
 
@@ -180,7 +181,8 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def root(self) -> float:
-        """Radius of the root circle [module]: its depth below the pitch circle is the mate's addendum plus the clearance.
+        """Radius of the root circle [module]: its depth below the pitch circle is the mate's addendum plus the
+        clearance.
 
         The addendum is negative if the mate's tip does not reach its own pitch circle.
         """
@@ -262,11 +264,12 @@ def _rising(curve: Floats) -> Floats:
 
 
 def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) -> tuple[ToothOutline, float]:
-    """Return the tooth that suits all pairs of a wheel, and the angle between its root flank and the flank's tangent [rad].
+    """Return the tooth that suits all pairs of a wheel, and the angle between its root flank and the flank's tangent
+    [rad].
 
-    Its flank extends as deep as the tips of all mates need, and its root circle clears them. Its fillet radius is `wanted`
-    [module], or the largest up to 0.38 modules that clears all mates. All flanks must be alike. Raises `QuestionError` if
-    no such tooth exists.
+    Its flank extends as deep as the tips of all mates need, and its root circle clears them. Its fillet radius is
+    `wanted` [module], or the largest up to 0.38 modules that clears all mates. All flanks must be alike. Raises
+    `QuestionError` if no such tooth exists.
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
@@ -305,7 +308,8 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
 def _tooth_builder(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float
 ) -> Callable[[float], ToothOutline | None]:
-    """Return a function from a fillet radius to a tooth, or to None if a mate interferes by more than `most` [module].
+    """Return a function from a fillet radius to a tooth, or to None if a mate interferes by more than `most`
+    [module].
     """
     flank, widening, z = own.flank, own.widening, own.z
 

@@ -54,7 +54,8 @@ class WheelRequirement(ABC):
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return a tooth that satisfies this requirement and `others`. Raises `GearTrainError` if no such tooth exists.
+        """Return a tooth that satisfies this requirement and `others`. Raises `GearTrainError` if no such tooth
+        exists.
         """
 
 

@@ -93,7 +93,8 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """Return the minimum backlash between two kinks [rad]: at one of them, or where both flanks have the same tau.
+        """Return the minimum backlash between two kinks [rad]: at one of them, or where both flanks have the same
+        tau.
         """
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)

@@ -21,7 +21,8 @@ _NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle f
 
 
 def depth(z: int, beta: float) -> float:
-    """Return the tooth depth over the tip radius, Eq. (1), as a product because the printed difference cancels at large z.
+    """Return the tooth depth over the tip radius, Eq. (1), as a product because the printed difference cancels at large
+    z.
 
     For a ring gear of z teeth pass -z and multiply by the negative radius.
     """

@@ -172,7 +172,8 @@ def _label(verdict: str, phases: str) -> str:
 
 
 def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[float, float] | None:
-    """Return the parameter value with the maximum efficiency among pairs that run, and that efficiency; None if no pair runs.
+    """Return the parameter value with the maximum efficiency among pairs that run, and that efficiency; None if no pair
+    runs.
 
     The best point of the sweep is refined between its neighbours by golden-section search.
     """

@@ -76,7 +76,8 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] at alpha_1 = x [rad].
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] at alpha_1 = x
+        [rad].
         """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
@@ -236,7 +237,8 @@ class RealPath:
     def _lowest_at(
         self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
     ) -> tuple[MonotonePiece, int]:
-        """Return the lowest branch at t; within rounding the previous one, because branches may coincide over a range.
+        """Return the lowest branch at t; within rounding the previous one, because branches may coincide over a
+        range.
         """
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
         minimum = min(heights)

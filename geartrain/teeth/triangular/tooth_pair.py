@@ -261,8 +261,8 @@ class ToothPair:
         return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances b1, b2 of both centres from the line of force at the friction coefficient f, Eqs. (28) to (31),
-        corrected.
+        """Return the distances b1, b2 of both centres from the line of force at the friction coefficient f, Eqs. (28)
+        to (31), corrected.
 
         That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
         centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).

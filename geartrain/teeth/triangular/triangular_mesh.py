@@ -66,7 +66,8 @@ class TriangularTooth(WheelRequirement):
         return all(abs(a - b) <= SAME_SIZE * max(a, 1.0) for a, b in pairs)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the outline of one tooth: straight lines from the middle of a space to the tip and to the next space.
+        """Return the outline of one tooth: straight lines from the middle of a space to the tip and to the next
+        space.
         """
         from geartrain.teeth.triangular.pair_geometry import depth
 
@@ -127,8 +128,8 @@ class TriangularMesh(GearMesh):
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Return the scale and centre distance of the pair.
 
-        The scale follows from the first of these that is known: a wheel with a fixed tip radius, declared lengths, or pitch
-        circles that touch.
+        The scale follows from the first of these that is known: a wheel with a fixed tip radius, declared lengths,
+        or pitch circles that touch.
         """
         D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
@@ -139,7 +140,8 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """Size from the declaration if its lengths are in metres; otherwise the size at which the pitch circles touch.
+        """Size from the declaration if its lengths are in metres; otherwise the size at which the pitch circles
+        touch.
         """
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):

@@ -415,7 +415,8 @@ class TriangularTransmission(TransmissionFunction):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of contact over one pitch in order of time, with one row for each sample; ends of intervals are included.
+    """Table of contact over one pitch in order of time, with one row for each sample; ends of intervals are
+    included.
     """
 
     KEYS = (
@@ -447,7 +448,8 @@ class ContactCourse(Result):
 def contact_course(
     transmission: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
 ) -> ContactCourse:
-    """Return the contact of a pair in `samples` rows for each interval of its real path; empty if the teeth never touch.
+    """Return the contact of a pair in `samples` rows for each interval of its real path; empty if the teeth never
+    touch.
 
     friction   friction as a function of sliding velocity, which replaces the constant coefficient of the transmission
     """

@@ -61,8 +61,10 @@ _MAXIMUM_SPAN = 10**6  # turns of the input, if the train takes longer to repeat
 
 @dataclass(frozen=True, slots=True)
 class TrialPair(ABC):
-    """Gear pair of a plan: numbers of the driver (`first`) and driven wheel; `mirrored` marks wheels turning against
-    their numbering.
+    """Gear pair of a plan.
+
+    `first` and `second` are the indices of driver and driven wheel; `mirrored` marks wheels that turn against the
+    numbering of their teeth.
     """
 
     name: str
@@ -72,9 +74,9 @@ class TrialPair(ABC):
     even: float
     """Mean transmission error of the pair without cutting errors [rad of the driven wheel]."""
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
-    """Errors of its axes, as fractions of the smaller tooth depth of the two wheels."""
+    """Errors of the axes by kind, as fractions of the smaller tooth depth of the two wheels."""
     stroke: float = field(default=0.0, kw_only=True)
-    """Depth removed by one stroke of the file, as a fraction of the same tooth depth; 0 if the pair is not filed."""
+    """Depth of one stroke of the file over the same tooth depth; 0 if the pair is not filed."""
 
     @property
     @abstractmethod
@@ -89,36 +91,38 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def backlash(self) -> float:
-        """Nominal backlash [pitches of the driven wheel]."""
+        """Nominal backlash [pitch of the driven wheel]."""
 
     @property
     @abstractmethod
     def question(self) -> tuple[float, ...]:
-        """Sizes on which results depend, for the key of a journal."""
+        """Sizes on which results depend, as part of the key of a journal."""
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """Return the pair of drawn wheels on its axes, with the centre distance increased by `shift`."""
+        """Return the pair of drawn wheels with the centre distance increased by `shift`."""
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial: jam, clash, dwell, disengagement, and the minimum backlash."""
+        """Return the events of a cut pair in each trial: jam, clash, dwell, loss of contact, and the minimum
+        backlash.
+        """
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair; `rows` gives the trial at each angle."""
+        """Return the transmission functions of a cut pair; `rows` is the trial at each angle."""
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed to fit, with the number of strokes and teeth."""
+        """Return a cut pair after filing to fit, with the numbers of strokes and of filed teeth."""
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
         """Return the pair at another clearance."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound on the probability of a jam for normal pitch deviations [pitches]; NaN if none is
-        known.
+        """Return an upper bound of the probability of a jam for normal pitch deviations `sigma` [pitch]; NaN without a
+        bound.
         """
         del sigma
         return nan
@@ -152,17 +156,17 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def backlash(self) -> float:
-        """Nominal backlash [pitches of the driven wheel]."""
+        """Nominal backlash [pitch of the driven wheel]."""
         return nominal_backlash(self.sizes)
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Radii, half angles and excess of the centre distance, for the key of a journal."""
+        """Radii, half angles and excess of the centre distance, as part of the key of a journal."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Scale drawn wheels of tip radius 1 to the sizes of the pair and return the pair."""
+        """Return the pair of drawn wheels of tip radius 1, scaled to the sizes of the pair."""
         sizes = self.sizes
         R1, R2 = sizes.signed_radii
         first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
@@ -170,16 +174,16 @@ class TriangularTrialPair(TrialPair):
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial; one trial if both wheels are the same in all trials."""
+        """Return the events of a cut pair in each trial; of one trial if both wheels are the same in all trials."""
         first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
         return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, found tooth by tooth."""
+        """Return the transmission functions of a cut pair, computed tooth by tooth."""
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Apply the file to the pairs that jam; pairs of the other trials are returned unchanged."""
+        """Return the pairs with those that jam filed to fit; pairs of the other trials are unchanged."""
         count = pair.trials[0] if pair.trials else 1
         # only jamming pairs are filed, because finding the tightest position is expensive
         jams = np.flatnonzero(self.verdicts(pair).jams)
@@ -196,15 +200,14 @@ class TriangularTrialPair(TrialPair):
         return FilingWork(pair, strokes, teeth, (low[0], low[1]))
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return the bound 2 lcm(z1, z2) Q(j / 2 sigma), with the nominal backlash j and the deviation sigma in
-        pitches.
+        """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the probability of a jam.
+
+        j is the nominal backlash and sigma the standard deviation [pitch].
         """
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair at a clearance: a clearance factor from 1 upwards, or below 1 a fraction of its clearance
-        window.
-        """
+        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
         return replace(self, sizes=self._cleared(clearance))
 
     def _cleared(self, clearance: float) -> TriangularSizes:
@@ -222,7 +225,7 @@ class TriangularTrialPair(TrialPair):
 
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Gear pair of any other tooth form: flanks displaced along the path of contact, valid to first order in the
+    """Gear pair of any other tooth form: flanks displaced along the path of contact, accurate to first order in the
     errors.
     """
 
@@ -241,17 +244,17 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def backlash(self) -> float:
-        """Nominal backlash [pitches of the driven wheel]."""
+        """Nominal backlash [pitch of the driven wheel]."""
         return even_backlash(self.contact) / self.pitches[1]
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Some numbers that identify the contact, for the key of a journal."""
+        """Numbers that identify the contact, as part of the key of a journal."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Return the pair of drawn wheels, mirrored where they turn against their numbering."""
+        """Return the pair of drawn wheels, mirrored if they turn against the numbering of their teeth."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
         # filing and verdicts need an axis of trials, even if all trials are the same
@@ -265,15 +268,15 @@ class DisplacedTrialPair(TrialPair):
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, given by the foremost tooth pair at each angle."""
+        """Return the transmission functions of a cut pair, from the foremost tooth pair at each angle."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Apply strokes of the file of the declared depth to a cut pair until it does not jam."""
+        """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
         return file_to_fit(pair, self.stroke * self.depth, _MAXIMUM_FILING * self.contact.wheels[0].pitch)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
-        """Return the pair at a clearance factor of the centre distance (1 or more)."""
+        """Return the pair at a clearance factor of the centre distance, 1 or more."""
         if clearance < 1 or not self.contact.distance < inf:
             what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
             why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"
@@ -284,7 +287,7 @@ class DisplacedTrialPair(TrialPair):
 
 
 def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
-    """Expand both wheels of a pair to arrays with an axis of trials."""
+    """Return the pair with both wheels expanded to arrays with an axis of trials."""
     wheels = [
         replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
     ]
@@ -296,7 +299,7 @@ def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
 
 @dataclass(frozen=True)
 class TrialPlan(Shown):
-    """Input data of the trials of a train in one state, sufficient for a block of trials.
+    """Input data of the trials of a train in one state.
 
     See Also
     --------
@@ -310,13 +313,13 @@ class TrialPlan(Shown):
     pairs: tuple[TrialPair, ...]
     """Gear pairs of these wheels, with their sizes and the errors of their axes."""
     composition: ErrorComposition
-    """Composed motion with perfect teeth, whose transmission functions the trials replace."""
+    """Composed motion with perfect teeth, whose transmission functions are replaced in the trials."""
     outputs: tuple[str, ...]
     """Names of the outputs."""
     speeds: tuple[Fraction, ...]
     """Speeds of the outputs relative to the input."""
     reach: tuple[tuple[int, ...], ...]
-    """Numbers of the pairs that can move each output."""
+    """Indices of the pairs that can move each output."""
     span: float
     """Range of the random positions of the input [turn]."""
     driving_link: str

@@ -63,7 +63,7 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train to export.
     case : CoSimulationCase
         State, rate and step of the simulation.
 

@@ -98,7 +98,7 @@ def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) ->
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train of the results.
     found : sequence of TrainStrength
         Results of `train.strength`, one for each state.
 

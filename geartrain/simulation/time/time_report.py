@@ -58,7 +58,7 @@ def collect_time_report(
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train of the run.
     run : TimeRun
         Result of `GearTrain.dynamics`.
     without : tuple of str

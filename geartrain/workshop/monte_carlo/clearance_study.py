@@ -88,7 +88,7 @@ def jamming_map(
     Parameters
     ----------
     plan : TrialPlan
-        The train with its errors.
+        Train with its cutting and fitting errors.
     clearances : sequence of float or None
         From 1 upwards factors of the minimum centre distance, at which teeth bottom; from 0 to 1 fractions of the
         clearance window of each pair; None for the declared clearance. It is the outer loop.
@@ -97,7 +97,7 @@ def jamming_map(
     trials : int
         Number of trials of each case, 1 to 10^9.
     seed : int
-        Seed of the random numbers. The same seed draws the same wheels.
+        Random seed. The same seed gives the same wheels.
     means : Execution, optional
         Executor, journal of finished work and progress report; by default this process without journal and report.
 

@@ -167,7 +167,7 @@ def find_friction_plan(
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train with declared coefficients of friction.
     turns : float
         Number of turns of the input, above 0.
     samples : int
@@ -343,7 +343,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     trials : int
         Number of trials, 1 to 10^9.
     seed : int
-        Seed of the random numbers.
+        Random seed.
     means : Execution, optional
         Executor, journal of finished trials and progress report; by default this process without journal and report.
 

@@ -88,7 +88,7 @@ def find_sobol_indices(
     Parameters
     ----------
     plan : TrialPlan
-        The train with its errors.
+        Train with its cutting and fitting errors.
     output : int
         Index of the output in `plan.outputs`, from 0.
     by : {"wheel", "kind"}
@@ -96,7 +96,7 @@ def find_sobol_indices(
     trials : int
         Number of base samples, 1 to 10^9. Each costs two trials plus one for each input variable.
     seed : int
-        Seed of the random numbers.
+        Random seed.
     means : Execution, optional
         Executor and progress report; by default this process without a report. The journal is not used.
 

@@ -330,16 +330,19 @@ class TrialPlan(Shown):
 
     @property
     def position(self) -> int:
-        """Number of the random stream of positions. Wheels come first, then pairs, then this stream."""
+        """Number of the random stream that draws the positions of the input.
+
+        Wheels have the first streams, pairs the next ones, and the positions the last one.
+        """
         return len(self.wheels) + len(self.pairs)
 
     @property
     def files(self) -> bool:
-        """True if some pair is filed to fit."""
+        """True if at least one pair is filed to fit."""
         return any(pair.stroke for pair in self.pairs)
 
     def scaled(self, factor: float) -> TrialPlan:
-        """Return the plan with all errors multiplied by a factor.
+        """Return the plan with all cutting and fitting errors multiplied by a factor.
 
         Parameters
         ----------
@@ -355,7 +358,7 @@ class TrialPlan(Shown):
         return replace(self, wheels=wheels, pairs=pairs)
 
     def cleared(self, clearance: float) -> TrialPlan:
-        """Return the plan with every pair at another clearance.
+        """Return the plan with every pair at another centre distance.
 
         Parameters
         ----------
@@ -366,7 +369,7 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def question(self) -> dict[str, Any]:
-        """Return everything that results depend on, as plain data; a journal identifies its train by it."""
+        """Return all data on which the results depend, as plain data; a journal identifies its run by them."""
         return {
             "train": self.name,
             "wheels": [
@@ -393,7 +396,7 @@ def find_trial_plan(
     state: str | None = None,
     without: Sequence[str] = (),
 ) -> TrialPlan:
-    """Collect the data for Monte Carlo trials of a train with cutting errors, in one state.
+    """Collect the input data for Monte Carlo trials of a train with cutting errors, in one state.
 
     Parameters
     ----------
@@ -464,7 +467,13 @@ def find_trial_plan(
 
 
 def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
-    """Return the pairs whose teeth can have cutting errors; raise `QuestionError` if there are none."""
+    """Return the pairs whose teeth can have cutting errors.
+
+    Raises
+    ------
+    QuestionError
+      If no pair has a tooth form for which cutting errors can be computed.
+    """
     found = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not found:
         what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
@@ -475,7 +484,7 @@ def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
 
 
 def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:
-    """Return the driver and the driven wheel of a pair without errors, with the teeth that this pair gives them."""
+    """Return the driver and the driven wheel of a pair without cutting errors, with the tooth form of this pair."""
     counts = [train.declaration.wheels[name][1].count or 0 for name in (mesh.driver, mesh.driven)]
     contact = mesh.displaced_contact
     if contact is None:
@@ -490,7 +499,7 @@ def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelEr
 
 
 def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
-    """Return the turns of the input after which the same teeth meet in every pair, at most one million."""
+    """Return the number of turns of the input [turn] after which the same teeth meet in every pair, at most 10^6."""
     counts = {pair.name: pair.count for pair in pairs}
     cycles = [source.cycles / counts.get(source.id, 1) for source in composition.used if source.cycles]
     if not cycles:
@@ -507,8 +516,9 @@ def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> 
 
 
 class _RotationSenses:
-    """Sense of rotation of each wheel in each of its pairs; teeth are numbered in the order they pass in the first
-    pair.
+    """Sense of rotation of each wheel in each of its pairs.
+
+    Teeth are numbered in the order in which they pass the mesh of the first pair of the wheel.
     """
 
     def __init__(self, motion: Motion) -> None:
@@ -517,7 +527,7 @@ class _RotationSenses:
         self.first: dict[str, int] = {}
 
     def mirrored(self, pair: str, wheel: str) -> bool:
-        """Return whether the wheel turns the other way in this pair than in its first pair."""
+        """Return True if a wheel turns in this pair in the opposite sense to that in its first pair."""
         circuit = self.circuits[pair]
         link = circuit.i if wheel == circuit.wheels[0] else circuit.j
         sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1
@@ -544,6 +554,6 @@ def _pair(
 
 
 def _less_deep(mesh: GearMesh, wheels: tuple[WheelErrors, WheelErrors]) -> WheelErrors:
-    """Return the wheel with the smaller depth of triangular teeth; the driver if both are equal."""
+    """Return the wheel with the smaller tooth depth of a triangular pair; the driver if both depths are equal."""
     depths = mesh.cut_sizes.depths
     return wheels[0] if depths[0] <= depths[1] else wheels[1]

@@ -234,7 +234,7 @@ class ArborStrength(Result):
 
     @property
     def safety(self) -> float | None:
-        """Safety factor: strength over equivalent stress; None if the strength is unknown or there is no stress."""
+        """Safety factor: strength over equivalent stress; None if the strength is unknown or the stress is 0."""
         return None if self.strength is None or not self.stress else self.strength / self.stress
 
 

@@ -326,7 +326,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre [rad], at the phase with the least sum of squares.
+    """Return an error over one cycle minus the equation of centre [rad], at the phase of minimum sum of squares.
 
     error   error at phases 2 pi k/n, shape (n,) [rad]; the mean of the result is 0
     """

@@ -96,13 +96,13 @@ class BudgetQuestion:
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:
-            what = f"the span is {self.span_days:g} days"
+            what = f"a span of {self.span_days:g} days is out of range"
             raise QuestionError(
                 Problem(what, "it must be above 0 and below 1e9 days", "give for example --span '6940 d'")
             )
         if self.samples < 2 or not 0 < self.turns <= 1e6:
-            what = f"{self.samples} positions of {self.turns:g} turns are requested"
-            why = "teeth are followed at 2 or more positions, over more than 0 and up to 1e6 turns"
+            what = f"{self.samples} positions in {self.turns:g} turns are out of range"
+            why = "the errors of teeth are computed at 2 or more positions in more than 0 and at most 1e6 turns"
             raise QuestionError(Problem(what, why, "give for example --turns 20 --samples 20000"))
 
 

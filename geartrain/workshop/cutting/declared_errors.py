@@ -132,7 +132,7 @@ def _setting(text: str) -> ErrorOverride:
     if not sign or kind not in ERROR_KINDS:
         fix = f"write KIND=SIZE or NAME.KIND=SIZE; KIND is one of {', '.join(ERROR_KINDS)}"
         why = "an error is set by its kind and its size, such as 'tip=3 %'"
-        raise QuestionError(Problem(f"'{text}' does not set an error", why, fix))
+        raise QuestionError(Problem(f"'{text}' is not a valid setting of an error", why, fix))
     # errors quoted without a distribution are usually standard deviations
     way: ErrorDistributionKind = "normal"
     for each in ("value", "normal", "uniform"):
@@ -143,7 +143,7 @@ def _setting(text: str) -> ErrorOverride:
         amount = Quantity.parse(said.strip(), unit, plain=True)
     except PydanticCustomError as error:
         fix = str((error.context or {}).get("fix", "give a size"))
-        raise QuestionError(Problem(f"'{text}' does not set an error", error.message(), fix)) from None
+        raise QuestionError(Problem(f"'{text}' is not a valid setting of an error", error.message(), fix)) from None
     if way != "value" and amount.value < 0:
         what = f"the size in '{text}' is negative"
         why = "the standard deviation or half width of a distribution is 0 or more"

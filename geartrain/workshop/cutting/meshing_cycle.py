@@ -116,7 +116,7 @@ def batch_verdicts(
     if len(whole.trials) != 1 or whole.trials[0] < 1:
         raise RangeError(
             Problem(
-                f"the trials have the shape {whole.trials}",
+                f"wheels with trials of shape {whole.trials} are not a batch",
                 "a batch has one axis of trials, with at least one trial",
                 "give arrays of shape (trials, z) for at least one of the wheels",
             )

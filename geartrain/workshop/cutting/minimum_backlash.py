@@ -159,7 +159,7 @@ def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
     if not 0 <= sigma < inf:
         raise RangeError(
             Problem(
-                f"the standard deviation is {sigma:g} pitches",
+                f"a standard deviation of {sigma:g} pitches is out of range",
                 "a standard deviation is finite and not negative",
                 "give 0 or more, such as 0.02",
             )

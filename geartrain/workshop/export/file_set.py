@@ -182,7 +182,13 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     """
     known = work.train.declaration.wheels
     if wheel not in known:
-        raise QuestionError(Problem(f"the train has no wheel '{wheel}'", "", suggest(wheel, known)))
+        raise QuestionError(
+            Problem(
+                f"'{wheel}' is not a wheel of the train",
+                "only a wheel with its own drawing can be exported",
+                suggest(wheel, known),
+            )
+        )
     blank = work.blanks.wheels.get(wheel)
     if blank is None:
         raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
@@ -232,7 +238,12 @@ def export_files(
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         raise QuestionError(
-            Problem(f"'{unknown[0]}' is not a kind of export", "", f"use some of {', '.join(KINDS)}", "--as")
+            Problem(
+                f"'{unknown[0]}' is not a kind of export",
+                "each kind is the name of a format",
+                f"use some of {', '.join(KINDS)}",
+                "--as",
+            )
         )
     files = [*_sheets(work, kinds), *_pictures(work, kinds), *_tables(work, kinds)]
     named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
@@ -342,7 +353,14 @@ def kind_of(name: str) -> str:
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
     fix = f"use {', '.join(SUFFIXES)} or .fmu; for wheels, plates and tables, give --to FOLDER"
-    raise GearTrainError(Problem(f"a train cannot be written as '{suffix or name}'", "", fix, "-o"))
+    raise GearTrainError(
+        Problem(
+            f"a train cannot be written as '{suffix or name}'",
+            "the format follows from the suffix of the file",
+            fix,
+            "-o",
+        )
+    )
 
 
 # --------------------------------------------------------------------------------------------------------------- tables

@@ -105,7 +105,11 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     'probability of a jam'
     """
     if picture not in PICTURES:
-        raise QuestionError(Problem(f"'{picture}' is not a picture", "", f"use {', '.join(PICTURES)}"))
+        raise QuestionError(
+            Problem(
+                f"'{picture}' is not the name of a figure", "each figure has a fixed name", f"use {', '.join(PICTURES)}"
+            )
+        )
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
 
@@ -407,7 +411,7 @@ def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
     if not (rising and shaped and finite.size and finite.min() >= 0 and finite.max() <= 1):
         raise QuestionError(
             Problem(
-                f"the arrays do not form a map: clearances {x.shape}, sizes {y.shape}, chances {table.shape}",
+                f"the arrays do not form a map: clearances {x.shape}, sizes {y.shape}, probabilities {table.shape}",
                 "a map needs at least two ascending values on each axis, and a probability from 0 to 1 for each pair",
                 "give arrays of shapes (n,), (m,) and (n, m)",
             )

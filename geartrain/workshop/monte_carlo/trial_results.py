@@ -1,4 +1,4 @@
-"""Results of Monte Carlo trials: event probabilities of pairs, and pointer errors at random positions or along a turn."""
+"""Results of Monte Carlo trials: event probabilities of pairs; pointer errors at random positions and along a turn."""
 
 from __future__ import annotations
 

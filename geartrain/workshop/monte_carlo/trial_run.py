@@ -81,7 +81,7 @@ def check_trials(trials: int) -> None:
       If the number of trials is out of range.
     """
     if not 1 <= trials <= _MOST:
-        what = f"the number of trials is {trials if trials < 1 else f'{trials:.3g}'}"
+        what = f"{trials if trials < 1 else f'{trials:.3g}'} is not a valid number of trials"
         raise QuestionError(Problem(what, f"it must be from 1 to {_MOST:.0e}", "give for example --trials 1000"))
 
 

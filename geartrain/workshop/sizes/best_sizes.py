@@ -202,7 +202,13 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
     """
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
         what = f"'{', '.join(aims)}' is not an objective or two different objectives"
-        raise QuestionError(Problem(what, "", f"give one or two of {', '.join(AIMS)}"))
+        raise QuestionError(
+            Problem(
+                what,
+                "one objective gives a best design, two give a Pareto front",
+                f"give one or two of {', '.join(AIMS)}",
+            )
+        )
     if "loss" in aims and not start.friction:
         what = "the loss cannot be minimised without friction"
         raise QuestionError(

@@ -163,15 +163,27 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
             what = f"'{name}' is not a free parameter of triangular teeth"
             why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
             fix = f"use some of {', '.join(PARAMETERS)}"
-            raise QuestionError(Problem(what, why if name in _CLEARANCES else "", fix))
+            raise QuestionError(
+                Problem(
+                    what, why if name in _CLEARANCES else "other sizes follow from these parameters or are fixed", fix
+                )
+            )
         low, high = USUAL_RANGES[name] if given is None else given
         minimum, most = _WIDEST[name]
         if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
             what = f"the bounds {low:g} and {high:g} of '{name}' are not valid"
-            raise QuestionError(Problem(what, "", f"give two bounds from {minimum:g} to {most:g}, the lower one first"))
+            raise QuestionError(
+                Problem(what, "the lower bound comes first", f"give two bounds from {minimum:g} to {most:g}")
+            )
         found[name] = (float(low), float(high))
     if not found:
-        raise QuestionError(Problem("no parameter is free", "", f"free some of {', '.join(PARAMETERS)}"))
+        raise QuestionError(
+            Problem(
+                "no parameter is free",
+                "a search needs at least one free parameter",
+                f"free some of {', '.join(PARAMETERS)}",
+            )
+        )
     return found
 
 

@@ -108,6 +108,14 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     matplotlib.figure.Figure
       Figure with a line for each pair from its declared value to the value that is best for the train; the title has
       the objective of the train before and after.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.workshop import find_train_sizes
+    >>> found = find_train_sizes(geartrain.load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)})
+    >>> train_sizes_figure(found).axes[0].get_xlabel()
+    'margin (modules)'
     """
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))

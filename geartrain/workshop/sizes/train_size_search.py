@@ -94,7 +94,13 @@ def find_train_sizes(
     (True, [0.5, 0.5, 0.5, 0.5])
     """
     if aim not in AIMS:
-        raise QuestionError(Problem(f"'{aim}' is not an objective", "", f"use one of {', '.join(AIMS)}"))
+        raise QuestionError(
+            Problem(
+                f"'{aim}' is not an objective",
+                "the sizes minimise one property of the train",
+                f"use one of {', '.join(AIMS)}",
+            )
+        )
     return TrainSizeSearch(train, output, aim, free, limits, state, on_step).found()
 
 

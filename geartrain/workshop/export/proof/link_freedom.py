@@ -249,11 +249,11 @@ class _Motion:
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:
-                what = f"link '{link.link}' turns freely while the input is held"
-                why = "its speed is determined, but the teeth as cut do not hold it"
+                what = f"link '{link.link}' can turn while the input is fixed"
+                why = "its speed is determined, but the cut teeth do not prevent this motion"
                 yield _finding("error", what, why, "declare a tooth form for its meshes, or give taller teeth")
             elif link.backlash is not None and speeds[link.link] is None:
-                what = f"link '{link.link}' is held by its teeth, but `solve` does not determine its speed"
+                what = f"link '{link.link}' is fixed by its teeth, but `solve` does not determine its speed"
                 yield _finding("note", what, "the proof and the solution contradict each other", "")
         driving_link = self.scene.driving_link
         if driving_link is None or not self.case.inputs:

@@ -212,7 +212,7 @@ def _findings(
         yield _error("T5", f"{pair} slips: one wheel can turn past the other", "the tips do not overlap", _NEARER)
     if proof.clearance < _CLEARANCE * module - TOLERANCE:
         what = f"{pair}: the clearance between tips and roots is {proof.clearance:.3g} mm"
-        why = "with too little clearance, tips touch roots or dirt jams the pair"
+        why = "if the clearance is too small, tips touch roots, or dirt jams the pair"
         fix = f"deepen the roots, to leave {_CLEARANCE * module:.3g} mm"
         yield BuildFinding("T2", "error" if proof.clearance < _TOUCH else "note", Problem(what, why, fix))
     ratio = proof.contact_ratio

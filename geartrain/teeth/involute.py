@@ -227,6 +227,7 @@ class Involute(ConjugateToothForm):
             distance = free_distance(first, second)
         else:
             distance = wheels.modules(self.centre_distance, "centre_distance")
+            # at this distance the pressure angle would be 0
             minimum = second.base - first.base if wheels.internal else second.base + first.base
             if distance <= minimum:
                 raise refused(
@@ -275,6 +276,7 @@ class Involute(ConjugateToothForm):
             raise refused("bevel wheels have no centre distance", "their axes intersect", "remove `centre_distance`")
         pitch, psi = wheels.pitch, self.pressure_angle.si
         arcs = []
+        # the tips of the driven wheel limit the approach, those of the driver the recess
         for at, R, z in ((1, pitch.R2, wheels.z2), (0, pitch.R1, wheels.z1)):
             height = float(self.addendum[at].value + self.shift[at].value)
             tip = R + cone_height(R, z, height)
@@ -285,6 +287,7 @@ class Involute(ConjugateToothForm):
                     "give it a larger addendum or a smaller negative shift",
                 )
             arcs.append(spherical_arc(R, psi, tip))
+        # one arc may be negative, if its contact ends on the other side of the pitch point
         if sum(arcs) <= 0:
             raise refused(
                 "the teeth do not reach each other",

@@ -133,6 +133,7 @@ class Lantern(ConjugateToothForm):
         sides = lantern(R, A, B, outside), lantern(R, A, B, inside, inside=True)
         real = outside, min(inside, -start)
         pin = pin_angle(R, A, B) * R
+        # pin, tooth and backlash together are one pitch
         tooth = pitch.p / 2 - pin - self._backlash(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
@@ -203,12 +204,14 @@ class Lantern(ConjugateToothForm):
         A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
         B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
         z = wheels.z1 if self.pins == 1 else wheels.z2
+        # such pins do not intersect the pitch circle
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
                 f"its radius is {R:.6g} modules and that of a pin {B:.6g}, so no contact passes the pitch point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
+        # chord between the centres of two adjacent pins
         most = 2 * A * sin(pi / z)
         if most <= 2 * B:
             raise refused(

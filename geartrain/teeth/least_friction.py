@@ -107,6 +107,7 @@ class LeastFriction(ConjugateToothForm):
                 "literal", "the literal shape has neither pressure_angle nor margin", "give `pressure_angles` instead"
             )
         first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
+        # at 45 deg the radius of curvature is 0, beyond it the flank would turn back
         if not pi / 4 <= last < first < pi / 2:
             raise bad(
                 "pressure_angle",

@@ -291,7 +291,7 @@ def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
     )
 
 
-# ------------------------------------------------------------------------------------------- figures and rows of tables
+# -------------------------------------------------------------------------------------------- properties and table rows
 
 
 @dataclass(frozen=True)

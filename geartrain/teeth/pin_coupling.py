@@ -182,6 +182,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
                 "fix": "give a pin_radius above 0 and an offset of 0 or more",
             },
         )
+    # an offset of 0 needs no unit
     if offset.value and (radius.unit is None) != (offset.unit is None):
         raise PydanticCustomError(
             "pin",
@@ -189,6 +190,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
             {"radius": radius.text, "offset": offset.text, "fix": "give both with a unit, or both without"},
         )
     r, e = radius.base, offset.base
+    # the slot would reverse its direction at that moment
     if r == e:
         raise PydanticCustomError(
             "pin",
@@ -211,6 +213,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
                 "fix": f"give `kind: {other}`, or correct the dimensions",
             },
         )
+    # the pin passes the axis of the slot at the minimum distance |r - e|
     slack = coupling.clearance
     if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
         raise PydanticCustomError(

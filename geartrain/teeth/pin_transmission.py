@@ -100,6 +100,7 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
                 "give a pin radius above 0 and an offset of 0 or more",
             )
         )
+    # with equal lengths the pin meets the axis of the slot
     if pin_radius == offset:
         raise RangeError(
             Problem(

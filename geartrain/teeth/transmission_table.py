@@ -315,6 +315,7 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
 def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> TransmissionTables:
     """Return the tables of several transmission functions packed into one set of arrays."""
     period = np.array([transmission.period for transmission in transmissions])
+    # the period is the sum of two parts, so that products of the coarse part with counts up to 2^29 are exact
     coarse = period.astype(np.float32).astype(float)
     kinks = [transmission.error.kinks for transmission in transmissions]
     cells = [_cells(transmission) for transmission in transmissions]

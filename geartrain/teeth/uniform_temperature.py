@@ -113,6 +113,7 @@ class UniformTemperature(ConjugateToothForm):
                 found.append(none(0.0))
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
+            # the contact would stop near the pitch point
             elif b + gamma <= 0:
                 raise _heat_error(pitch, gamma)
             else:

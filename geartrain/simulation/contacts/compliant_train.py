@@ -315,6 +315,7 @@ def restitution_at(ratio: float) -> float:
     >>> restitution_at(0.0), round(restitution_at(1.0), 6)
     (1.0, 0.135335)
     """
+    # both formulas below are singular at 1
     if abs(ratio - 1) < 1e-9:
         return exp(-2)
     if ratio < 1:

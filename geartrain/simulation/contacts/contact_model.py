@@ -373,7 +373,7 @@ def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
     return at, of, np.array([value for row in rows for value in row.values()], dtype=np.float64)
 
 
-# ---------------------------------------------------------------------------------------------------- what kernels read
+# --------------------------------------------------------------------------------------------------- arrays for kernels
 
 
 class ContactSystem(NamedTuple):

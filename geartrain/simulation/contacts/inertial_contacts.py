@@ -94,7 +94,7 @@ class InertialContacts:
         self.motion = Motion(moving, outputs, tolerance)
         self.sources: tuple[PairErrorSource, ...] = self.motion._forward.sources
 
-    # ----------------------------------------------------------------------------------------------- what it is made of
+    # ------------------------------------------------------------------------------------------------------- components
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -151,7 +151,7 @@ class InertialContacts:
         senses = [signs.get(link, 1) * signs.get(bearer, 1) for link, bearer in zip(at, bearers, strict=True)]
         return np.array([at[bearer] for bearer in bearers]), np.array(senses, dtype=float)
 
-    # ----------------------------------------------------------------------------------------------------- at positions
+    # ---------------------------------------------------------------------------------------------- values at positions
 
     def _state(self, turns: Floats) -> _State:
         composition = self.motion._forward
@@ -314,7 +314,7 @@ def speed_slope(transmission: TransmissionFunction) -> CellTable:
     ).derivative()
 
 
-# --------------------------------------------------------------------------------------------------- what acts on links
+# ------------------------------------------------------------------------------------------------------ forces on links
 
 
 @dataclass(frozen=True)

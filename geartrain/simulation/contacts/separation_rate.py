@@ -152,7 +152,7 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
     return find_impacts(Motion(moving, every), inertias, case.rate.si)
 
 
-# ----------------------------------------------------------------------------------------------------------- the result
+# --------------------------------------------------------------------------------------------------------------- result
 
 
 @dataclass(frozen=True)
@@ -281,7 +281,7 @@ def _first_separation(found: SeparationRates) -> str:
     )
 
 
-# ----------------------------------------------------------------------------------------------------------- the search
+# --------------------------------------------------------------------------------------------------------------- search
 
 
 def find_separation_rates(
@@ -357,6 +357,7 @@ def _jump_separations(contacts: InertialContacts, kinks: Floats, narrowest: floa
     """Return the pairs that separate at any rate, because a speed jumps and would require a tensile impulse."""
     if not len(kinks):
         return {}
+    # so close to a kink that rates are those on its two sides, but not so close that rounding dominates
     impulses = contacts.impulses(kinks, _INSIDE * max(narrowest, 1e-6))
     # rounding must not make an impulse negative
     tolerance = 1e-9 * np.abs(impulses).max(axis=1, keepdims=True, initial=0.0)

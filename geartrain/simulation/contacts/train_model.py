@@ -315,7 +315,7 @@ class TrainModel:
             passed = passed[1], passed[0]
         return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
 
-    # --------------------------------------------------------------------------------------------------------- the rest
+    # ----------------------------------------------------------------------------------------- other parts of the model
 
     def _bearings(self) -> Iterator[Bearing]:
         """Yield the friction of bearings; the bearings of links with proportional speeds are merged."""
@@ -383,4 +383,5 @@ class TrainModel:
 def _sparse(form: Floats) -> dict[int, float]:
     """Return the nonzero coefficients of a form by index."""
     scale = float(np.max(np.abs(form), initial=0.0))
+    # smaller coefficients are rounding errors
     return {at: float(value) for at, value in enumerate(form) if abs(value) > 1e-13 * scale}

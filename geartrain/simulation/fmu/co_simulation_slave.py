@@ -143,7 +143,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._step = value
         self._changed = True
 
-    # -------------------------------------------------------------------------------------------------------- course
+    # ---------------------------------------------------------------------------------------------------- simulation
 
     @property
     def simulation(self) -> Simulation:

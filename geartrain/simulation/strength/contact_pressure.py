@@ -295,6 +295,7 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
     # equal curvatures: the ellipse is a circle, where the equation of its axes is singular
     if apart <= 1e-9 * total:
         k = 1.0
+    # an axis ratio below exp(-34) is close to the rounding error: practically a line
     elif ratio(-34.0) < 0:
         why = f"their generatrices cross at only {crossing:.3g} rad"
         raise RangeError(
@@ -394,6 +395,7 @@ class CrossedWheels:
     def tooth_pairs(self, place: float) -> int:
         """Return the number of tooth pairs in contact while one touches at `place` past the pitch point [mm]."""
         back, front = self.ends
+        # contacts exactly at an end of the path count, in spite of rounding
         slack = 1e-9 * self.pitch
         return int((place + back + slack) // self.pitch + (front - place + slack) // self.pitch + 1)
 

@@ -243,6 +243,7 @@ def _inv(angle: float) -> float:
 def _tangent(slope: float, H: float) -> float:
     """Return the solution of th = slope tan th - H, by Newton's method from pi/6 [rad]."""
     th = pi / 6
+    # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):
         step = (th - slope * tan(th) + H) / (1 - slope / cos(th) ** 2)
         th -= step
@@ -304,6 +305,7 @@ class ToothSide:
     def of(cls, tooth: Sequence[Vertex], outward: int = 1) -> ToothSide:
         """Return the half outline for the vertices of one tooth about the x axis, from root to root."""
         points = Contour.of((*tooth[:-1], (*tooth[-1][:2], 0.0))).flattened(_CHORD)
+        # the half above the centre line, with the points on it
         upper = points[points[:, 1] >= -1e-12]
         # along a tip or a root circle the azimuth increases
         radius, azimuth = np.hypot(*upper.T), np.arctan2(upper[:, 1], upper[:, 0])
@@ -315,6 +317,7 @@ class ToothSide:
         """Return half the angular thickness of the tooth at a radius [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
+        # all points of the tip circle; only the last of them is needed for the interpolation
         tip = r >= r.max() - 1e-9
         r, azimuth = np.append(r[~tip][::-1], r.max()), np.append(azimuth[~tip][::-1], azimuth[tip].max())
         return float(np.interp(radius * self.outward, r, azimuth))
@@ -346,6 +349,7 @@ class ToothSide:
         contact.
         """
         r = np.hypot(*self.points.T)
+        # points off the tip circle
         flank = self.points[np.abs(r - self.tip) > 1e-9]
         end = np.array([self.tip * cos(half := self.half(self.tip)), self.tip * sin(half)])
         along = end - flank[0]

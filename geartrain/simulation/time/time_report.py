@@ -286,6 +286,7 @@ def _energy(run: TimeRun) -> Section:
         "increase of elastic energy of teeth": energy.elastic,
     }
     table = energy_table("J", amounts, whole, 6)
+    # rounding errors have this order; a value of 0 would suggest exact arithmetic
     closure = max(energy.closure, 1e-15)
     if not table.rows:
         return Section(

@@ -85,6 +85,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
         if X and (thickness := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.teeth_of(gear)
             name = "recess" if X > 0 else "approach"
+            # a tip of gear 1 works in recess, a tip of gear 2 in approach
             point = _flank_crossing(path, gear, X, halves)
             end = "end" if (X > 0) == (gear == 1) else "begin"
             shorter = (
@@ -197,6 +198,7 @@ def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault
 def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
     if pair.backlash < -_ROUNDING:
         try:
+            # no distance may exist at which the teeth are free; then this advice is omitted
             apart = f"give a centre_distance of at least {free_distance(pair.first, pair.second):.6g} modules, or "
         except GearTrainError:
             apart = ""
@@ -215,8 +217,10 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
     """Yield a fault where the mate's tip passes the point at which the line of action touches the base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
+        # radius of the mate at the point where the line of action touches the base circle of this gear
         limit = hypot(mate.base, across)
         over = (limit - mate.tip) if mate.ring else (mate.tip - limit)
+        # the involute of a ring continues outwards from its base circle, so it has no such limit
         if own.ring or over <= _ROUNDING:
             continue
         reach = path.pitch.reach if gear == 1 else path.pitch.reach2
@@ -268,6 +272,7 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
     """Yield a fault where tips touch the bottom of the mate's tooth spaces (bottom clearance below 0)."""
     first, second = pair.first, pair.second
     if second.ring:
+        # for a ring, tips are inside and roots outside
         gaps = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
     else:
         gaps = pair.distance - first.tip - second.root, pair.distance - second.tip - first.root

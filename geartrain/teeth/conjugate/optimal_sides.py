@@ -109,6 +109,7 @@ def _piece_over_arc(
         try:
             v = solved(pitch, f, first, end, start, v)
         except RangeError:
+            # no solution so far out: approach it from the last solved end, which is a better start
             if end - low < _GIVEN_UP * end:
                 raise
             end = (low + end) / 2
@@ -432,6 +433,7 @@ class _Collocated:
             # halve a step that leaves the domain of f, or, down to a thousandth, that increases the residual
             while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
                 part /= 2
+                # so short a step has no effect: the equation has no solution up to this end
                 if part < 1e-9:
                     raise unreachable_end(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)

@@ -195,6 +195,7 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
     """Return the losses and loads if the tooth pairs in contact in each interval share the load equally."""
     pitch = path.pitch
+    # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch
     bound = 0.1 * pitch.p
 
     # H (pressure squared) and heat are proportional to the force on a pair, flash to its power 3/4
@@ -377,7 +378,7 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
     return 1 / steepest if steepest > 0 else inf
 
 
-# -------------------------------------------------------------------------------- uniform temperature of a wanted depth
+# ---------------------------------------------------------------------------- uniform temperature of a given wear depth
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:

@@ -109,9 +109,11 @@ class DrivenFrame:
         side, across = stretch * self.sin_b + self.across * db, stretch * self.cos_b - self.side * db
         along = s * self.tilt * across
         if not self.bevel:
+            # polar coordinates: derivatives of the radius and of the azimuth
             h = self.radius
             radius = (self.side * side + self.along * along) / h
             return radius, (self.along * side - self.side * along) / (h * h)
+        # on the sphere, both differentials also change the height along the inclined second axle
         far = sin(self.axles.distance)
         fall = -self._sine() * dr
         along = along + e * far * fall
@@ -212,6 +214,7 @@ class FlankSegmentation:
 
     def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
         """Return the intervals, divided where the distance from the second axle has an extremum."""
+        # where the derivative of the radius changes its sign within a cell, the radius has an extreme
         which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
             return cells
@@ -224,6 +227,7 @@ class FlankSegmentation:
 
         middle = roots_by_false_position(slope, *turning.u, *turning.polar2[2])
         polar2 = self._driven_polar(x, turning.piece1, middle)
+        # the old cell ends at the extreme, and a new one begins there
         cells.u[1, which], cells.polar2[:, 1, which] = middle, polar2
         turning.u[0], turning.polar2[:, 0] = middle, polar2
         return joined([cells, turning])
@@ -233,6 +237,7 @@ class FlankSegmentation:
         low, high = self.second.ends[:, cells.piece2]
         u, polar2 = cells.u.copy(), cells.polar2.copy()
         for side in (0, 1):
+            # the ends of a cell whose radius is outside the piece are moved to the limit of the piece
             which = np.flatnonzero((cells.polar2[0, side] < low) | (cells.polar2[0, side] > high))
             above = cells.polar2[0, side, which] > high[which]
             goal = np.where(above, high[which], low[which])
@@ -285,7 +290,7 @@ class FirstTouches(NamedTuple):
 class FirstTouchSearch(FlankSegmentation):
     """Search for the points of the driver's flanks that determine the driven angle."""
 
-    # -------------------------------------------------------------------------------------------------- which matter
+    # --------------------------------------------------------------------------------------------- relevant segments
 
     def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
         """Return the segments that can contain the maximum of G of their position, within `margin` [rad]."""
@@ -333,7 +338,7 @@ class FirstTouchSearch(FlankSegmentation):
             correction = np.where(within & ~stationary, slant * (r - radius), 0.0)
             return segments.polar2[1] - azimuth - correction, segments.polar2[3] - slant * segments.polar2[2]
 
-    # ------------------------------------------------------------------------------------------------------ exactly
+    # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
         """Return the touches of each segment to rounding: both ends, and the interior maximum of G if there is one."""

@@ -83,7 +83,7 @@ class FlankTable:
         )
         return low, high
 
-    # ------------------------------------------------------------------------------------------------- as the driver
+    # -------------------------------------------------------------------------------------------- flanks of a driver
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
@@ -118,7 +118,7 @@ class FlankTable:
         a, da = value(self.azimuth, piece, u)
         return r, dr, a, da
 
-    # ------------------------------------------------------------------------------------------------- as the driven
+    # -------------------------------------------------------------------------------------- flanks of a driven wheel
 
     @cached_property
     def _bins(self) -> tuple[Floats, Floats]:

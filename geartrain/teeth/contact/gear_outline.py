@@ -325,6 +325,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
                     "give two parameters at which the curve has points off the axle",
                 )
             )
+        # relative to the size of the tooth, because coordinates are rounded
         if last is not None and np.abs(ends[0] - last).max() > _MEETS * np.abs(ends).max():
             raise QuestionError(
                 Problem(
@@ -336,7 +337,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
         last = ends[1]
 
 
-# ------------------------------------------------------------------------------------------- cutting flanks into pieces
+# --------------------------------------------------------------------------------------------------- division of flanks
 
 
 def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:

@@ -40,6 +40,7 @@ class OutlinePair:
         _check_pair(first, second, distance)
         self.first, self.second, self.sign = first, second, 1 if side == "front" else -1
         axles = AxlePlacement(distance, first.bevel, 1 if first.ring else 2 if second.ring else 0)
+        # the back side is computed as the front side of the mirrored wheels
         driving_side, driven_side = (
             (first.ahead, second.behind)
             if side == "front"
@@ -51,6 +52,7 @@ class OutlinePair:
         self.touch_search = FirstTouchSearch(driving_side, driven_side, axles)
         low, high, behind, ahead = driving_side.reach
         minimum, most, _, _ = driven_side.reach
+        # bound of the azimuths at which points of the two sides can touch
         reach = axles.bounds(low, high, minimum, most)
         self.window = (-reach - ahead, reach - behind) if reach >= 0 else (0.0, -1.0)
 

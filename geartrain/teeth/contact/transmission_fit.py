@@ -252,6 +252,7 @@ class _Fitter:
             good = self._accepted(stretches, before)
             done.append(some(stretches, good))
             cuts = self._kinks(pending[:, ~good], labels[:, ~good])
+            # a stretch with a kink cannot be fitted by one polynomial, whatever its length
             kinks += cuts
             pending, before = _divided(pending[:, ~good], cuts, stretches.off[~good])
             if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.pair_contact.cycle:

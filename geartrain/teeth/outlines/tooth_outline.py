@@ -59,17 +59,21 @@ def fillet(
     r, half = float(flank.r[0]), widening + float(flank.angle[0])
     E = (r * cos(half), r * sin(half))
     along, across = flank.tangent
+    # the flank continues along its tangent, turned into the tooth by the relief
     lean = atan2(across, abs(along)) - relief
     along, across = (cos(lean) if along > 0 else -cos(lean)), sin(lean)
     T = (along * cos(half) - across * sin(half), along * sin(half) + across * cos(half))
     N = (-T[1], T[0])
+    # the normal points into the space
     if -N[0] * sin(half) + N[1] * cos(half) < 0:
         N = (-N[0], -N[1])
     s = flank.outward
+    # the centre is on a line parallel to the flank, at a distance of one radius from the root circle
     base = (E[0] + radius * N[0], E[1] + radius * N[1])
     b = base[0] * T[0] + base[1] * T[1]
     c = base[0] ** 2 + base[1] ** 2 - (root + s * radius) ** 2
     under = b * b - c
+    # the arc would not touch the root circle
     if s * c < 0 or under < 0:
         return None
     t = -b - s * sqrt(under)
@@ -80,6 +84,7 @@ def fillet(
     found = RootFillet(
         (E[0] + t * T[0], E[1] + t * T[1]), (centre[0] * root / far, centre[1] * root / far), centre, radius
     )
+    # an arc across the middle of the space would intersect the arc of the next tooth
     return found if found.half <= pi / z else None
 
 

@@ -173,10 +173,12 @@ class TriangularContact:
         flank.
         """
         # ends of intervals are roots with a smaller error than this
+        # tolerance for the rounding of the limits of contact
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
             if interval.held is not None:
                 continue
+            # a leaning flank at the entry or the exit, or an end at which the driven wheel would not move forwards
             lean = (sizes.lean[0] and interval.start > sizes.entry - small) or (
                 sizes.lean[1] and interval.end < sizes.exit + small
             )
@@ -360,6 +362,7 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
 
     The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.
     """
+    # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
         if start < reach and margin(start) > 0:
             return 0.0, _first_sign_change(margin, start, reach)

@@ -88,9 +88,11 @@ def sweep(
 def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, str, Sequence[float]]:
     try:
         transmission = make(**values)
+    # such teeth do not exist; the sweep continues with the next point
     except GearTrainError:
         return "none", "", [nan] * len(COLUMNS)
     verdict = transmission.verdict
+    # teeth that never touch have a verdict, but no speeds and errors
     if not transmission.intervals:
         return verdict.kind, "", [nan] * len(COLUMNS)
     minimum, most = transmission.speed_range()

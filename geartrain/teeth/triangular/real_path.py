@@ -136,12 +136,15 @@ class RealPath:
 
     def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
         low, high, pitch = piece.low, piece.high, self.pitch
+        # only pieces longer than a pitch contain two tooth pairs in contact at the same time
         if high - low <= pitch:
             return [piece]
         left = MonotonePiece(piece.phase, low, low + pitch, piece.convex)
         right = MonotonePiece(piece.phase, high - pitch, high, piece.convex)
+        # the lowest of several pairs on a concave piece is within a pitch of one of its ends
         if not piece.convex:
             return [left, right]
+        # on a convex piece the rise over a pitch increases; the lowest pair is in the pitch over which the rise is 0
         if self._rise(piece.phase, low) >= 0:
             return [left]
         if self._rise(piece.phase, high - pitch) <= 0:

@@ -189,7 +189,7 @@ class ToothPair:
         sine, _, arm, _, _ = self._driven_apex(x, m)
         return abs(self.D * self.R1 * sine / arm)
 
-    # ------------------------------------------------------------------------------------------------------- returning
+    # ---------------------------------------------------------------------------------------------------- return phase
 
     def return_angle(self, x: Any, m: ModuleType = math) -> Any:
         """Return alpha_2 where the driven apex leaves the driver's overhanging flank beyond the exit [rad]: the second
@@ -209,7 +209,7 @@ class ToothPair:
         more = self.D * cos_psi / (self.R2 * q)
         return more * (more * s / q - sin_psi / cos_psi)
 
-    # ----------------------------------------------------------------------------------------------------------- both
+    # -------------------------------------------------------------------------------------------- approach and recess
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return alpha_2 [rad] at alpha_1 = x [rad] in a phase."""

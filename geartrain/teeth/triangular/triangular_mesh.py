@@ -210,7 +210,7 @@ class TriangularMesh(GearMesh):
             yield Problem(*explain_friction_lock(self.transmission))
 
 
-# -------------------------------------------------------------------------------------------------------------- figures
+# ----------------------------------------------------------------------------------------------------------- properties
 
 
 @dataclass(frozen=True)

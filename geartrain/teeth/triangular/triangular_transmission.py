@@ -86,7 +86,7 @@ class TriangularTransmission(TransmissionFunction):
         """Verdict on whether the pair can run."""
         return self.contact.verdict
 
-    # ---------------------------------------------------------------------------------------------------- over samples
+    # ----------------------------------------------------------------------------------------------- values at samples
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error [rad of the driven wheel] at driver angles S [rad]."""
@@ -239,7 +239,7 @@ class TriangularTransmission(TransmissionFunction):
             return nan
         return self.contact.path.tooth_pair.efficiency(interval.phase, x, self.friction, np)
 
-    # ------------------------------------------------------------------------------------------------ over the pitch
+    # ----------------------------------------------------------------------------------------- values over the pitch
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
@@ -466,6 +466,7 @@ def contact_course(
             lambda _: nan,
         )
 
+    # the efficiency is defined only where the force acts with a positive arm on both wheels
     eta = column(
         lambda phase, x: tooth_pair.efficiency(phase, x, transmission.coefficient(phase, x, friction), np),
         lambda _: nan,

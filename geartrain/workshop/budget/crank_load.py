@@ -193,6 +193,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, link
     link, has_losses = train.declaration.crank or driving_link, _has_losses(train.declaration)
     found = train.torques(state)
     pointers = dict(_efficiencies(train, state, link, links)) if has_losses else {}
+    # a positive torque acts in the sense in which the link turns
     if found.verdict.kind != "unloaded":
         sense = -1 if train.solve(state).speeds[link] < 0 else 1
         torque = found.external.get(link)
@@ -201,6 +202,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, link
         return CrankLoad(link, None if torque is None else sense * float(torque), efficiency, note, pointers)
     if not has_losses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
+    # without a load no torque can be computed, but the efficiency at a unit of power can
     ways = drive_both_ways(train.mechanics, state)
     if not ways or not ways[0].torques.verdict:
         return CrankLoad(link, None, None, "no loads are declared", pointers)

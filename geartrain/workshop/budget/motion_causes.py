@@ -104,6 +104,7 @@ def find_tooth_motion(
 
     on_done   callback with the number of positions of each chunk that is done
     """
+    # the difference of two motions at the same position: with and without teeth, then backwards and forwards
     ripple = ErrorDifference(motion._forward, without_teeth(motion)._forward)
     lost = ErrorDifference(motion._backward, motion._forward)
     tallies = motion._statistics()
@@ -121,6 +122,7 @@ def find_tooth_motion(
         maximum = np.maximum(maximum, np.abs(backlash.error).max(axis=1))
         squares += np.sum(backlash.error**2, axis=1)
         on_done(len(at))
+    # samples miss the extremes, so each is refined
     search = ExtremeSearch(ripple.one, less=ripple.other)
     count_extremes(search, turns, turns / (samples - 1), peaks, tallies)
     names = list(motion.outputs)

@@ -290,7 +290,7 @@ def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> R
     return RatioDrift(
         result.goal.words if result.goal.sense else result.label,
         ppm,
-        None if ppm is None else ppm * 360e-6,
+        None if ppm is None else ppm * 360e-6,  # 1 ppm of a turn is 360e-6 deg
         *(None if per_day is None else per_day * days for days in (YEAR, CENTURY, span_days)),
     )
 

@@ -426,10 +426,12 @@ class DisplacedPair:
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
         place = of_teeth(one.place, rows, i)
+        # position in the path of contact; the back flanks use the mirrored path
         x = sign * (S - k * at.pitches[0] - place)
         (flank1, low1), (flank2, low2) = one.flanks(back), two.flanks(not back)
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         t1, t2, y1, y2, l1, l2, w, even, apart = self._columns(x)
+        # to first order, the contributions of pitch, flank, depth and eccentricity add up
         lag = sign * (ratio * place - of_teeth(two.place, rows, j)) + even + apart * shift
         lag = lag - of_teeth(flank1, rows, i) * l1 + of_teeth(flank2, rows, j) * l2
         lag = lag + (of_teeth(low1, rows, i) + of_teeth(low2, rows, j)) * w

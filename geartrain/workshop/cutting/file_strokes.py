@@ -166,6 +166,7 @@ class FileableCutPair:
         # a flank is inclined by its half angle plus the reach, which gives a lower bound of the moment arm
         lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
         nearest = sizes.R2 if sizes.ring == 2 else sizes.R2 - sizes.depths[1]
+        # the lower limit of 0.1 keeps the gain finite for flanks almost parallel to the motion
         gain = 1 / (nearest * max(cos(min(lean, 1.4)), 0.1))
         return TightPlace(backlash, flank // 2, teeth[flank, rows], flank % 2, np.full(len(backlash), gain))
 

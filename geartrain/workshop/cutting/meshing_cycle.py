@@ -169,7 +169,7 @@ def _some(pair: CutGearPair, rows: NDArray[np.int64]) -> CutGearPair:
     return CutGearPair(pair.sizes, pair.first.taken(rows), pair.second.taken(rows), pair.shift)
 
 
-# ----------------------------------------------------------------------------------------------------- couple by couple
+# --------------------------------------------------------------------------------------------- tooth pair by tooth pair
 
 
 def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
@@ -192,7 +192,7 @@ class MeshingCycle:
         self.back = pair.mirrored.tooth_pairs(-k)
         self.driver, self.driven = pair.places(k)
 
-    # ---------------------------------------------------------------------------------------------------------- places
+    # ------------------------------------------------------------------------------------------------------- positions
 
     def ahead(self, n: int) -> Any:
         """Return the angle of each driving tooth behind the driving tooth n tooth pairs before it [rad]."""

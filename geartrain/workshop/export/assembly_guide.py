@@ -140,7 +140,7 @@ def _cell(text: str) -> str:
     return printable(markdown_text(text).replace("|", "\\|").replace("\n", " "))
 
 
-# ------------------------------------------------------------------------------------------------- what the proof found
+# ------------------------------------------------------------------------------------------------ findings of the proof
 
 
 def verdict_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
@@ -317,6 +317,7 @@ class _Steps:
             every = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low)]
             wheels = [name for name in every if name not in self.plan.cut]
             what = "pipe" if member.inner else "arbor"
+            # an arbor or pipe without wheels is fitted in a later step
             if wheels:
                 order = ", from below in this order" if len(wheels) > 1 else ""
                 spacers, collets = self._sleeves(every)
@@ -327,6 +328,7 @@ class _Steps:
                 yield self._step(text, [rod_name(column, member), *every, *spacers, *collets, *barrel])
                 yield from self._on_eccentrics(every)
                 yield from self._plate_pins(every)
+        # pipes on a stud slide on this stud, which is fitted in a later step
         pipes = [member for member in column.members if member.inner]
         if pipes and not column.is_stud:
             links = ", ".join(member.link for member in pipes)
@@ -436,7 +438,6 @@ def _sleeve_phrase(wheels: Sequence[str], spacers: Sequence[str], collets: Seque
 
 
 # ----------------------------------------------------- pictures: a step from above and from the side, with new parts
-# dark
 
 
 def picture_path(number: int) -> str:
@@ -497,6 +498,7 @@ class AssemblyPictures:
         corner = np.array([margin, margin + 2 * letter])
         there = (name for name in before if name in self.parts and name not in step.parts)
         shown = [(name, _OLD) for name in there] + [(name, _NEW) for name in step.parts]
+        # lines as thin as about one pixel
         stroke = wide / 700
         for name, (edge, fill) in shown:
             part = self.parts[name]
@@ -515,6 +517,7 @@ class AssemblyPictures:
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
         """Yield the outlines of a part in the top view; turned parts and wheels of earlier steps are circles."""
         low, high = self.extent
+        # round parts, and wheels of earlier steps, are drawn as circles
         radius = part.turned.diameter / 2 if part.turned is not None else 0.0
         if part.kind == "wheel" and part.contours and not fine:
             radius = float(np.hypot(*part.contours[0].points.T).max())

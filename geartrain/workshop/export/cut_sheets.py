@@ -148,6 +148,7 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
+        # chords within 0.05 mm are accurate enough for a label
         points = hole.flattened(0.05) @ np.array([1, 1j])
         middle = complex(points.mean())
         if abs(middle) > _CENTRAL:
@@ -162,6 +163,7 @@ def _label_off_holes(
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
+        # the corners of the frame of the text, and the middles of its long sides
         corners = [abs(at + along * complex(x, y)) for x in (-half, 0.0, half) for y in (-tall, tall)]
         if max(corners) > outer or min(corners) < inner:
             return False
@@ -170,6 +172,7 @@ def _label_off_holes(
 
     if not holes or free(complex(*mark.at), 1 + 0j, mark.height):
         return mark
+    # the largest free text: try all positions at one height before a smaller height
     for part in _SMALLER:
         height = part * mark.height
         for step in range(_WAYS):

@@ -111,6 +111,7 @@ class _Unit:
     def stage(self, gear: GearPair, unit: int) -> None:
         """Add a gear pair as a stage; an internal wheel is its second gear."""
         first, second = gear.pair
+        # an internal gear is the second gear of a stage
         if self.declared.wheels[first][1].internal:
             first, second = second, first
         kinds = {self.components[self.numbers["wheel", each] - 1]["type"] for each in (first, second)}

@@ -168,6 +168,7 @@ def _wire(contour: Contour, height: float) -> Any:
     from OCP.gp import gp_Pnt
 
     edges = list(_edges(contour))
+    # adjacent edges share their vertices, otherwise the wire is not closed
     corners = [BRepBuilderAPI_MakeVertex(gp_Pnt(*edge[0].tolist(), height)).Vertex() for edge in edges]
     wire = BRepBuilderAPI_MakeWire()
     for at, line in enumerate(edges):

@@ -291,6 +291,7 @@ class Keyframes:
         dense = _RIPPLING if ripples else _A_TURN
         if turns is None:
             period = read_fraction(scene.movement.period) if scene.movement.period else None
+            # a whole period repeats without a jump, but only if it is short enough
             turns = period if period and period * fastest * dense <= _MOST else Fraction(_USUAL)
             turns = min(turns, Fraction(_MOST) / (fastest * dense))
         elif turns <= 0 or turns * fastest * dense > _MOST:

@@ -47,7 +47,7 @@ _TASKS = 32  # minimum number of tasks, so that all processes have work until ne
 _MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of its trials
 
 
-# ----------------------------------------------------------------------------------------------------- the coefficients
+# --------------------------------------------------------------------------------------------------------- coefficients
 
 
 class FrictionSpread(NamedTuple):
@@ -251,7 +251,7 @@ def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction
     return friction.model_copy(update=update)
 
 
-# ----------------------------------------------------------------------------------------------------------- the trials
+# --------------------------------------------------------------------------------------------------------------- trials
 
 
 @dataclass(frozen=True)
@@ -387,6 +387,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     except KeyboardInterrupt:
         if not found:
             raise
+    # locked trials have no values
     columns = [np.array([value for value in column if value is not None]) for column in zip(*found, strict=True)]
     figures = dict(zip(FIGURES, map(TrialFigure, columns), strict=True))
     locked = sum(row[0] is None for row in found)

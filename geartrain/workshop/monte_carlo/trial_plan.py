@@ -294,7 +294,7 @@ def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
     return CutGearPair(pair.sizes, wheels[0], wheels[1], pair.shift)
 
 
-# ------------------------------------------------------------------------------------------------------------ the train
+# ---------------------------------------------------------------------------------------------------------------- train
 
 
 @dataclass(frozen=True)

@@ -200,7 +200,7 @@ def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
     )
 
 
-# ------------------------------------------------------------------------------------------------------- in the workers
+# -------------------------------------------------------------------------------------------------------------- workers
 
 
 def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any]:
@@ -284,7 +284,7 @@ def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecor
     )
 
 
-# ---------------------------------------------------------------------------------------------------------- all of them
+# ----------------------------------------------------------------------------------------------------------- all trials
 
 
 def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecord]) -> TrialResults:
@@ -371,7 +371,7 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     return PointerErrorCourse(plan.outputs[output], turns, np.concatenate(parts).reshape(trials, positions))
 
 
-# ---------------------------------------------------------------------------------------------------------------- table
+# ----------------------------------------------------------------------------------------------------------- table file
 
 
 SUFFIXES = (".parquet", ".csv")

@@ -187,7 +187,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
     return found
 
 
-# ---------------------------------------------------------------------------------------- a limit on the chance to stop
+# ----------------------------------------------------------------------------------- limit on the probability of a stop
 
 
 @dataclass(frozen=True)
@@ -372,6 +372,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
             here,
             *(_moved_point(sampled, here, which, step if turn % 2 else -step) for which in range(len(here))),
         ]
+        # sizes are declared with 6 decimals
         options = {"initial_simplex": np.array(corners), "maxfev": 50 * len(here), "xatol": 1e-6, "fatol": 1e-10}
         found = minimize(_for_scipy(sampled), np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
         here = min((here, sampled.inside(found.x)), key=sampled)

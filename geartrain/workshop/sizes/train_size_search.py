@@ -132,7 +132,7 @@ class TrainSizeSearch:
         """True if the objective depends on all pairs jointly: power and errors pass from pair to pair."""
         return self.aim in ("loss", "error")
 
-    # -------------------------------------------------------------------------------------------------- which pairs
+    # -------------------------------------------------------------------------------------------------------- pairs
 
     @cached_property
     def _drivers(self) -> Mapping[str, str]:
@@ -202,7 +202,7 @@ class TrainSizeSearch:
             if size != "half_angle" or (name,) in self._common_angle_groups
         }
 
-    # ----------------------------------------------------------------------------------------------- what is compared
+    # ----------------------------------------------------------------------------------------------------- comparison
 
     def _resized(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
         """Return the train with new sizes of some pairs."""
@@ -234,7 +234,7 @@ class TrainSizeSearch:
         run.run()
         return run.statistics[0].peak_to_peak
 
-    # ------------------------------------------------------------------------------------------------------ the search
+    # ---------------------------------------------------------------------------------------------------------- search
 
     def found(self) -> BestTrainSizes:
         """Optimise the sizes of the pairs, first separately and then together."""
@@ -334,10 +334,11 @@ class TrainSizeSearch:
 
         low, high = max(lowest, here - width), min(highest, here + width)
         if high > low:
+            # a tolerance of 1e-6, because sizes are declared with 6 decimals
             minimize_scalar(value, bounds=(low, high), method="bounded", options={"maxiter": _TRIES, "xatol": 1e-6})
         return found
 
-    # -------------------------------------------------------------------------------------------------- the declaration
+    # ------------------------------------------------------------------------------------------------------ declaration
 
     def _declaration(self, sizes: Mapping[str, ToothSizes]) -> dict[str, Any]:
         """Return the declaration of the train with these sizes; it extends the given train."""
@@ -354,7 +355,7 @@ class TrainSizeSearch:
         }
 
 
-# ----------------------------------------------------------------------------------------------------------- the result
+# --------------------------------------------------------------------------------------------------------------- result
 
 
 @dataclass(frozen=True)
@@ -497,7 +498,7 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
     return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver, sizes.ring)
 
 
-# ---------------------------------------------------------------------------------------------- pairs that share wheels
+# --------------------------------------------------------------------------------------------- pairs with common wheels
 
 
 def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:

@@ -154,6 +154,7 @@ class _Motion:
         assert senses is not None
         s1, s2, sk = senses
         ratio = turned.counts[0] / turned.counts[1] * (1 if turned.ring else -1)
+        # a tooth of the first wheel faces a space of the second one on the line of centres
         stands = pi / turned.counts[1] + (0.0 if turned.ring else pi)
         begin, end = self._tooth_angle(one, one, other, turned), self._tooth_angle(other, one, other, turned)
         t = begin + s1 * angles[first] - sk * angles[held]
@@ -161,6 +162,7 @@ class _Motion:
         near, lag = _wrapped(t, turned.pitches[0]), _wrapped(lag, turned.pitches[1])
         free = turned.free(np.array([near]), np.array([lag]))
         low, high = float(free.low[0]) - lag, float(free.high[0]) - lag
+        # the lag is linear in the angles of the two wheels and of their carrier
         weights = np.zeros(len(self.scene.bodies))
         weights[second] += s2
         weights[first] -= ratio * s1
@@ -258,6 +260,7 @@ class _Motion:
         driving_link = self.scene.driving_link
         if driving_link is None or not self.case.inputs:
             return
+        # a train that can turn through any angle has no finite ends
         ends = [self._maximum_angle(rows, self._fixed_equations, driving_link, way) for way in (-1, 1)]
         if turns and np.isfinite(ends).any():
             what = f"'{self.scene.bodies[driving_link].id}' jams after {np.degrees(ends[1] - ends[0]):.3g} degrees"

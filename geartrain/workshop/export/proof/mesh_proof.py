@@ -97,6 +97,7 @@ def read_wheels(work: SolidModel) -> CutTrain:
                 what = f"wheel {' and '.join(map(repr, sheet.parts))}: {problem.what}"
                 findings.append(BuildFinding("T0", "error", Problem(what, problem.why, problem.fix)))
             continue
+        # the cut removes half a kerf on each side of its line
         left = _offset(material, kerf / (2 if pins else -2)) if kerf else material
         left = _with_pins(left, work.blanks.wheels[sheet.parts[0]])
         materials |= dict.fromkeys(sheet.parts, left)

@@ -201,8 +201,7 @@ class TurnedPair:
         sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
         return float(sliver.centroid.x), float(sliver.centroid.y)
 
-    # ------------------------------------------------------------------------------------- regions that can be in
-    # contact
+    # -------------------------------------------------------------------------------------- possible regions of contact
 
     @cached_property
     def _extents(self) -> tuple[float, float]:
@@ -254,7 +253,7 @@ class TurnedPair:
         first, second = self.materials
         return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 
-    # ---------------------------------------------------------------------------------------------------------- words
+    # --------------------------------------------------------------------------------------------------- descriptions
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
         """Return a phrase on the position of an overlap: tip, flank or root of both wheels, with the radii [mm]."""

@@ -77,7 +77,7 @@ class LeastFriction(ConjugateToothForm):
             check_arcs(self.arcs)
         if (self.friction_law is None) != (self.pitch_line_speed is None):
             fix = "give both, or neither"
-            raise bad("friction_law", "friction_law and pitch_line_speed belong together", fix)
+            raise bad("friction_law", "friction_law and pitch_line_speed are not both given", fix)
         return self._check_literal() if self.literal else self._check_usual()
 
     def _check_usual(self) -> LeastFriction:

@@ -71,7 +71,7 @@ class ExportFile(Shown):
     path: str
     """Path relative to the folder, with `/` as separator."""
     title: str
-    """Description of its content."""
+    """Description of the content of the file."""
     make: Callable[[], bytes]
     """Function that returns the content as bytes, or raises `GearTrainError` if it cannot be made."""
 

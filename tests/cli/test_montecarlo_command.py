@@ -165,14 +165,14 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--trials", "0"), "number of trials is 0"),
-        (("--trials", "-5"), "number of trials is -5"),
+        (("--trials", "0"), "0 is not a valid number of trials"),
+        (("--trials", "-5"), "-5 is not a valid number of trials"),
         (("--set", "pitch_deviation=120 %"), "tooth vanishes"),
         (("--set", "pitch_deviation=45 %"), "cannot be cut"),
         (("--set", "pitch_deviation=20 deg"), "tooth vanishes"),
         (("--set", "tip=0.1 mm"), "needs a module"),
-        (("--set", "colour=3 %"), "does not set an error"),
-        (("--set", "pitch_deviation=3 apples"), "does not set an error"),
+        (("--set", "colour=3 %"), "is not a valid setting of an error"),
+        (("--set", "pitch_deviation=3 apples"), "is not a valid setting of an error"),
         (("--set", "pitch_deviation=-3 %"), "is negative"),
         (("--set", "x9.pitch_deviation=3 %"), "wheel 'x9'"),
         (("--set", "p.centre=3 %"), "pair 'p'"),

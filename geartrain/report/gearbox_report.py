@@ -1,4 +1,4 @@
-"""Documents on gearboxes: states by rows, elements and links by columns; and all possible gears."""
+"""Documents on gearboxes: the declared states with elements and links in columns, and all possible gears."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_series import GearSearch, GearSeries, PossibleGear
     from geartrain.analysis.gearbox import Gearbox, GearState, ShiftElement
 
-_DIGITS = 5
+_DIGITS = 5  # significant digits of ratios, torques and efficiencies
 _MOST = 12  # combinations of closed elements that are listed
 _RATIOS = (
     "Ratio: input speed over output speed; step: ratio over that of the next state. Recirculating: power that "
@@ -26,7 +26,7 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """Return a document on states, speeds, slip and torques of shift elements, and the maximum load of each element.
+    """Return a document on the states of a gearbox, with speeds, slip and torques, and on the maximum load of each element.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
 
 
 def _unit(found: Gearbox) -> str:
-    """Return the unit of the speeds in a table, with the states whose input is at rest."""
+    """Return a sentence on the unit of speeds, with the states whose speeds refer to another link than the input."""
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
     return "Relative to the input speed" + (f"; relative to another link's in {named}." if named else ".")
@@ -122,7 +122,7 @@ def _elements(found: Gearbox) -> Table:
 
 
 def describe_gear_search(found: GearSearch) -> Document:
-    """Return a document on all gears, then on the requested series.
+    """Return a document on all possible gears, and on the requested series of gears.
 
     Parameters
     ----------
@@ -165,12 +165,11 @@ def describe_gear_search(found: GearSearch) -> Document:
         )
         sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
     elif found.requested:
-        sections.append(Section("Series", (f"No series of {found.requested} gears has all its steps in the window.",)))
+        sections.append(Section("Series", (f"No series of {found.requested} gears has all its steps in the requested range.",)))
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
 
 
 def _combinations_text(ways: Sequence[Sequence[str]]) -> str:
-    """Return combinations of closed elements as text, abridged if there are many."""
     more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
     return "; ".join(", ".join(way) for way in ways[:_MOST]) + more
 

@@ -1,4 +1,4 @@
-"""Document that compares alternative reconstructions side by side."""
+"""Document that compares alternative reconstructions of a train side by side."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geartrain.report.document import Document, ExactText, Section, Table, exact
 
 
 def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -> Document:
-    """Return the outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ.
+    """Return a document that compares trains in columns: output speeds, errors against targets, and different tooth counts.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str
 
 
 def _error(target: TargetResult) -> str:
-    """Return an error in ppm, or the difference in speed if the target is 0."""
+    """Return the error against a target in ppm, or the difference in speed if the target speed is 0."""
     return ppm(target.ppm) if target.speed else f"off by {figure(target.error, 7)}"
 
 

@@ -254,7 +254,8 @@ def result_words(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """Return a count such as `all 3 expectations and 2 published figures hold`, or how many fail; "" without such figures.
+    """Return a count such as `all 3 expectations and 2 published figures hold`, or how many fail; "" if there are
+    none.
 
     A target with a tolerance is counted; a target without tolerance is not.
     """
@@ -307,7 +308,8 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or less.
+    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or
+    less.
     """
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
@@ -380,7 +382,8 @@ def answer_text(answer: Answer) -> str:
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return a document on the outputs, targets and speeds of one state; None if the train of the answer is not known.
+    """Return a document on the outputs, targets and speeds of one state; None if the train of the answer is not
+    known.
     """
     if answer._declaration is None:
         return None
@@ -403,7 +406,8 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return the condition number, estimated error and true error of a speed solved in floats, as text; "" for others.
+    """Return the condition number, estimated error and true error of a speed solved in floats, as text; "" for
+    others.
     """
     accuracy = answer.accuracy.get(link)
     if accuracy is None:

@@ -86,7 +86,8 @@ class Table(Shown):
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return a document of one table with the first `most` rows of a result's columns, and the number of further rows.
+    """Return a document of one table with the first `most` rows of a result's columns, and the number of
+    further rows.
     """
     count = len(next(iter(columns.values()), ()))
     rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
@@ -187,7 +188,8 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, otherwise shows it as text.
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, otherwise shows it
+    as text.
     """
 
     cite: str
@@ -258,8 +260,8 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
 
     requested   words of section titles; if given, only the sections whose titles contain one of them are kept
 
-    Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a requested word is
-    in no title.
+    Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a
+    requested word is in no title.
     """
     titles = [section.title for section in document.sections]
     for word in requested:

@@ -26,7 +26,8 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """Return a document on the states of a gearbox, with speeds, slip and torques, and on the maximum load of each element.
+    """Return a document on the states of a gearbox, its speeds, slip and torques, and the maximum load of each
+    element.
 
     Parameters
     ----------
@@ -165,7 +166,9 @@ def describe_gear_search(found: GearSearch) -> Document:
         )
         sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
     elif found.requested:
-        sections.append(Section("Series", (f"No series of {found.requested} gears has all its steps in the requested range.",)))
+        sections.append(
+            Section("Series", (f"No series of {found.requested} gears has all its steps in the requested range.",))
+        )
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
 
 

@@ -104,7 +104,7 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """Return a document on one pair of wheels outside a train: verdict, sizes, transmission function, losses and outlines.
+    """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
     Parameters
     ----------
@@ -261,7 +261,8 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """Yield the sections on a pair with triangular teeth. For teeth that never touch, yield only sizes and clearance.
+    """Yield the sections on a pair with triangular teeth. For teeth that never touch, yield only sizes and
+    clearance.
     """
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
@@ -358,7 +359,8 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of every contact interval.
+    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of every contact
+    interval.
     """
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     columns = (found.speed_ratio, found.instant_centre, found.driver_arm, found.driven_arm, found.efficiency)
@@ -450,8 +452,8 @@ def _impacts(transmission: TriangularTransmission, operation: PairOperation | No
         lines.append(
             f"At {operation.rate:g} turns of the driver per second, the impacts of one pitch transfer "
             f"{found.handed:.6g} J to the driven side and dissipate {found.dissipated:.6g} J. The driver supplies "
-            f"their sum, {found.work:.6g} J, or {watts:.6g} W. Sorge counts the transferred energy as lost; inelastic impacts "
-            "lose only the dissipated energy."
+            f"their sum, {found.work:.6g} J, or {watts:.6g} W. Sorge counts the transferred energy as lost; "
+            "inelastic impacts lose only the dissipated energy."
         )
         lines.append(
             f"The driven inertia stays in contact as tau falls if the load torque is at least {found.minimum_load:.6g} "

@@ -11,7 +11,7 @@ from geartrain.report.document import Document, ExactText, Section, Table, exact
 
 
 def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -> Document:
-    """Return a document that compares trains in columns: output speeds, errors against targets, and different tooth counts.
+    """Return a document that compares trains in columns: output speeds, errors against targets, and tooth counts.
 
     Parameters
     ----------

@@ -77,7 +77,8 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the failures of one state: its verdict if that is not the expected one, otherwise each unmet expectation.
+    """Yield the failures of one state: its verdict if that is not the expected one, otherwise each unmet
+    expectation.
     """
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
@@ -94,7 +95,8 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _neglected(train: GearTrain) -> Iterator[str]:
-    """Yield the effects that the computed torques neglect, for each loaded state; nothing for teeth that cannot turn.
+    """Yield the effects that the computed torques neglect, for each loaded state; nothing for teeth that cannot
+    turn.
     """
     if train.mechanics.faults:
         return
@@ -126,7 +128,8 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     """Yield the states in which the escape wheel's speed does not match the declared beat.
 
-    The pallets are carried by the link that bears the escape wheel, so the beat depends on the speed relative to that link.
+    The beat depends on the speed of the escape wheel relative to the link that bears it, because that link
+    carries the pallets.
     """
     declared = train.declaration
     escapement = declared.escapement

@@ -1,4 +1,5 @@
-"""Data and document on the torques, power flow and losses of a train, and on its torque over some turns of the input.
+"""Data and document on the torques, power flow and losses of a train, and on its torque over some turns of the
+input.
 """
 
 from __future__ import annotations
@@ -196,7 +197,7 @@ _UNITS_IN_WATTS = (
 
 
 def describe_torques(found: TorqueReport) -> Document:
-    """Return a document on the torques in each state: verdict, efficiency in both directions, links, pairs, flow and losses.
+    """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
 
     The torque over some turns and trials of its friction follow if requested.
 

@@ -134,7 +134,7 @@ class TrainReport(TrainAnswers):
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
-    """Return the contents of the report on a train: answers, structure, teeth, torques, motion and uncertain tooth counts.
+    """Return the contents of the report on a train: answers, structure, teeth, torques and motion.
 
     Parameters
     ----------

@@ -68,15 +68,15 @@ class AlternativeRows(Generic[Node]):
     """Alternatives of all rows of a table, one for each row of arrays of length m."""
 
     weight: Any
-    """Weights of the alternatives, (m,), or one weight for all; of either sign."""
+    """Weights of the alternatives, shape (m,), or one weight for all; of either sign."""
     size: int
     """Number of rows of the table."""
     owners: Ints | None
-    """Row of the table that each alternative belongs to, (m,); None if alternative i belongs to row i."""
+    """Row of the table that each alternative belongs to, shape (m,); None if alternative i belongs to row i."""
     leads: tuple[tuple[Node, Ints], ...] = ()
-    """Parts of the alternatives: pairs of a table and the row in it, (m,)."""
+    """Parts of the alternatives: pairs of a table and the row in it, shape (m,)."""
     tells: tuple[tuple[Hashable, int, Ints], ...] = ()
-    """Variables with their number of values, and the index of the value that each alternative fixes, (m,)."""
+    """Variables with their number of values, and the index of the value that each alternative fixes, shape (m,)."""
 
     @property
     def parts(self) -> tuple[Node, ...]:
@@ -84,15 +84,15 @@ class AlternativeRows(Generic[Node]):
         return tuple(part for part, _ in self.leads)
 
     def below(self, inside: Mapping[Node, NDArray[Any]]) -> list[NDArray[Any]]:
-        """Return the inside sums of each part, (m,) each."""
+        """Return the inside sums of each part, shape (m,) each."""
         return [inside[part][rows] for part, rows in self.leads]
 
     def around(self, outside: NDArray[Any]) -> NDArray[Any]:
-        """Return the outside sum of the row that each alternative belongs to, (m,)."""
+        """Return the outside sum of the row that each alternative belongs to, shape (m,)."""
         return outside if self.owners is None else outside[self.owners]
 
     def sum_at_node(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Return the sums of the values over the alternatives of each row, (size,)."""
+        """Return the sums of the values over the alternatives of each row, shape (size,)."""
         return values if self.owners is None else sums_by(self.owners, values, self.size)
 
     def sum_at_part(self, at: int, values: NDArray[Any], inside: NDArray[Any]) -> NDArray[Any]:
@@ -182,7 +182,7 @@ def draw_index(weights: list[int], probability: Random) -> int:
 
 
 def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Return the sums of the values by owner, (size,). Python integers are added exactly."""
+    """Return the sums of the values by owner, shape (size,). Python integers are added exactly."""
     found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
     np.add.at(found, owners, values)
     return found

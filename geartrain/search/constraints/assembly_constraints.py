@@ -332,7 +332,7 @@ class CentreDistanceMatch:
     most: float
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which the distances match, (candidates,)."""
+        """Return the candidates for which the distances match, shape (candidates,)."""
         return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
 
 
@@ -349,7 +349,7 @@ class LoopPhasing:
     wheels: tuple[str, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which no loop fails or is undecided, (candidates,)."""
+        """Return the candidates for which no loop fails or is undecided, shape (candidates,)."""
         rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
         # each distinct combination of counts is tested once
         each, back = np.unique(rows, axis=0, return_inverse=True)
@@ -535,7 +535,7 @@ class OnInvolute:
     addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates without interference, (candidates,)."""
+        """Return the candidates without interference, shape (candidates,)."""
         z1, z2 = counts_of(columns, self.first), counts_of(columns, self.second)
         constants = _square(self.pressure), decimal(self.addendum)
         one = is_positive(external_terms, [z1, z2], constants, False)
@@ -556,7 +556,7 @@ class InRing:
     ring_addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates without interference, (candidates,)."""
+        """Return the candidates without interference, shape (candidates,)."""
         z1, z2 = counts_of(columns, self.planet), counts_of(columns, self.ring)
         fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
         fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)

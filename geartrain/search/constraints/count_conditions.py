@@ -35,7 +35,7 @@ class CandidateTest(Protocol):
     """Predicate on candidates; an immutable object that can be pickled."""
 
     def __call__(self, columns: CandidateColumns, /) -> Bools:
-        """Return the candidates that pass, (candidates,)."""
+        """Return the candidates that pass, shape (candidates,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,16 +55,16 @@ class CountEquation:
         return tuple(self.coefficients)
 
     def left(self, columns: CandidateColumns) -> Ints:
-        """Return the left side of the equation, (candidates,); 0 if it is satisfied. Sums above 2^63 overflow."""
+        """Return the left side of the equation, shape (candidates,); 0 if it is satisfied. Sums above 2^63 overflow."""
         terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
         return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates that satisfy the equation, (candidates,)."""
+        """Return the candidates that satisfy the equation, shape (candidates,)."""
         return np.asarray(self.left(columns) == 0)
 
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
-        """Return the count of one wheel from those of the others, and whether it is an integer; both (candidates,).
+        """Return the count of one wheel from those of the others, and whether it is an integer; both, shape (candidates,).
 
         `columns` need not include `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer.
         If the equation has only one wheel, both arrays have one entry.
@@ -87,7 +87,7 @@ class Condition:
     """Predicate on the candidates."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates that satisfy the condition, (candidates,), read-only. Columns of other wheels are
+        """Return the candidates that satisfy the condition, shape (candidates,), read-only. Columns of other wheels are
         ignored.
         """
         return np.broadcast_to(self.test(columns), columns[self.wheels[0]].shape)
@@ -160,7 +160,9 @@ class WholeSum:
         return tuple(wheel for wheel, _ in self.terms)
 
     def of(self, columns: CandidateColumns) -> Ints:
-        """Return the values of the sum, (candidates,), or one number without free wheels. Sums above 2^63 overflow."""
+        """Return the values of the sum, shape (candidates,), or one number without free wheels. Sums above 2^63
+        overflow.
+        """
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
             total = total + weight * columns[wheel]
@@ -205,7 +207,7 @@ class CountBounds:
     most: int | None = None
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates within the bounds, (candidates,)."""
+        """Return the candidates within the bounds, shape (candidates,)."""
         counts = columns[self.wheel]
         found = np.ones(counts.shape, dtype=bool)
         if self.minimum is not None:
@@ -223,7 +225,7 @@ class Coprime:
     second: CountRef
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose gcd is 1, (candidates,)."""
+        """Return the candidates whose gcd is 1, shape (candidates,)."""
         return np.asarray(np.gcd(counts_of(columns, self.first), counts_of(columns, self.second)) == 1)
 
 
@@ -235,7 +237,7 @@ class DifferentCount:
     others: tuple[CountRef, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose count differs from all others, (candidates,)."""
+        """Return the candidates whose count differs from all others, shape (candidates,)."""
         found = np.ones(columns[self.wheel].shape, dtype=bool)
         for other in self.others:
             found &= columns[self.wheel] != counts_of(columns, other)
@@ -250,7 +252,7 @@ class NearZero:
     most: int
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose sum is within the bound, (candidates,)."""
+        """Return the candidates whose sum is within the bound, shape (candidates,)."""
         return np.asarray(np.abs(self.total.of(columns)) <= self.most)
 
 
@@ -261,7 +263,7 @@ class Divisible:
     sums: tuple[tuple[int, WholeSum], ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which all sums are multiples, (candidates,)."""
+        """Return the candidates for which all sums are multiples, shape (candidates,)."""
         found = np.asarray(True)
         for modulus, total in self.sums:
             found = found & (total.of(columns) % modulus == 0)

@@ -52,7 +52,7 @@ class EqualPlanets:
     first: PlanetArm
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which the planets can be assembled, (candidates,)."""
+        """Return the candidates for which the planets can be assembled, shape (candidates,)."""
         n = self.number
         # b is only needed modulo n; reduced, so that products of counts fit int64
         kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda number: number % n)
@@ -114,7 +114,7 @@ class NeighbourClearance:
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates with sufficient clearance, (candidates,)."""
+        """Return the candidates with sufficient clearance, shape (candidates,)."""
         chord = sine(Fraction(1, 2 * self.number))
         return is_positive(neighbour_terms, [self.reach.of(columns), self.tips.of(columns)], [chord], True)
 
@@ -132,7 +132,7 @@ class PassingClearance:
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates that satisfy both, (candidates,); the arguments are those of `passing_terms`."""
+        """Return the candidates that satisfy both, shape (candidates,); the arguments are those of `passing_terms`."""
         A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
         # the triangle of the central axis and the two planets must close
         found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
@@ -150,7 +150,7 @@ class PositiveClearance:
     room: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose sum is positive, (candidates,)."""
+        """Return the candidates whose sum is positive, shape (candidates,)."""
         return np.asarray(self.room.of(columns) > 0)
 
 

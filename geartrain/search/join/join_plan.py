@@ -285,7 +285,7 @@ class SelectivitySample:
 
     domains: Domains
     columns: Mapping[str, Ints]
-    """Wheel -> counts, (drawn,)."""
+    """Wheel -> counts, shape (drawn,)."""
 
     @classmethod
     def of(cls, domains: Domains) -> SelectivitySample:

@@ -110,7 +110,7 @@ class SignPolynomial:
         )
 
     def signs(self, rows: PartialAssignments) -> Signs:
-        """Return the exact signs at some rows, (rows,)."""
+        """Return the exact signs at some rows, shape (rows,)."""
         value, size = self.values(rows)
         bound = self.rounding * size
         found: Signs = np.sign(value).astype(np.int8)
@@ -347,11 +347,11 @@ class RelaxedInequality:
     rest: tuple[SignPolynomial, ...]
     """Factor of each term in the assigned items."""
     lows: Floats
-    """Minimum factor of each term in the free items, (terms,)."""
+    """Minimum factor of each term in the free items, shape (terms,)."""
     highs: Floats
-    """Maximum factor of each term in the free items, (terms,)."""
+    """Maximum factor of each term in the free items, shape (terms,)."""
     points: Floats | None
-    """Factor of each term at each corner of the box, (terms, corners); None if terms are bounded separately."""
+    """Factor of each term at each corner of the box, shape (terms, corners); None if terms are bounded separately."""
     slack: float
     """Rounding error relative to the sum of the magnitudes of the terms."""
     scale: int

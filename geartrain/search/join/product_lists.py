@@ -135,8 +135,8 @@ class ProductStep:
 class CountProducts:
     """Distinct products of one count of each wheel to its power.
 
-    values   products, ascending, (m,) int64
-    times    total weight of each product, (m,) of the given dtype
+    values   products, ascending, shape (m,) int64
+    times    total weight of each product, shape (m,) of the given dtype
     """
 
     def __init__(self, wheels: Sequence[tuple[str, int]], domains: Domains, weights: Weights, dtype: Any) -> None:
@@ -231,10 +231,10 @@ def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, I
 class Item:
     """Values of a recipe, numerator over denominator, ascending, with the total weight of each.
 
-    x               values, (m,) float64, ascending, accurate to a few roundings
-    tops, bottoms   exact numerators and denominators, (m,) int64; `bottoms` is None if all are 1. Equal quotients may
+    x               values, shape (m,) float64, ascending, accurate to a few roundings
+    tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal quotients may
                     be repeated
-    times           weights, (m,)
+    times           weights, shape (m,)
     sums            cumulative weights, (m + 1,), from 0
     """
 
@@ -308,7 +308,7 @@ ItemMonomial = tuple[tuple[int, int], ...]
 class PartialAssignments:
     """Rows of assigned items.
 
-    columns   item -> index of its value, (size,)
+    columns   item -> index of its value, shape (size,)
     """
 
     __slots__ = ("_x", "columns", "items", "size")

@@ -122,11 +122,11 @@ class PairRatios:
     counts: tuple[int, ...]
     """Admissible tooth counts, ascending."""
     driven: Ints
-    """Numerators of the ratios in lowest terms, (n,)."""
+    """Numerators of the ratios in lowest terms, shape (n,)."""
     driver: Ints
-    """Denominators of the ratios in lowest terms, (n,)."""
+    """Denominators of the ratios in lowest terms, shape (n,)."""
     logs: Floats
-    """Natural logarithms of the ratios, (n,)."""
+    """Natural logarithms of the ratios, shape (n,)."""
     _choices: dict[tuple[int, int], tuple[tuple[int, int], ...]] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
@@ -190,11 +190,11 @@ class ReachablePeriods:
     requested: int
     """Bit mask of the targets that were searched for."""
     first: Ints
-    """Index of the ratio to the intermediate arbor, (m,)."""
+    """Index of the ratio to the intermediate arbor, shape (m,)."""
     next: Ints
-    """Index of the ratio from there to each target, (m, targets); -1 if there is none."""
+    """Index of the ratio from there to each target, shape (m, targets); -1 if there is none."""
     sets: Ints
-    """Bit masks of the targets reached, (m,)."""
+    """Bit masks of the targets reached, shape (m,)."""
 
 
 def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
@@ -221,7 +221,9 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
 
 
 def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """Return the bit mask of the targets one pair beyond the arbor that each ratio of the table leads to, (n,)."""
+    """Return the bit mask of the targets one pair beyond the arbor that each ratio of the table leads to, shape
+    (n,).
+    """
     sets = np.zeros(len(table), dtype=np.int64)
     found = reach(table, targets, log_period, requested)
     sets[found.first] = found.sets

@@ -552,7 +552,7 @@ class BeamSearch:
     def _moves(
         self, part: PartialTree, parent: int, known: ReachablePeriods
     ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-        """Return a table of moves, (moves, 5): targets gained, wheels needed, bulk, parent, row of its reach."""
+        """Return a table of moves, shape (moves, 5): targets gained, wheels needed, bulk, parent, row of its reach."""
         sets = known.sets & part.left
         rows = np.flatnonzero(sets)
         gained = np.bitwise_count(sets[rows]).astype(np.int64)

@@ -456,7 +456,7 @@ def exact_constraint(
 class MonomialColumns(PartialAssignments):
     """Rows that store the values of their items, instead of indices into lists.
 
-    tops, bottoms   item -> positive values, (size,) int64
+    tops, bottoms   item -> positive values, shape (size,) int64
     values          cache of function -> its values and bounds of their errors
     """
 
@@ -503,7 +503,7 @@ class CombinationColumns(MonomialColumns):
     """Rows of counts, whose monomials are multiplied on demand.
 
     monomials   items
-    counts      wheel -> counts, (size,)
+    counts      wheel -> counts, shape (size,)
     """
 
     __slots__ = ("_counts", "_monomials")

@@ -142,19 +142,19 @@ class ProductWindows:
     size: int
     """Number k of counts in a product."""
     rows: Ints
-    """Product of m and the counts below it, (rows,)."""
+    """Product of m and the counts below it, shape (rows,)."""
     lows: Ints
-    """Counts of the low part, ascending, (rows, a)."""
+    """Counts of the low part, ascending, shape (rows, a)."""
     highs: Ints
-    """Products of the high parts, ascending within each table, (highs,)."""
+    """Products of the high parts, ascending within each table, shape (highs,)."""
     uppers: Ints
-    """Counts of the high parts, ascending, (highs, b)."""
+    """Counts of the high parts, ascending, shape (highs, b)."""
     keys: Ints
-    """Sum of `highs` and the offset of their table, ascending over all tables, (highs,)."""
+    """Sum of `highs` and the offset of their table, ascending over all tables, shape (highs,)."""
     offsets: Ints
-    """Offset of the table of each row, (rows,)."""
+    """Offset of the table of each row, shape (rows,)."""
     starts: Places
-    """Index of the first high part of each row, (rows,)."""
+    """Index of the first high part of each row, shape (rows,)."""
     step: int
     """Distance between the offsets, larger than any high part."""
 
@@ -189,7 +189,9 @@ class ProductWindows:
         return found
 
     def members(self, low: int, high: int, among: Ints) -> tuple[Ints, Ints]:
-        """Return the products in [low, high) that occur in `among` (ascending), (n,), and their counts, (n, k)."""
+        """Return the products in [low, high) that occur in `among` (ascending), shape (n,), and their counts, shape (n,
+        k).
+        """
         row, column = self._places(low, high)
         found = self.rows[row] * self.highs[column]
         if not len(among):
@@ -300,14 +302,14 @@ def _array(counts: tuple[int, ...]) -> Ints:
 
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Places:
-    """Return the index after the last high part whose product with each row is less than `bound`, (rows,)."""
+    """Return the index after the last high part whose product with each row is less than `bound`, shape (rows,)."""
     # one binary search for all tables: the offset of a row selects its table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
     return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
 
 
 def _chosen(numbers: Ints, size: int) -> Ints:
-    """Return all multisets of 0, 1 or 2 of the numbers, ascending within each, (multisets, size)."""
+    """Return all multisets of 0, 1 or 2 of the numbers, ascending within each, shape (multisets, size)."""
     if size == 0:
         return np.empty((1, 0), dtype=numbers.dtype)
     if size == 1:

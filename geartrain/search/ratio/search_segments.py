@@ -278,7 +278,9 @@ class ValueFinder:
 
 
 def distinct(values: Ints) -> Span:
-    """Return the distinct values of an ascending array, (n,), and their first indices with the length, (n + 1,)."""
+    """Return the distinct values of an ascending array, shape (n,), and their first indices with the length, (n
+    + 1,).
+    """
     fresh = np.ones(len(values), dtype=bool)
     fresh[1:] = values[1:] != values[:-1]
     at = np.flatnonzero(fresh)
@@ -355,7 +357,9 @@ class RowFinder:
 
 @dataclass(frozen=True, slots=True)
 class CountSets:
-    """Multisets of counts of one side: products (n,), counts (n, k), sums (n,) and largest counts (n,)."""
+    """Multisets of counts of one side: products, shape (n,), counts, shape (n, k), sums, shape (n,) and largest counts,
+    shape (n,).
+    """
 
     products: Ints
     counts: Ints

@@ -133,7 +133,9 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
 
 
 def _halves(number: int, size: int) -> Ints:
-    """Return the multisets of `size` of the integers 0 to `number` - 1, ascending in each row, (multisets, size)."""
+    """Return the multisets of `size` of the integers 0 to `number` - 1, ascending in each row, shape
+    (multisets, size).
+    """
     found = np.zeros((1, 0), dtype=np.int64)
     for _ in range(size):
         minimum = found[:, -1] if found.shape[1] else np.zeros(1, dtype=np.int64)

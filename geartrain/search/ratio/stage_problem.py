@@ -235,11 +235,11 @@ class FeasiblePairings:
     """Best properties of the pairings that satisfy the constraints, for n pairs of multisets."""
 
     possible: Bools
-    """Truth of the statement that some pairing satisfies the constraints, (n,)."""
+    """Truth of the statement that some pairing satisfies the constraints, shape (n,)."""
     coprime: Ints
-    """Maximum number of stages with coprime counts over these pairings, (n,); 0 if no pairing is feasible."""
+    """Maximum number of stages with coprime counts over these pairings, shape (n,); 0 if no pairing is feasible."""
     centres: Ints
-    """Minimum number of distinct centre distances over these pairings, (n,); large if no pairing is feasible."""
+    """Minimum number of distinct centre distances over these pairings, shape (n,); large if no pairing is feasible."""
 
     def taken(self, at: Ints) -> FeasiblePairings:
         """Return the rows at the given indices."""
@@ -249,7 +249,7 @@ class FeasiblePairings:
 def suited(
     tops: Ints, beneaths: Ints, fit: StageConstraints, *, coprime: bool = True, centres: bool = True
 ) -> FeasiblePairings:
-    """Evaluate all k! pairings and choices of internal meshes of numerator and denominator counts, (n, k) each.
+    """Evaluate all k! pairings and choices of internal meshes of numerator and denominator counts, shape (n, k) each.
 
     coprime, centres   False if this property is not needed; it is then 0
     """
@@ -302,7 +302,7 @@ def _code(table: Bools) -> Ints:
 
 
 def _coprime(tops: Ints, beneaths: Ints) -> Bools:
-    """Return whether each numerator count is coprime to each denominator count, (n, k, k)."""
+    """Return whether each numerator count is coprime to each denominator count, shape (n, k, k)."""
     most = int(max(tops.max(initial=1), beneaths.max(initial=1)))
     if most > _TABLE:
         return np.asarray(np.gcd(tops[:, :, None], beneaths[:, None, :]) == 1)
@@ -319,8 +319,8 @@ def _coprime_table() -> Bools:
 def _arrangements(size: int, internal: int) -> tuple[Ints, Bools, Ints, Ints]:
     """Return every permutation of the denominator counts with every choice of the internal stages.
 
-    The arrays are permutations and choices, (arrangements, size) each, and the bit masks of all meshes and of the
-    internal meshes, (arrangements,) each, encoded as by `_code`.
+    The arrays are permutations and choices, shape (arrangements, size) each, and the bit masks of all meshes and of the
+    internal meshes, shape (arrangements,) each, encoded as by `_code`.
     """
     choices = [[stage in chosen for stage in range(size)] for chosen in combinations(range(size), internal)]
     both = [(order, choice) for order in permutations(range(size)) for choice in choices]
@@ -416,17 +416,17 @@ class RankedStages:
     """Candidate solutions as columns of n rows."""
 
     top: Ints
-    """Numerator counts, ascending in each row, (n, k)."""
+    """Numerator counts, ascending in each row, shape (n, k)."""
     beneath: Ints
-    """Denominator counts, ascending in each row, (n, k)."""
+    """Denominator counts, ascending in each row, shape (n, k)."""
     over: Ints
-    """Products of the numerator counts, (n,)."""
+    """Products of the numerator counts, shape (n,)."""
     under: Ints
-    """Products of the denominator counts, (n,)."""
+    """Products of the denominator counts, shape (n,)."""
     first: Ints
-    """Primary criterion of the order, best first, (n,)."""
+    """Primary criterion of the order, best first, shape (n,)."""
     error: Floats
-    """Absolute error, accurate enough for pruning, (n,)."""
+    """Absolute error, accurate enough for pruning, shape (n,)."""
 
     def __len__(self) -> int:
         return len(self.first)
@@ -444,7 +444,9 @@ class RankedStages:
 
 
 def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints, found: FeasiblePairings | None = None) -> Ints:
-    """Return the primary criterion of the order, best first, for numerator and denominator counts, (n, k) each."""
+    """Return the primary criterion of the order, best first, for numerator and denominator counts, shape (n, k)
+    each.
+    """
     if by in ("hunting", "centres"):
         found = found or suited(tops, beneaths, fit, coprime=by == "hunting", centres=by == "centres")
         return -found.coprime if by == "hunting" else found.centres

@@ -86,9 +86,9 @@ class PathColumns:
     """Columns of a path list for fast comparison of many paths with a path to another dial.
 
     powers         large prime -> its power in the quotient of the added wheels, for each row
-    codes          code of the pass, 0 if the arbor is avoided; (arbors, rows)
-    driven         number of the driven wheel with its count, 0 if absent; (arbors, rows)
-    driver         number of the driving wheel by name, 0 if absent; (arbors, rows)
+    codes          code of the pass, 0 if the arbor is avoided, shape (arbors, rows)
+    driven         number of the driven wheel with its count, 0 if absent, shape (arbors, rows)
+    driver         number of the driving wheel by name, 0 if absent, shape (arbors, rows)
     ends           bit of the surviving arbor that shows the dial, for each row
     passes_added   True if the path has an added idler
     used           bit mask of the used surviving arbors, then wheels, for each row

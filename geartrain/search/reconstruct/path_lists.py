@@ -253,14 +253,14 @@ class PathList:
     along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
 
     codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided;
-                         (rows, arbors)
+                        , shape (rows, arbors)
     arbors               bit mask of the surviving arbors on the path, bit i - 1 for arbor i
     idle                 bit mask of the arbors with unused surviving wheels that must mesh
     ends_new             True if the arbor of the dial is added
     compounds, idlers    numbers of added arbors before the last
     wheels, new          numbers of added wheels and of added arbors
     wanted               hash key of the quotient of the added wheels, if the dial is exact
-    powers               power of each large prime of `primes` in that quotient; (rows, primes)
+    powers               power of each large prime of `primes` in that quotient, shape (rows, primes)
     """
 
     def __init__(

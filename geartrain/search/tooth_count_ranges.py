@@ -1,4 +1,4 @@
-"""Admissible tooth counts of a wheel: "15:120", "30,36,48" or "12:40,48,60", of any length, stored as runs."""
+"""Admissible tooth counts of a wheel, such as "15:120", "30,36,48" or "12:40,48,60", stored as runs of integers."""
 
 from __future__ import annotations
 
@@ -88,12 +88,12 @@ class CountRuns(Sequence[int]):
 
     @property
     def minimum(self) -> int:
-        """Smallest tooth count."""
+        """Minimum tooth count."""
         return self.spans[0][0]
 
     @property
     def most(self) -> int:
-        """Largest tooth count."""
+        """Maximum tooth count."""
         return self.spans[-1][1]
 
     @property

@@ -348,7 +348,7 @@ class Sensitivity(Result):
     With 63 teeth instead of 64 the Moon is slower by 1/64:
 
     >>> import geartrain
-    >>> train = geartrain.load("freeth-2008-uncertainty")
+    >>> train = geartrain.load("freeth-2008-doubt")
     >>> found = next(train.kinematics.sensitivity(train.solve()))
     >>> found.wheel, found.output, found.less, found.less == -1e6 / found.teeth
     ('b2', 'moon', -15625.0, True)

@@ -49,9 +49,9 @@ def t4(signed: bool) -> ReconstructionProblem:
         (t4, False, (0, 0, 0, 0)),
     ],
 )
-def test_toys_have_their_counts(question, signed, mechanisms):
+def test_toys_have_their_counts(question, signed, solutions):
     found = explanations(question(signed))
-    assert tuple(each.counts.solutions for each in found) == mechanisms
+    assert tuple(each.counts.solutions for each in found) == solutions
     assert all(each.counts.classes <= each.counts.multisets <= each.counts.solutions for each in found)
 
 

@@ -1,7 +1,7 @@
 """Counts of reconstructions against those of two programs in another language, written from the rules alone.
 
 One looks for trees whose added wheels are unknowns, one grows concrete trees; `reconstruction_counts.json` holds what
-they found: by number of added wheels from 0 on, mechanisms, bags and ratio classes. The historic questions among them
+they found: by number of added wheels from 0 on, solutions, multisets and ratio classes. The historic questions
 have the counts that were known before.
 """
 

@@ -27,9 +27,9 @@ THIRDS = Fraction(1, 3)
         ({"value": 20}, {}),
     ],
 )
-def test_chances_are_what_weights_say(teeth: dict[str, Any], chances: dict[int, Fraction]) -> None:
-    assert Teeth.model_validate(teeth).probabilities == chances
-    assert list(Teeth.model_validate(teeth).probabilities) == sorted(chances)
+def test_chances_are_what_weights_say(teeth: dict[str, Any], probabilities: dict[int, Fraction]) -> None:
+    assert Teeth.model_validate(teeth).probabilities == probabilities
+    assert list(Teeth.model_validate(teeth).probabilities) == sorted(probabilities)
 
 
 def test_a_posterior_and_a_reconstruction_begin_with_the_same_chances() -> None:

@@ -407,7 +407,7 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
     Examples
     --------
     >>> import geartrain
-    >>> most_informative_wheels(infer_counts(geartrain.load("freeth-2008-uncertainty").declaration), 2)
+    >>> most_informative_wheels(infer_counts(geartrain.load("freeth-2008-doubt").declaration), 2)
     ['m3', 'n1']
     """
     informed = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.uncertainty.counts) > 1]

@@ -65,7 +65,7 @@ class WheelPosterior(Result):
     infer_counts : gives it, by wheel
     """
 
-    KEYS = (Key("", "doubt"), Key("posterior", "probabilities"), "likeliest", "bits", "idle")
+    KEYS = (Key("", "uncertainty"), Key("posterior", "probabilities"), "likeliest", "bits", "idle")
 
     uncertainty: ToothCountPrior
     """Possible counts with their prior probabilities."""

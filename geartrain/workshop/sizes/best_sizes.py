@@ -134,7 +134,7 @@ def find_tooth_sizes(
         default only the radii are free.
     limits : sequence of SizeLimit
         Limits on the design.
-    probability : ChanceLimit, optional
+    probability : ProbabilityLimit, optional
         Limit on the probability that the pair with cutting errors stops; only with one objective.
     on_design : callable
         Callback after each design that is evaluated.

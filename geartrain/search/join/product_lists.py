@@ -1,8 +1,9 @@
-"""Items of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
+"""Items of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from
+them.
 
-An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns items
-instead of wheels: a list of products of counts, or of quotients of two such products. A wheel in a constraint on counts
-is an item of its own.
+An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns
+items instead of wheels. An item is a list of products of counts, or of quotients of two such products. A
+wheel in a constraint on counts is an item by itself.
 """
 
 from __future__ import annotations
@@ -20,13 +21,13 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Floats, Ints
 
 Tallies = NDArray[Any]
-"""Numbers or weights of assignments: int64 if all of them fit, else Python integers."""
+"""Numbers or weights of assignments: int64 if all of them fit, otherwise Python integers."""
 Domains = Mapping[str, tuple[int, ...]]
 Weights = Mapping[str, tuple[int, ...]]
-"""Wheel -> an integer weight for each of its counts. Missing wheels have weights 1, which counts assignments."""
+"""Integer weight of each tooth count by wheel. Wheels that are missing have weights 1, which counts assignments."""
 
 BLOCK = 1 << 18
-"""Number of rows in a block, which limits the memory of a join to about 50 MB besides its lists."""
+"""Number of rows in a block, which limits the memory of a join to about 50 MB in addition to its lists."""
 _LONGEST = 1 << 23  # maximum number of products in one table: 64 MB of int64
 _TRIED = 4_000_000  # maximum number of products formed for a forecast, which is extrapolated beyond it
 _REMEMBERED = 20_000_000  # maximum number of values in all cached lists
@@ -48,7 +49,9 @@ class ItemRecipe:
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """Return the number of distinct products, and of products formed to list them; estimated if large."""
+    """Return the number of distinct products, and the number of products formed to list them; estimates if they are
+    large.
+    """
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
 
@@ -100,7 +103,7 @@ class ListCache(Generic[Made]):
         self._kept: OrderedDict[Hashable, Made] = OrderedDict()
 
     def get(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """Return the cached entry of a key, and make it if it is missing."""
+        """Return the cached entry of a key, or the result of `make` if there is none."""
         if key not in self._kept:
             self._kept[key] = make()
         self._kept.move_to_end(key)
@@ -115,7 +118,7 @@ class ProductStep:
 
     wheel: str
     choices: Ints
-    """Index of the count of the wheel, for each transition."""
+    """Index of the tooth count of the wheel, for each transition."""
     children: Ints
     """Index of the product after each transition."""
     parents: Ints
@@ -133,7 +136,7 @@ class ProductStep:
 
 
 class CountProducts:
-    """Distinct products of one count of each wheel to its power.
+    """Distinct products of one tooth count of each wheel, raised to its power.
 
     values   products, ascending, shape (m,) int64
     times    total weight of each product, shape (m,) of the given dtype
@@ -149,9 +152,9 @@ class CountProducts:
         self.values = self.levels[-1]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment that produces some products.
+        """Return every assignment of tooth counts that produces one of some products.
 
-        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
+        The result is (owner, wheel -> counts), where owner is the index in `indices` of the product, ascending.
         """
         owner, rest = np.arange(len(indices)), self.values[indices]
         found: dict[str, Ints] = {}
@@ -163,7 +166,9 @@ class CountProducts:
         return owner, found
 
     def last_step(self, indices: Ints) -> ProductStep | None:
-        """Return the last step from the empty product to some distinct products; None without wheels."""
+        """Return the last of the steps that lead from the empty product to some distinct products; None without
+        wheels.
+        """
         return self._step(len(self.wheels) - 1, self.values[indices])
 
     def _step(self, level: int, values: Ints) -> ProductStep | None:
@@ -177,7 +182,7 @@ class CountProducts:
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Multiply two lists, and return the distinct products with their weights, block by block to save memory."""
+    """Return the distinct products of two lists with their weights, computed block by block to save memory."""
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
     for at in range(0, len(factors), step):
@@ -201,7 +206,7 @@ def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
 
 
 def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return all divisions of products by one factor, as (index into rest, index of the factor, quotient)."""
+    """Return all exact divisions of products by a factor, as (index in `rest`, index of the factor, quotient)."""
     found = []
     step = max(1, _LONGEST // len(factors))
     for at in range(0, max(len(rest), 1), step):
@@ -214,7 +219,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
 
 
 def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the result of `_divided` for distinct ascending products, by the cheaper method."""
+    """Return the result of `_divided` for distinct ascending products, by the faster of two methods."""
     if len(values) <= len(shorter):
         return _divided(values, factors, shorter)
     found = []
@@ -229,13 +234,13 @@ def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, I
 
 
 class Item:
-    """Values of a recipe, numerator over denominator, ascending, with the total weight of each.
+    """Values of an item, numerator over denominator, ascending, with the total weight of each.
 
     x               values, shape (m,) float64, ascending, accurate to a few roundings
-    tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal quotients may
-                    be repeated
+    tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal
+                    quotients may be repeated
     times           weights, shape (m,)
-    sums            cumulative weights, (m + 1,), from 0
+    sums            cumulative weights, shape (m + 1,), from 0
     """
 
     def __init__(self, recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> None:
@@ -265,21 +270,21 @@ class Item:
         self.times = self._top.times[self._at[0]] * bottom.times[self._at[1]]
 
     def powers(self, power: int) -> Floats:
-        """Return x to a power, ascending."""
+        """Return the values raised to a power, ascending."""
         if power not in self._powers:
             self._powers[power] = reduce(np.multiply, [self.x] * power)
         return self._powers[power]
 
     def sides(self, indices: Ints) -> list[tuple[CountProducts, Ints]]:
-        """Return the products of numerator and denominator, each with their indices at some values."""
+        """Return the products of numerator and denominator, each with the index of its product for some values."""
         if self._bottom is None or self._at is None:
             return [(self._top, indices)]
         return [(self._top, self._at[0][indices]), (self._bottom, self._at[1][indices])]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment that produces some values.
+        """Return every assignment of tooth counts that produces one of some values.
 
-        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
+        The result is (owner, wheel -> counts), where owner is the index in `indices` of the value, ascending.
         """
         if self._bottom is None or self._at is None:
             return self._top.ways(indices)
@@ -293,7 +298,7 @@ _ITEMS: ListCache[Item] = ListCache()
 
 
 def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the item of a recipe from the cache."""
+    """Return the item of a definition, from the cache if possible."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel in recipe.wheels), dtype is object
     return _ITEMS.get(key, lambda: Item(recipe, domains, weights, dtype))
 
@@ -306,7 +311,7 @@ ItemMonomial = tuple[tuple[int, int], ...]
 
 
 class PartialAssignments:
-    """Rows of assigned items.
+    """Partial assignments as rows of the values of the items that are assigned.
 
     columns   item -> index of its value, shape (size,)
     """
@@ -318,7 +323,7 @@ class PartialAssignments:
         self._x: dict[int, Floats] = {}
 
     def x(self, item: int) -> Floats:
-        """Return the values of an item, float64."""
+        """Return the values of an item as float64, one for each row."""
         if item not in self._x:
             self._x[item] = self.items[item].x[self.columns[item]]
         return self._x[item]
@@ -333,7 +338,7 @@ class PartialAssignments:
         return None if bottoms is None else bottoms[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Select rows by mask or by index."""
+        """Return the rows selected by a mask or by indices."""
         columns = {item: column[where] for item, column in self.columns.items()}
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return PartialAssignments(self.items, columns, size)
@@ -344,9 +349,10 @@ class PartialAssignments:
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int], seen: Sequence[ItemMonomial]) -> tuple[PartialAssignments, Ints | None]:
-        """Return the distinct rows on some items, and the index of each row among them; None if the rows are unchanged.
+        """Return the distinct rows on some items, and the index of each row among them; None if the rows are
+        unchanged.
 
-        seen   monomials of these items that matter; rows with equal values of all of them are merged
+        seen   monomials of these items that constraints depend on; rows with equal values of all of them are merged
         """
         if len(seen) == len(items) == len(self.columns):
             return self, None
@@ -361,7 +367,7 @@ class PartialAssignments:
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
 
     def _codes(self, monomial: ItemMonomial) -> Iterator[tuple[Ints, int]]:
-        """Yield integer codes that distinguish the values of a monomial, each with an upper bound."""
+        """Yield integer codes that distinguish the values of a monomial, each with an upper bound of the code."""
         if len(monomial) == 1:
             ((item, _),) = monomial
             yield self.columns[item], len(self.items[item])
@@ -381,7 +387,7 @@ class PartialAssignments:
             yield code, max(len(values), 1)
 
     def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
-        """Yield ranges of rows whose `sizes` sum to about `BLOCK`; a larger row has a range of its own."""
+        """Yield ranges of rows whose `sizes` add up to about `BLOCK`. A larger row is a range by itself."""
         ends = np.cumsum(sizes)
         at = 0
         while at < self.size:

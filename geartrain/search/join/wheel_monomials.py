@@ -47,7 +47,7 @@ class Function(Protocol):
         """Terms of the denominator."""
 
     def value(self, counts: Mapping[str, int], /) -> Fraction | None:
-        """Return the exact value; None if the train is locked or free."""
+        """Return the exact value for some tooth counts; None if the train is locked or the speed is undetermined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,12 +61,12 @@ class IntervalConstraint:
     strict: bool = False
     """True if the ends of the intervals are excluded."""
     graded: bool = False
-    """True if the value within the intervals matters, so that all wheels of the function must be known."""
+    """True if the value itself is required, so that all wheels of the function must be assigned."""
 
 
 @dataclass(frozen=True, slots=True)
 class WheelMonomial:
-    """Wheels that all functions depend on through one monomial, each with its power, which is not 0."""
+    """Monomial through which all functions depend on some wheels. The power of each wheel is not 0."""
 
     powers: Mapping[str, int]
 
@@ -77,17 +77,17 @@ class WheelMonomial:
 
     @property
     def bottom(self) -> tuple[tuple[str, int], ...]:
-        """Wheels with negative powers, with the sign removed."""
+        """Wheels with negative powers, each with the magnitude of its power."""
         return tuple((wheel, -power) for wheel, power in self.powers.items() if power < 0)
 
 
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """Return the largest possible monomials; wheels in `alone` are monomials of their own with power 1.
+    """Return the largest possible monomials. Each wheel in `alone` is a monomial by itself with power 1.
 
-    Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
-    functions, are proportional.
+    Wheels are combined if their powers, relative to the first term of each function and listed over all terms
+    of all functions, are proportional.
     """
     lists: dict[str, list[int]] = {wheel: [] for wheel in wheels}
     for one in requested:
@@ -124,12 +124,12 @@ def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRe
 
 
 def quotients(top: Factors, bottom: Factors, domains: Domains) -> int:
-    """Estimate the number of values of an item."""
+    """Estimate the number of values of an item with this numerator and denominator."""
     return forecast(top, domains)[0] * forecast(bottom, domains)[0]
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Split wheels into the minimum number of groups of similar size whose products can be listed."""
+    """Split wheels into groups of similar size whose products can be listed, as few as possible."""
     if not wheels:
         return
     short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
@@ -182,7 +182,7 @@ def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
 
 
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
-    """Return the monomials in items of some terms, up to one common monomial."""
+    """Return each term as a monomial in items, divided by a common monomial."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe.top[0] if recipe.top else recipe.bottom[0]
@@ -214,7 +214,10 @@ def _cases(
 def _feasible(
     cases: Sequence[tuple[PolynomialInequality, ...]], extremes: Mapping[int, tuple[float, float]]
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Drop the cases that no counts satisfy; keep the first if none is left, so that the constraint keeps its items."""
+    """Return the cases that some tooth counts can satisfy; the first case if there are none.
+
+    One case is kept so that the constraint still depends on its items.
+    """
     nothing = PartialAssignments((), {}, 1)
     kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]
     return tuple(kept or cases[:1])

@@ -63,7 +63,7 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
     >>> from geartrain.search import infer_counts
     >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
     >>> describe_posterior(found).summary[1]
-    '1 fits: a share of 0.2 of the prior weight.'
+    '1 fits the observations: prior probability 0.2.'
     """
     return Document(f"Uncertain tooth counts of {found.name}", list(_summary(found)), list(_sections(found)))
 

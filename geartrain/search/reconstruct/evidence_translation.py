@@ -1,4 +1,6 @@
-"""Translation of declared evidence into a typed question. Unsupported declarations are refused with their place."""
+"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are refused with their
+place.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +50,7 @@ Limits = tuple[Fraction, Fraction]
 class PointerBounds:
     """Minimum and maximum speed of a pointer, and declared facts that do not bound it.
 
-    The bounds are bounds of the magnitude if `signed` is false.
+    The bounds are bounds of the magnitude if `signed` is False.
     """
 
     limits: Limits
@@ -61,9 +63,10 @@ class PointerBounds:
 
 
 def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Return the bounds of the speed of an output relative to the base; with `free_sense` bounds of its magnitude.
+    """Return the bounds of the speed of an output relative to the base; with `free_sense`, bounds of its
+    magnitude.
 
-    Raise `DeclarationError` if the speed is not one range.
+    Raise `DeclarationError` if the admissible speeds are not one range.
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     if output.relative_to not in (None, evidence.frame, base.name):
@@ -102,7 +105,7 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
 
 
 def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
-    """Convert bounds relative to the frame to bounds relative to a base that turns at a given speed."""
+    """Convert bounds relative to the frame to bounds relative to a base that turns with a given speed."""
     if not turning:
         return bounds
     if not bounds.signed:
@@ -114,7 +117,7 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """Yield the declared ranges of a speed, and whether each has a sign."""
+    """Yield the declared ranges of a speed, each with True if it has a sign."""
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)
@@ -157,7 +160,6 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
 
 
 def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) -> Limits:
-    """Intersect a range of speeds with a range of magnitudes."""
     low, high = magnitude
     if limits[0] >= 0:
         return _common([limits, (low, high)], name, place)
@@ -178,7 +180,7 @@ _MOST_COUNTS = 10_000
 
 @dataclass(frozen=True)
 class EvidenceQuestion(Shown):
-    """Typed question of declared evidence, with its base and the unused declarations.
+    """Reconstruction problem of declared evidence, with its base and the unused declarations.
 
     See Also
     --------
@@ -186,17 +188,17 @@ class EvidenceQuestion(Shown):
     """
 
     problem: ReconstructionProblem
-    """Typed question."""
+    """Reconstruction problem, the input of the search."""
     base: BaseLink
     """Link that carries the arbors. Speeds of the problem are relative to it."""
     joined: Joined
-    """Arbor -> links that given couplings join to it."""
+    """Links that given couplings join to each arbor."""
     unused: tuple[str, ...]
-    """Declarations that do not affect the answer, one line each."""
+    """Declarations that do not affect the answer, one line for each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
-    """Translate declared evidence into a typed question.
+    """Convert declared evidence to a reconstruction problem.
 
     Parameters
     ----------

@@ -166,7 +166,7 @@ def describe_form_comparison(found: FormComparison) -> Document:
     Parameters
     ----------
     found : FormComparison
-        Result of `geartrain.teeth.form_comparison.compare_forms`; its `to_dict()` has the same as data.
+        Result of `geartrain.teeth.form_comparison.compare_forms`; `to_dict()` returns its data.
 
     Returns
     -------

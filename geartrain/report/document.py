@@ -221,8 +221,8 @@ class Document:
 
     See Also
     --------
-    describe_train, describe_torques, describe_motion : Make documents.
-    to_markdown, to_html : Show them.
+    describe_train, describe_torques, describe_motion : Return documents.
+    to_markdown, to_html : Convert documents.
 
     Examples
     --------

@@ -111,7 +111,7 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
     Returns
     -------
     Document
-        Speeds in the train's unit.
+        Document with one section for each state; speeds are in the train's unit.
 
     Examples
     --------

@@ -37,7 +37,7 @@ def describe_gearbox(found: Gearbox) -> Document:
     Returns
     -------
     Document
-        Speeds and torques relative to those of the input.
+        Document with speeds and torques relative to those of the input.
 
     Examples
     --------
@@ -133,7 +133,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     Returns
     -------
     Document
-        Ratios are input over output.
+        Document in which ratios are input over output.
 
     Examples
     --------

@@ -54,7 +54,7 @@ def to_html(documents: Sequence[Document]) -> str:
     Returns
     -------
     str
-        Whole page. Texts are escaped, pictures are included as SVG, and a viewer is in a sandboxed frame.
+        Complete page. Texts are escaped, pictures are included as SVG, and a viewer is in a sandboxed frame.
 
     Raises
     ------

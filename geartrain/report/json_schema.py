@@ -135,7 +135,7 @@ def answer_schema() -> Schema:
     -------
     dict
         Keys and kinds of values are those of the result classes, and descriptions are the docstrings of their
-        fields. A question is a command, or a use of a command whose answer has another shape.
+        fields. QUESTION is a command, or a use of a command whose answer has another shape.
 
     Examples
     --------

@@ -76,7 +76,7 @@ class MotionFigures(Result):
 
     See Also
     --------
-    collect_motion : Return the figures of a run.
+    collect_motion : Return the results of a motion run.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -154,7 +154,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
     Returns
     -------
     MotionFigures
-        Figures whose `to_dict` is the answer of `geartrain motion --json`.
+        Results whose `to_dict` is the answer of `geartrain motion --json`.
 
     Examples
     --------

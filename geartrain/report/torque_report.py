@@ -107,7 +107,7 @@ class TorqueReport(Result):
 
     See Also
     --------
-    collect_torque_report : Return a torque report.
+    collect_torque_report : Return the torques of a train in some states.
     """
 
     PAGE = "report.torque_report:describe_torques"
@@ -209,7 +209,7 @@ def describe_torques(found: TorqueReport) -> Document:
     Returns
     -------
     Document
-        Torques in the unit of the loads; powers in watts if loads and speeds have units.
+        Document with torques in the unit of the loads, and powers in watts if loads and speeds have units.
 
     Examples
     --------

@@ -17,7 +17,7 @@ class Shortfall(Result):
 
     See Also
     --------
-    geartrain.search.find_stages, geartrain.search.find_sets : searches whose findings include one.
+    geartrain.search.find_stages, geartrain.search.find_sets : Searches that report it.
     """
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
@@ -71,7 +71,7 @@ class GearStages(CountSizes, Result):
 
     See Also
     --------
-    find_stages : finds them.
+    find_stages : Search for one ratio by stages.
     """
 
     KEYS = (

@@ -33,7 +33,7 @@ class Approximant(Result):
 
     See Also
     --------
-    approximants : lists them.
+    approximants : List the fractions that approximate a number.
     """
 
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
@@ -136,7 +136,7 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
     Returns
     -------
     tuple of Approximant
-        The last one is `value` itself if that is within the bound. If it is not, and all fractions are listed, the last
+        The last one is `value` if that is within the bound. If it is not, and all fractions are listed, the last
         fraction on either side is the nearest on that side of all fractions within the bound.
 
     Raises

@@ -22,7 +22,7 @@ class ConstraintOptions:
 
     See Also
     --------
-    search_train : takes them.
+    search_train : Search with these constraints.
 
     Examples
     --------

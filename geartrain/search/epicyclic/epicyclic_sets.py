@@ -271,7 +271,7 @@ class EpicyclicSet(CountSizes, Result):
 
     See Also
     --------
-    find_sets : finds them.
+    find_sets : Search for epicyclic sets.
     """
 
     KEYS = (
@@ -357,7 +357,7 @@ class SetFindings(Tabular, Result):
 
     See Also
     --------
-    find_sets : returns it.
+    find_sets : Search for epicyclic sets.
     """
 
     ROWS = "search.tooth_numbers_report:set_rows"

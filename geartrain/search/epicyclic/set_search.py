@@ -117,11 +117,11 @@ def find_sets(
     sense : {-1, 0, 1}
         Sense of rotation of the output: 1 for that of the input, -1 for the opposite, 0 for either.
     ratio_is : {"input/output", "output/input"}
-        Definition of the ratio `wanted`.
+        Definition of the ratio `wanted`: input over output, or output over input.
     by : {"error", "total", "largest"}
         Primary criterion: minimum error, minimum sum of counts, or minimum largest count.
     spaced : bool
-        True to require that the planets can be equally spaced and clear each other; otherwise this is only reported.
+        True to require that the planets can be equally spaced and clear each other. With False it is only reported.
     clearance : Fraction or float
         Minimum clearance between the tips of neighbouring planets [modules] if `spaced`.
     slack : int
@@ -135,7 +135,7 @@ def find_sets(
     Raises
     ------
     QuestionError
-        If the type, a mode or the order does not exist, or if the ratio is beyond all sets.
+        If the type, a mode or the order does not exist, or if the ratio is not from 1e-18 to 1e18.
     RangeError
         If there are more than 4 10^8 sets.
 

@@ -84,7 +84,7 @@ class Orrery(Tabular, Result):
 
     See Also
     --------
-    find_orrery : finds it.
+    find_orrery : Search for an orrery.
     """
 
     ROWS = "search.tooth_numbers_report:orrery_rows"

@@ -194,7 +194,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     found : ToothCountPosterior
         Posterior of the counts.
     pairs : mapping
-        Pair of wheels in the order of declaration -> pair of counts -> probability, from `joint_posterior`.
+        Joint probability of each pair of counts, by pair of wheels in the order of declaration; see `joint_posterior`.
 
     Returns
     -------
@@ -204,7 +204,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     Raises
     ------
     QuestionError
-        If nothing fits, or if the figure would have no wheel or more wheels than fit on a page.
+        If no combination satisfies the observations, or if there is no wheel or more than 9.
 
     Examples
     --------

@@ -62,7 +62,7 @@ class WheelPosterior(Result):
 
     See Also
     --------
-    infer_counts : gives it, by wheel
+    infer_counts : Compute the posterior of uncertain tooth counts.
     """
 
     KEYS = (Key("", "uncertainty"), Key("posterior", "probabilities"), "likeliest", "bits", "idle")
@@ -118,7 +118,7 @@ class CountCombination(Result):
 
     See Also
     --------
-    infer_counts : lists the best
+    infer_counts : Compute the posterior of uncertain tooth counts.
     """
 
     KEYS = ("teeth", "outputs", Key("misfit", to=float), "probability", "changed")
@@ -150,7 +150,7 @@ class VarianceShares(Result):
 
     See Also
     --------
-    infer_counts : gives it, by output
+    infer_counts : Compute the posterior of uncertain tooth counts.
 
     References
     ----------
@@ -197,7 +197,7 @@ class ToothCountPosterior(Tabular, Result):
 
     See Also
     --------
-    infer_counts : gives it
+    infer_counts : Compute the posterior of uncertain tooth counts.
     """
 
     MEANINGS: ClassVar = {

@@ -45,7 +45,7 @@ class StageFindings(Tabular, Result):
 
     See Also
     --------
-    find_stages : returns it.
+    find_stages : Search for one ratio by stages.
     """
 
     ROWS = "search.tooth_numbers_report:stage_rows"

@@ -83,10 +83,10 @@ def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[Brok
     Parameters
     ----------
     candidate : Arbor
-        Candidate from its input arbor. Its surviving arbors and wheels have the names of the question, and it shows no
+        Candidate from its input arbor. Its surviving arbors and wheels have the names of the problem, and it shows no
         other dials.
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     """
     return (
         *_dial_rules(candidate, problem),
@@ -238,7 +238,7 @@ def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
     return frozenset((one, other))
 
 
-# The question that admits a candidate: all rules that it breaks are removed.
+# The problem that admits a candidate: all rules that it breaks are removed.
 
 
 def admitting_question(problem: ReconstructionProblem, broken: Iterable[BrokenRule]) -> ReconstructionProblem:
@@ -322,7 +322,7 @@ def _read(wheel: SurvivingWheel, broken: BrokenRule) -> SurvivingWheel:
     return replace(wheel, counts=((int(teeth), Fraction(1)),))
 
 
-# ----------------------------------------------------------- a given train as a candidate, in the names of the question
+# ----------------------------------------------------------- a given train as a candidate, in the names of the problem
 
 
 @dataclass(frozen=True)
@@ -347,10 +347,10 @@ def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping
     train : Train
         Known train.
     problem : ReconstructionProblem
-        Typed question whose arbors turn in the frame.
+        Reconstruction problem whose arbors turn in the frame.
     same : mapping of str to str, optional
-        Names of wheels and outputs of the train -> their names in the question. Others must have equal names, except
-        for capitals.
+        Name in the problem of wheels and outputs that the train names differently. Others must have equal names,
+        except for capitals.
 
     Raises
     ------
@@ -450,7 +450,7 @@ class _TrainReading:
         name = self.problem.input.name
         found = self._links.get(name) or self._joined.get(name)
         if found is None:
-            what = f"'{self.train.name}' has no wheel of '{name}', the input of the question"
+            what = f"'{self.train.name}' has no wheel of '{name}', the input of the evidence"
             fix = "name one of its wheels with `--same ITS=OURS`"
             raise QuestionError(Problem(what, "wheels are identified by their names", fix))
         return found
@@ -466,7 +466,9 @@ class _TrainReading:
         if count is None:
             place = self.train.place("links")
             what = f"the tooth count of '{wheel}' is not known"
-            raise QuestionError(Problem(what, "a train is ranked with all its counts", "give it a `value`", place))
+            raise QuestionError(
+                Problem(what, "a rank requires all tooth counts", "declare it, such as `teeth: {value: 64}`", place)
+            )
         return count
 
     # pointers
@@ -538,10 +540,12 @@ def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: Recon
         if name not in own:
             what = f"'{name}' is not a wheel or an output of a ranked train"
             raise QuestionError(
-                Problem(what, "`--same ITS=OURS` begins with its name there", suggest(name, sorted(own)))
+                Problem(what, "in `--same ITS=OURS`, ITS is a name in the ranked train", suggest(name, sorted(own)))
             )
         if called not in requested:
             what = f"'{called}' is not a wheel or a dial of the evidence"
             raise QuestionError(
-                Problem(what, "`--same ITS=OURS` ends with its name there", suggest(called, sorted(requested)))
+                Problem(
+                    what, "in `--same ITS=OURS`, OURS is a name in the evidence", suggest(called, sorted(requested))
+                )
             )

@@ -76,7 +76,9 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
         raise DeclarationError(Problem(what, why, f"give its speed relative to the frame{carrier}", place))
     if output.of == evidence.frame:
         what = f"the pointer '{name}' is on the frame"
-        raise DeclarationError(Problem(what, "the frame does not turn", "correct `of`", place))
+        raise DeclarationError(
+            Problem(what, "the frame does not turn", "name in `of` the link that carries the pointer", place)
+        )
     found = _bounds(evidence, name, free_sense)
     found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
@@ -154,7 +156,9 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
     if minimum > maximum:
         why = "no speed is within `expect` and all targets with a tolerance"
         raise DeclarationError(
-            Problem(f"the declared speeds of '{name}' contradict each other", why, "correct one of them", place)
+            Problem(
+                f"the declared speeds of '{name}' contradict each other", why, "correct `expect` or a target", place
+            )
         )
     return minimum, maximum
 
@@ -167,7 +171,7 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, -low)], name, place)
     if low <= 0:
         return _common([limits, (-high, high)], name, place)
-    why = "claims with a sense allow both signs, and a claim on the magnitude leaves one range of each sign"
+    why = "the targets with a sense allow both senses, and a target on the magnitude leaves one range in each sense"
     raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target only", place))
 
 
@@ -184,7 +188,7 @@ class EvidenceQuestion(Shown):
 
     See Also
     --------
-    evidence_question : makes it.
+    evidence_question : Convert declared evidence to a problem.
     """
 
     problem: ReconstructionProblem
@@ -216,7 +220,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Raises
     ------
     DeclarationError
-        For every declaration that is unsupported or does not define a question, with its place.
+        For every declaration that is unsupported or does not define a problem, with its place.
 
     Examples
     --------
@@ -336,7 +340,7 @@ def _unsupported(evidence: Train) -> Iterator[Problem]:
 
 def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem:
     why = "ignoring it could change the trains that are found"
-    return Problem(what, why, "remove it, to search without it", evidence.place(*loc))
+    return Problem(what, why, "remove it from the evidence", evidence.place(*loc))
 
 
 def _wheels(evidence: Train) -> Iterator[Problem]:

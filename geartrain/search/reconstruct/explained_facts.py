@@ -180,7 +180,7 @@ class ExplainedFacts:
     weighed : WeighedTrains
         All trains, or the best.
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     tally : FactTally, optional
         Sums over all trains, if known. Facts are then equivalent if they partition `weighed` in the same way and have
         equal sums.

@@ -89,9 +89,9 @@ def find_telling_facts(
     evidence : Train
         Declared evidence.
     problem : ReconstructionProblem
-        Typed question of the evidence.
+        Reconstruction problem of the evidence.
     found : Reconstructions
-        All explanations of the question.
+        All explanations of the problem.
     candidate : Arbor
         One of the explanations.
     """
@@ -245,9 +245,9 @@ def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, 
     train : Train
         Known train.
     question : RankedQuestion
-        Question with all its explanations.
+        Problem with all its explanations.
     same : mapping of str to str, optional
-        Names of the train -> names of the question; see `find_known_train`.
+        Name in the problem of each part that the train names differently; see `find_known_train`.
     """
     problem, found = question.problem, question.found
     known = find_known_train(train, problem, same)

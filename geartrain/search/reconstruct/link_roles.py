@@ -136,7 +136,7 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
         elif speed == inputs.get(carrier):
             what = f"'{link}' has the same speed as the carrier"
             why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
-            yield Problem(what, why, "correct one of the speeds", place)
+            yield Problem(what, why, "correct one of the two speeds in `inputs`", place)
         elif not speed:
             fix = f"remove '{link}' from `inputs`, and put its wheels on the frame"
             yield Problem(f"the speed of the input '{link}' is 0", _ONE_START, fix, place)
@@ -191,7 +191,7 @@ def _carrier_geometry_problems(evidence: Train) -> Iterator[Problem]:
         yield Problem(what, "axes on a carrier move", fix, evidence.place("reconstruct", "geometry"))
 
 
-# Arbors that a given coupling joins: they have the same mean speed, and are one arbor in the question, with the wheels
+# Arbors that a given coupling joins: they have the same mean speed, and are one arbor in the problem, with the wheels
 # and pointers of all. When a candidate is written, each wheel remains on its own link, and added wheels are on the
 # first link.
 

@@ -48,7 +48,7 @@ class ReconstructionRequest(Shown):
 
     See Also
     --------
-    reconstruct : answers it.
+    reconstruct : Find the trains that explain the evidence.
     """
 
     evidence: Train
@@ -125,7 +125,7 @@ class RankedTrain(Result):
 
     See Also
     --------
-    reconstruct : lists the best.
+    reconstruct : Find the trains that explain the evidence.
     """
 
     KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
@@ -152,7 +152,7 @@ class ReconstructionAnswer(Result):
 
     See Also
     --------
-    reconstruct : gives it.
+    reconstruct : Find the trains that explain the evidence.
     """
 
     PAGE = "search.reconstruct.reconstruction_report:describe_reconstruction"

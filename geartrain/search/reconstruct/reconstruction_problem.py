@@ -143,7 +143,7 @@ class SurvivingWheel:
 
     See Also
     --------
-    ReconstructionProblem : is made of them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     name: str
@@ -165,7 +165,7 @@ class SurvivingArbor(Shown):
 
     See Also
     --------
-    ReconstructionProblem : is made of them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     name: str
@@ -180,7 +180,7 @@ class SearchedDial(Shown):
 
     See Also
     --------
-    ReconstructionProblem : is made of them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     name: str
@@ -208,7 +208,7 @@ class Additions:
 
     See Also
     --------
-    ReconstructionProblem : holds them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     wheels: int
@@ -229,7 +229,7 @@ class PriorFactors:
 
     See Also
     --------
-    ReconstructionProblem : holds them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     wheel: Fraction = Fraction(10)
@@ -246,8 +246,8 @@ class ReconstructionProblem(Shown):
 
     See Also
     --------
-    evidence_question : makes it from declared evidence.
-    find_reconstructions : answers it.
+    evidence_question : Convert declared evidence to a problem.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     input: SurvivingArbor
@@ -289,7 +289,7 @@ class PlacedWheel:
 
     See Also
     --------
-    Candidate : is made of them.
+    Candidate : Explanation of which this is a part.
     """
 
     name: str | None
@@ -304,8 +304,8 @@ class Arbor(Shown):
 
     See Also
     --------
-    Candidate : holds the input arbor.
-    candidate_train : makes a train of it.
+    Candidate : Explanation with its input arbor.
+    candidate_train : Convert a candidate to a train.
     """
 
     name: str | None
@@ -357,7 +357,7 @@ class Arbor(Shown):
         return sum(arbor.name is None for arbor in self.arbors())
 
 
-# --------------------------------------------------------------------------------------------------- size of a question
+# --------------------------------------------------------------------------------------------------- size of a problem
 
 
 @dataclass(frozen=True, slots=True)
@@ -402,7 +402,7 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
     ways.append("leave out arbors, or dials with the arbors that lead only to them")
-    return Problem(what, f"the question has {RequestedQuestion.of(problem)}", "; or ".join(ways))
+    return Problem(what, f"the problem has {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
 def question_digest(problem: ReconstructionProblem) -> str:
@@ -475,7 +475,9 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
         if wheel.module.base <= 0:
             place = evidence.place("links", link, "wheels", name, "module")
             what = f"the module of '{name}' is not above 0"
-            raise DeclarationError([Problem(what, "a module is a positive length", "correct it", place)])
+            raise DeclarationError(
+                [Problem(what, "a module is a positive length", "give it such as `module: 0.5 mm`", place)]
+            )
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 
 
@@ -494,8 +496,8 @@ def _placed(evidence: Train) -> Iterator[PlacedArbor]:
 def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
-        what = f"the position of '{link}' cannot be weighed in evidence with the ring '{ring}'"
-        why = "the spread `distance` applies to sums of radii, but the axes of a ring and its mate to their difference"
+        what = f"the position of '{link}' cannot be used in evidence with the ring '{ring}'"
+        why = "`distance` is the spread of sums of radii, but a ring and its mate have the difference as distance"
         fix = "remove the position of its axis, or `geometry`"
         raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 

@@ -38,7 +38,7 @@ class CommandRun(ReconstructionRun):
 
     def begin(self, problem: ReconstructionProblem) -> None:
         """Print the size of the problem."""
-        tell(f"question: {RequestedQuestion.of(problem)}")
+        tell(f"problem: {RequestedQuestion.of(problem)}")
         if (size := count_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
 

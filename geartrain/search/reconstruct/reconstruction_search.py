@@ -43,7 +43,7 @@ class ExplanationCount(Result):
 
     See Also
     --------
-    find_reconstructions : gives it.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     added: int
@@ -68,7 +68,7 @@ class Candidate(Result):
 
     See Also
     --------
-    find_reconstructions : finds it.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     KEYS = ("added", Key("weight", to=float), "ranks")
@@ -101,7 +101,7 @@ class Reconstructions(Result):
 
     See Also
     --------
-    find_reconstructions : gives it.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     KEYS = ("counts", "complete", "candidates")
@@ -133,11 +133,11 @@ def find_reconstructions(
     Parameters
     ----------
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     execution : Execution, optional
         Executor of the parts of the search. By default they run one after the other in this process.
     listed : int
-        Minimum number of candidates to list, if there are as many.
+        Minimum number of candidates to list; fewer if there are not as many.
     per : {"mechanism", "class"}
         Unit of the prior: one weight for every train, or one for every ratio class, which its trains share.
 
@@ -148,7 +148,7 @@ def find_reconstructions(
     Raises
     ------
     QuestionError
-        If too many trains would have to be listed, to share weights by class or to weigh measured sizes.
+        If too many trains would have to be listed, because weights depend on ratio classes or measured sizes.
 
     Examples
     --------
@@ -243,7 +243,7 @@ def _weighed_one_by_one(
     """Weight every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
-        what = f"{number} trains would have to be weighed one by one, more than {_LISTED}"
+        what = f"{number} trains would have to be weighted one by one, more than {_LISTED}"
         why = "weights per class and weights of measured sizes need every train"
         fix = "add fewer wheels (-k), or use `--per mechanism` without `geometry`"
         raise QuestionError(Problem(what, why, fix))
@@ -279,9 +279,9 @@ def draw_candidates(
     Parameters
     ----------
     found : Reconstructions
-        All explanations of the question.
+        All explanations of the problem.
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     dials : sequence of str
         Dials in the order of the evidence.
     number : int
@@ -296,7 +296,7 @@ def draw_candidates(
     Raises
     ------
     QuestionError
-        If trains are weighed one by one, by measured sizes or by class.
+        If trains are weighted one by one, because weights depend on ratio classes or measured sizes.
 
     Examples
     --------
@@ -308,9 +308,9 @@ def draw_candidates(
     if not found.topologies:
         if not sum(each.solutions for each in found.counts):
             return ()
-        what = "trains cannot be drawn if they are weighed one by one"
+        what = "trains cannot be sampled if they are weighted one by one"
         fix = "list them instead (--all), or use `--per mechanism` without `geometry`"
-        raise QuestionError(Problem(what, "draws need sums over trains of equal weight", fix))
+        raise QuestionError(Problem(what, "sampling needs sums over trains of equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
     shares = [weight * each.solutions for weight, each in zip(whole, found.topologies, strict=True)]

@@ -88,7 +88,7 @@ class TopologyTrains:
     Parameters
     ----------
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     dials : sequence of str
         Dials in the order of the evidence.
     """

@@ -69,7 +69,7 @@ def walk_arbors(
             child = arbor_of(other)
             if child == source or child in driven:
                 what = f"the meshes of '{train.name}' close a loop at '{train.gears[gear].name}'"
-                why = "an arbor is driven in two ways, and only trees of arbors are reconstructed"
+                why = "two wheels drive the same arbor, and only trees of arbors are reconstructed"
                 place = train.place("gears", gear)
                 raise QuestionError(Problem(what, why, "remove a mesh of the loop", place))
             driven[child] = DrivenArbor(arbor, own, other)

@@ -49,7 +49,7 @@ class Assignment(CountSizes, Result):
 
     See Also
     --------
-    search_train : finds them.
+    search_train : Search for tooth counts of a train.
     """
 
     KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
@@ -161,7 +161,7 @@ class TrainFindings(Tabular, Result):
 
     See Also
     --------
-    search_train : returns it.
+    search_train : Search for tooth counts of a train.
     """
 
     ROWS = "search.tooth_numbers_report:assignment_rows"

@@ -46,6 +46,7 @@ def accuracy_document(found: TrainAccuracy) -> Document:
 
 def _sections(found: TrainAccuracy) -> Iterator[Section]:
     state = "" if found.state is None else f"State {found.state}: "
+    # stages in the order in which they were measured
     for stage in dict.fromkeys(row.stage for row in found.methods):
         yield Section(
             f"{state}{stage}", (), [Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])]

@@ -39,6 +39,7 @@ def conjugate_sections(design: PairDesign) -> Iterator[Section]:
 
 def _wheels(design: PairDesign) -> Section:
     pitch = design.path.pitch
+    # sizes of bevel wheels are cone angles, of others radii
     size = degrees if pitch.bevel else float
     columns = zip(design.teeth, design.pitch_radii, design.flanks, design.thickness, design.top_lands, strict=True)
     rows = [
@@ -82,6 +83,7 @@ def _path(design: PairDesign) -> Section:
         f"Lengths in {'rad on the unit sphere' if path.pitch.bevel else 'modules'}."
     )
     lines = [text]
+    # contact only before, or only after, the pitch point
     if min(path.arcs) < 0:
         lines.append(
             "A negative arc means that all contact is on the other side of the pitch point, and begins or ends at this "

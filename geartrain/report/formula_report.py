@@ -131,6 +131,7 @@ def formula_section(train: GearTrain, state: str | None, explained: bool = True)
 
     explained   whether the section begins with an explanation of the notation
     """
+    # a formula without tooth counts would only repeat a given speed
     shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
     if shown:
         lines = (text for each in shown for text in _lines(each, False))

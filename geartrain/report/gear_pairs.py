@@ -67,6 +67,7 @@ def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence
 def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     accounts: dict[str, list[PairAccount]] = {}
     for pair in pairs:
+        # pairs with the same description share their tables
         accounts.setdefault(pair.account.words, []).append(pair.account)
     lines = list(accounts)
     tables = [

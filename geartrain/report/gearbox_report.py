@@ -61,6 +61,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     double = [f"{each.before} to {each.after}" for each in found.shifts if each.is_double]
     lines.append(f"Double-transition shifts: {', '.join(double) or 'none'}.")
     yield Section("Gears", lines, (Table(header, [_gear(each, names) for each in found.states]),))
+    # links in the order of their first occurrence
     known = dict.fromkeys(link for each in found.states for link in each.speeds)
     links = [link for link in known if _moves(found, link)]
     yield Section("Speeds", (f"Exact. {_unit(found)}",), (_speeds(found.states, links),))
@@ -157,6 +158,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     ]
     if found.widest is not None and found.evenest is not None:
         both = [("The widest series", found.widest), ("The most even series", found.evenest)]
+        # one series is both, so it is printed once
         if found.widest == found.evenest:
             both = [("The widest series, and the most even", found.widest)]
         head = (

@@ -251,6 +251,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
         return _PLAIN[kind]
     if is_typeddict(kind):
         return _typed_dict(kind)
+    # a pydantic model
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
     if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # a class with its own `to_dict`
@@ -268,6 +269,7 @@ def _typed_dict(kind: Any) -> Schema:
 
 def _one_of(shapes: list[Schema]) -> Schema:
     """Return the schema of a union without duplicate alternatives; a single alternative is returned unchanged."""
+    # nested unions become one list of alternatives
     flat = [each for shape in shapes for each in shape.get("anyOf", [shape])]
     different = [each for at, each in enumerate(flat) if each not in flat[:at]]
     return different[0] if len(different) == 1 else {"anyOf": different}

@@ -168,6 +168,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
     '254/95'
     """
     motion = run.motion
+    # pairs that drive no output are not reported
     used = {source.id for source in motion._forward.used}
     outputs = {
         tally.name: OutputMotion(
@@ -417,6 +418,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
         text.append(f"No pair affects {', '.join(still)}.")
     if neglected := moved[len(shown) :]:
         text.append(f"Not shown: {', '.join(neglected)}; `--wide` or `--output` shows them.")
+    # a table with all outputs would be too wide
     blocks = [shown[at : at + _ABREAST] for at in range(0, len(shown), _ABREAST)]
     return Section("Pairs", tuple(text), tuple(_shares(motion, outputs) for outputs in blocks or [[]]))
 

@@ -329,6 +329,7 @@ def _clearance(transmission: TriangularTransmission, window: ClearanceWindow) ->
         )
     if transmission.intervals:
         backlash = transmission.verdict.backlash
+        # pitch radius of the driven wheel: R2 = D z2 / (z1 + z2)
         arc = backlash * sizes.D * sizes.z2 / sizes.pitch_sum
         lines.append(
             f"Minimum backlash over a pitch: {degrees(backlash):.6g} deg of the driven wheel, an arc of {arc:.6g} on "
@@ -350,7 +351,7 @@ def _path(transmission: TriangularTransmission) -> Section:
             transmission.contact.speed(interval, interval.start),
             transmission.contact.speed(interval, interval.end),
         )
-        share = interval.width / sizes.p1
+        share = interval.width / sizes.p1  # width of the interval in pitches
         rows.append(
             (interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", figure(first), figure(last))
         )
@@ -448,6 +449,7 @@ def _impacts(transmission: TriangularTransmission, operation: PairOperation | No
         return
     lines = []
     if found.work is not None:
+        # [W]: work per pitch x pitches per second
         watts = found.work * (operation.rate or 0) * transmission.sizes.z1
         lines.append(
             f"At {operation.rate:g} turns of the driver per second, the impacts of one pitch transfer "

@@ -82,6 +82,7 @@ def _speed(answer: Answer, name: str) -> str:
     if speed is None:
         return "" if answer.verdict else answer.verdict.kind
     decimal = figure(speed, 7)
+    # an exact value that equals its decimal is printed once
     shown = exact(speed) if exact(speed) == decimal else f"{exact(speed)} = {decimal}"
     return ExactText(shown + (" FAILS" if result is not None and not result.holds else ""), speed)
 
@@ -114,6 +115,7 @@ def _teeth(trains: Sequence[GearTrain]) -> list[tuple[str, ...]]:
     rows = []
     for wheel in wheels:
         counts = [str(found[1].count) if (found := train.declaration.wheels.get(wheel)) else "" for train in trains]
+        # wheels with equal counts in all trains are omitted
         if len(set(counts)) > 1:
             rows.append((wheel, *counts))
     return rows

@@ -138,6 +138,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     bearer = train.kinematics.tree.top[escapement.link]
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
+        # beats are in seconds, so speeds need a unit of time
         second = _turns_a_second(declared, answer)
         if not answer.verdict or second is None:
             continue

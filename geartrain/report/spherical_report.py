@@ -98,6 +98,7 @@ def _pitch(found: GearSphere) -> Iterator[str]:
             yield f"Too close: {collision}."
         for kind, count in sizing.undercut.items():
             yield f"Kind {kind} is undercut: {count:.1f} virtual teeth."
+    # ratios are only defined for a set that turns
     for window in ratio_windows(found.configuration) if found.moves else ():
         yield f"Neighbours do not overlap while {window}."
 

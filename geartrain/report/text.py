@@ -72,6 +72,7 @@ def _list(branches: Sequence[Branch], depth: int = 0) -> Iterator[str]:
 
 def _pipes(table: Table) -> Iterator[str]:
     rows = [[_line(cell).replace("|", "\\|") for cell in row] for row in (table.header, *table.rows)]
+    # a Markdown table needs at least three dashes per column
     widths = [max(3, *(len(cell) for cell in column)) for column in zip(*rows, strict=True)]
     lines = [
         "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows
@@ -135,6 +136,7 @@ def to_terminal(documents: Sequence[Document], console: Console, marks: str = ""
                 console.print(_shown(paragraph))
             for branch in section.branches:
                 console.print(_rich_tree(branch))
+            # a table wider than the console becomes several tables
             shown = [strip for table in section.tables for strip in strips(table, console.width)]
             for at, strip in enumerate(shown):
                 if at or (marks and section.paragraphs):

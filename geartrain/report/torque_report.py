@@ -377,6 +377,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
             flow, amounts, flow.losses.get(node, Fraction(0)), impact_power.get(node.name) if pair else None
         )
         rows.append((node.name if pair else f"bearing of {node.name}", *row))
+    # subtotals are shown only if pairs and bearings both have losses
     teeth = sum((loss for node, loss in flow.losses.items() if node.kind == "pair"), Fraction(0))
     if 0 < teeth < flow.loss:
         sums = {"all pairs": teeth, "all bearings": flow.loss - teeth}
@@ -529,7 +530,7 @@ def _energy_unit(found: TorqueCycle) -> str:
 def _energies(found: TorqueCycle) -> Table:
     assert found.energy is not None
     energy = found.energy
-    whole = energy.put_in + energy.loads_put_in
+    whole = energy.put_in + energy.loads_put_in  # loads that drive put in energy too
     amounts = {
         f"put in at {found.link}": energy.put_in,
         f"given back at {found.link}": energy.returned,

@@ -167,6 +167,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     own = train.kinematics
+    # sensitivities exist only for determined speeds
     uncertainties = ((answer, change) for answer in answers if answer.verdict for change in own.sensitivity(answer))
     loaded = tuple(state for state in own.usable_states if whole and declared.is_loaded(state))
     return TrainReport(

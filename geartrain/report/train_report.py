@@ -329,6 +329,7 @@ def _mobility(train: GearTrain) -> Section:
 def _circuits_in_short(train: GearTrain) -> str:
     carriers = Counter(circuit.carrier for circuit in train.circuits).most_common()
     named = ", ".join(f"{count} with carrier '{link}'" for link, count in carriers[:_MOST_CARRIERS])
+    # carriers that are not named are only counted
     rest = sum(count for _, count in carriers[_MOST_CARRIERS:])
     number = plural(len(train.circuits), "fundamental circuit")
     return f"{number}: {named}{f', {rest} with other carriers' if rest else ''}." if carriers else f"{number}."
@@ -481,5 +482,6 @@ def _wheels_with_sources(declared: Train) -> Iterator[Section]:
         rows.append((name, link, str(wheel.count), allowed, wheel.status or "", CitedText(source), note))
     header = ("wheel", "link", "teeth", "allowed", "status", "source", "note")
     table = filled_table(header, rows, 3)
+    # the first three columns are in the structure already
     if len(table.header) > 3:
         yield Section("Wheels and their sources", (), (replace(table, rows=cut(table.rows)),))

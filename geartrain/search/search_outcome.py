@@ -36,7 +36,7 @@ class Shortfall(Result):
     @property
     def removals(self) -> Mapping[str, int]:
         """Mapping `removed`, or an empty mapping if rejected candidates were not counted."""
-        return self.removed or {}
+        return self.removed or {}  # None means that rejected candidates were not counted
 
 
 class CountSizes(ABC):

@@ -24,7 +24,7 @@ ApproximantKind = Literal["convergent", "best", "intermediate"]
 IntegerPair = tuple[int, int]
 """Numerator and denominator; (1, 0) represents infinity."""
 
-_MOST_LISTED = 10**5
+_MOST_LISTED = 10**5  # a single run may have as many fractions as the bound
 
 
 @dataclass(frozen=True, slots=True)

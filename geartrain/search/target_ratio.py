@@ -17,8 +17,8 @@ from geartrain.train.periods import period_table, suggested_period
 
 TargetKind = Literal["number", "things", "time", "speed", "count"]
 
-_MOST_CHARACTERS = 2000
-_SHOWN = 60
+_MOST_CHARACTERS = 2000  # more than two numbers of 400 characters with words
+_SHOWN = 60  # characters of a given text in a message
 _FARTHEST = Fraction(10**30)  # about fifteen stages of 1:100
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _WITH_WORD = re.compile(rf"({_NUMBER}(?:\s*[/:]\s*{_NUMBER})?)\s*(?![eE][+-]?\d)([^\W\d_].*)")

@@ -127,6 +127,7 @@ class _ConstraintBuilder:
 
     def _most(self, wheel: str, radius: Quantity) -> int:
         """Return the maximum tooth count z for which the pitch radius m z/2 does not exceed `radius`."""
+        # measure: m for lengths, plain for numbers, empty if not declared
         measure, module = self.fitting.module(wheel)
         if (measure == "m") != (radius.unit is not None) or module is None:
             declared = "a length" if measure == "m" else "a plain number" if measure else "not declared"
@@ -157,6 +158,7 @@ class _ConstraintBuilder:
 
     def _one_distance(self, before: AssemblyMesh, mesh: AssemblyMesh) -> Iterator[CountConstraint]:
         total = distance_of(before) - distance_of(mesh)
+        # half modules in the unit of the distances
         shift = self.requested.shift * min(before.module or 1, mesh.module or 1)
         if not (before.is_free or mesh.is_free) or self._is_broken(total, shift):
             return
@@ -226,6 +228,7 @@ class _ConstraintBuilder:
             if others:
                 yield Condition(words, (wheel,), DifferentCount(wheel, tuple(dict.fromkeys(others))))
         for first, second in combinations(free, 2):
+            # copies of one planet have equal counts by construction
             if alike[first] != alike[second]:
                 yield Condition(words, (first, second), DifferentCount(first, (second,)))
 
@@ -405,7 +408,7 @@ class DeclaredPositions:
     def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
         fixed = [mesh for mesh in meshes if not mesh.is_free]
         for mesh in meshes:
-            first = (fixed or meshes)[0]
+            first = (fixed or meshes)[0]  # the unit is a mesh with fixed counts if there is one
             if mesh is not first:
                 yield from self._match(
                     mesh, teeth_of(first), self._length(mesh) / self._length(first), f"that of '{first.name}'"
@@ -568,6 +571,7 @@ class InRing:
     def __call__(self, columns: CandidateColumns) -> Bools:
         """Return whether each candidate is free of interference, shape (candidates,)."""
         z1, z2 = counts_of(columns, self.planet), counts_of(columns, self.ring)
+        # the planet is smaller, and the ring's tip circle has a positive radius
         fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
         fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
         angle = float(self.pressure) * 2 * pi

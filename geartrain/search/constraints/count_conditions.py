@@ -305,6 +305,7 @@ def sine(turns: Fraction) -> Decimal:
         x = 2 * _PI * decimal(turns)
         term = total = x
         order = 1
+        # alternating series: the error is below the first omitted term
         while abs(term) > Decimal(10) ** -_DIGITS:
             order += 2
             term = -term * x * x / (order * (order - 1))
@@ -330,6 +331,7 @@ def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Deci
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))
     margin, scale = _total(terms), _total([np.abs(term) for term in terms])
     found = np.broadcast_to(margin > 0, spread[0].shape).copy()
+    # the float result is within its error bound of 0
     for at in np.flatnonzero(np.broadcast_to(np.abs(margin) <= _NEAR * scale, found.shape)):
         found.flat[at] = _decide(kernel, [int(column.flat[at]) for column in spread], constants, strictly)
     return found

@@ -111,6 +111,7 @@ class EpicyclicKind(Result):
     def modes(self) -> tuple[EpicyclicMode, ...]:
         """All operating modes, without those that are mirror images of another mode."""
         links = self.links if self.with_carrier else self.links[:-1]
+        # exchange of mirrored links in both directions
         swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}
         found: dict[EpicyclicMode, None] = {}
         for mode in (EpicyclicMode(*three) for three in permutations(links, 3)):
@@ -421,12 +422,14 @@ def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
 # ---------------------------------------------------------------------------------------------- a set as a declaration
 
 
+# a bevel planet turns about an axis across the central axis
 _AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}
 
 
 def _links(kind: EpicyclicKind, teeth: Mapping[str, int]) -> dict[str, Any]:
     links: dict[str, Any] = {"frame": {}}
     for at, member in enumerate(kind.members):
+        # the second side wheel faces the first
         facing = {"facing": -1} if kind.bevel and at else {}
         links[member.link] = {"wheels": {member.wheel: _wheel(kind, teeth[member.wheel], member.internal) | facing}}
     links[CARRIER] = {}

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
     Columns = Mapping[str, Ints]
 
-MOST_SETS = 4 * 10**8
+MOST_SETS = 4 * 10**8  # maximum number of sets that are enumerated
 MOST_TEETH = 100_000
 """Maximum tooth count. The numerators, of third degree in the counts, then stay below 2^53."""
 
@@ -64,7 +64,7 @@ _NEAR = 1e-6  # [modules] bound of the float error of a clearance
 _MARGIN = 1e-12
 """Relative margin of float comparisons, within which values are compared exactly. Rounding errors are below 1e-15."""
 
-_FARTHEST = Fraction(10**18)
+_FARTHEST = Fraction(10**18)  # far beyond the ratios of all sets
 _FINEST = 10**6
 """Maximum denominator of a clearance, so that lengths in these fractions of a module fit in int64."""
 
@@ -153,6 +153,7 @@ def find_sets(
         tolerance = Fraction(tolerance)
     _check(requested.value, planets, tolerance, best, slack)
     _check_words(by, ratio_is, clearance)
+    # a float clearance becomes a simple fraction
     minimum = Fraction(clearance).limit_denominator(_FINEST)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
     search = _Search(kind, requested.value, tolerance, best, ratio_is, by, planets, sense or requested.sense)
@@ -633,6 +634,7 @@ def _bevel_clearance(columns: Columns, planets: int) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = columns["p"] / (2 * np.sin(cone))
         shaft = cone + np.arccos(np.clip(_side_cosine(columns, "s1", "s2"), -1, 1))
+        # angle between the axes of neighbours on the cone of axes
         between = 2 * np.arcsin(np.clip(np.sin(shaft) * sin(pi / planets), 0, 1))
         found = radius * (between - 2 * cone) - TIPS
     return np.where(np.isfinite(found), found, -np.inf)

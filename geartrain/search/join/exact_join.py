@@ -263,7 +263,7 @@ class ExactJoin:
         original rows.
         """
         times, total = self.items[node.item].times, self._total(node.item)
-        below = self.full(node) // total
+        below = self.full(node) // total  # assignments of the subtree for each value of the item
         polynomial = node.guide >= len(self.question.rules)
         # all assignments are charged here; those that the guide accepts are subtracted below
         if node.guide >= 0 and removed is not None:
@@ -345,6 +345,7 @@ class ExactJoin:
                 spread_out = numbers if which is None else numbers[which]
                 removed.charge(number, parents[alive], counts[alive] * spread_out * later)
             counts[alive] = counts[alive] * (found if which is None else found[which])
+            # rows without solutions in one child need no other child
             alive = alive[counts[alive] > 0]
         return counts
 

@@ -201,6 +201,7 @@ class AssignmentSums:
             # relative to the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
             steps[wheel] = sizes - float((marginals[wheel] * sizes).sum()) / total
         for at, first in enumerate(wheels):
+            # marginals of the others are then sums of (z - mean) of the first wheel
             tilted = self.marginals({**weights, first: weights[first] * steps[first]})
             for second in wheels[at + 1 :]:
                 found[first, second] = float((tilted[second] * steps[second]).sum()) / total

@@ -219,6 +219,7 @@ class _Planner:
         guide = self._guide(item, complete)
         checks = [at for at in complete if at != guide]
         interface = sorted({other for at in active for other in self.scopes[at] & known})
+        # equal rows on the interface are merged
         rows = min(rows, prod(self.sizes[other] for other in interface))
         examined = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
         kept = examined * prod((self.likely[at] for at in checks), start=1.0)
@@ -229,6 +230,7 @@ class _Planner:
             child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
             children.append(child)
             cost += more
+        # small subtrees first, because they may reject rows early
         children.sort(key=lambda child: len(list(child.below())))
         prunes = [at for at in active if len(self.scopes[at] & open_) > 1 and at >= len(self.rules)]
         node = PlanNode(

@@ -285,6 +285,7 @@ def _rising(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
     end = np.full(len(start), len(y))
     sure = start.copy()
     near = np.flatnonzero((start < len(y)) & (y[np.minimum(start, len(y) - 1)] <= maximum))
+    # values between the bounds of the threshold are uncertain
     sure[near] = np.searchsorted(y, maximum[near], side="right")
     return SolutionWindow(start, end, sure, end)
 
@@ -475,6 +476,7 @@ class PolynomialConstraint:
 
     def fringe(self, at: int, rows: PartialAssignments, item: int, window: SolutionWindow) -> tuple[Ints, Ints]:
         """Return the rows and values in the uncertain part of a window that satisfy case number `at`."""
+        # without an inner range the whole window is uncertain
         none = window.sure_end <= window.sure_start
         starts = np.concatenate([window.start, np.where(none, window.end, window.sure_end)])
         ends = np.concatenate([np.where(none, window.end, window.sure_start), window.end])

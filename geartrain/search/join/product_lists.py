@@ -361,7 +361,7 @@ class PartialAssignments:
             if most * codes >= 1 << 62:  # renumber the codes before they overflow
                 _, key = np.unique(key, return_inverse=True)
                 most = self.size
-            key = key * codes + code
+            key = key * codes + code  # mixed-radix number of the codes
             most *= codes
         _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse

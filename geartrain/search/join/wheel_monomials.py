@@ -109,6 +109,7 @@ def _inverted(powers: Mapping[str, int]) -> dict[str, int]:
 def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
     """Yield definitions of items for the monomials: whole quotients, or numerator and denominator as separate items."""
     choices = [list(_item_cuts(bundle, domains)) for bundle in bundles]
+    # too many combinations to plan: all quotients, or all separate
     if math.prod(map(len, choices)) > 8:
         yield from dict.fromkeys(tuple(recipe for choice in choices for recipe in choice[kind]) for kind in (0, -1))
     else:
@@ -201,6 +202,7 @@ def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Seque
 def _cases(
     N: SignPolynomial, D: SignPolynomial, requested: IntervalConstraint
 ) -> Iterator[tuple[PolynomialInequality, ...]]:
+    # multiplication by D reverses the inequalities if D < 0
     for sense in (D.definite,) if D.definite else (1, -1):
         for low, high in requested.intervals or (_NOTHING,):
             inequalities = [] if D.definite else [PolynomialInequality(D, sense, strict=True)]

@@ -145,6 +145,7 @@ class PairRatios:
         """
         found = self._choices.get((driven, driver))
         if found is None:
+            # largest multiple of the ratio within the admissible counts
             most = self.counts[-1] // max(driven, driver)
             admissible = set(self.counts)
             wheels = ((driven * times, driver * times) for times in range(1, most + 1))
@@ -266,6 +267,7 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
         shared = [pair for pair, new in zip(pairs, fresh, strict=True) if new < 2]
         options.append(shared or pairs[:1])
         hopes.append(min(fresh))
+    # lower bound of the wheels of the pairs from each index on
     rest = [sum(hopes[at:]) for at in range(len(edges) + 1)]
     return _Search(edges, options, rest).run()
 
@@ -402,6 +404,7 @@ class TreeEnumeration:
             arbors = tuple(arbor for arbor in taken if arbor is not None)
             if not arbors and not blank:
                 continue
+            # targets that no arbor shows yet
             rest = left & ~sum(1 << arbor.target for arbor in arbors)
             yield from self._with_targets(tree + arbors, rest, extra, requested + 1)
 

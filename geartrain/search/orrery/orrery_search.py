@@ -321,6 +321,7 @@ class _OrrerySearch:
             found = True
             self._offer(tree)
         self.walked = extra
+        # no tree of this size exists, so the bound is raised
         if not found and self.minimum_pairs == len(self.targets.periods) + extra:
             self.minimum_pairs += 1
 
@@ -492,6 +493,7 @@ class BeamSearch:
 
     def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
         """Yield trees with an additional arbor whose period is much nearer to the targets, simplest ratios first."""
+        # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
         nearer = self._plainest[side * self.table.logs[self._plainest] >= self.table.logs[-1] / 3]
         for at in nearer[:most].tolist():
@@ -557,6 +559,7 @@ class BeamSearch:
         rows = np.flatnonzero(sets)
         gained = np.bitwise_count(sets[rows]).astype(np.int64)
         first = known.first[rows]
+        # two wheels per pair, minus those that can be shared
         wheels = 2 + 2 * gained - self._sharing(part.tree, parent, first)
         bulk = self._bulk[first].copy()
         for target in range(len(self.targets.periods)):
@@ -590,6 +593,7 @@ class BeamSearch:
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))
         smallest = np.minimum(common, np.minimum(common // mine * mate, common // other * its_mate))
         minimum, most = self.table.counts[0], self.table.counts[-1]
+        # the largest admissible multiple must keep the smallest count above the minimum
         good: Ints = (most // largest * smallest >= minimum).astype(np.int64)
         return good
 

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 Chances = Mapping[int, float]
 Pair = tuple[str, str]
-MOST = 9
+MOST = 9  # panels of more wheels would be too small to read
 _CELL = 1.35  # side of a panel [inch]
 _TICKS = 3  # maximum number of tick intervals
 _FEW = 20  # maximum number of counts whose bars have separate outlines

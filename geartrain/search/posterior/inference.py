@@ -274,6 +274,7 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
     """Return the evidence of each output by itself, from a sample if the exact join would take too long."""
     found = {}
     for witness in question.witnesses:
+        # other wheels do not change the evidence of this output
         uncertainties = {wheel: question.uncertainties[wheel] for wheel in witness.formula.wheels}
         one = replace(question, uncertainties=uncertainties, witnesses=(witness,), conditions=())
         try:
@@ -372,6 +373,7 @@ def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
     alike = {
         w: replace(uncertainty, weights=(1,) * len(uncertainty.counts)) for w, uncertainty in question.moved.items()
     }
+    # wheels that no observation depends on multiply the number
     idle = [uncertainty for wheel, uncertainty in question.uncertainties.items() if wheel not in alike]
     return int(sums.total(_weights(alike, False))) * prod(len(uncertainty.counts) for uncertainty in idle)
 

@@ -342,6 +342,7 @@ class Observation:
 
     def half(self, above: bool) -> Fraction | None:
         """Return the tolerance above or below the observed speed; None if it is unlimited."""
+        # interval that contains the observed speed
         own = [each for each in self.intervals if is_within(self.wanted, (each,))]
         end = own[0][1 if above else 0] if own else None
         return None if end is None else abs(end - self.wanted)
@@ -433,5 +434,6 @@ def _claims(demands: Sequence[SpeedRequirement], kind: LikelihoodKind) -> Iterat
         if not demand.signed:
             most = demand.allowed[-1][1]
             assert most is not None, "a target has a tolerance"
+            # symmetric about the observed magnitude
             intervals = ((2 * demand.wanted - most, most),)
         yield Observation(demand.label, demand.wanted, demand.signed, intervals)

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     )
 
 _MOST_PROBABLE = 4  # most probable counts that are printed; the JSON has all
-_STRONGEST = 12
-_DECIDING = 4
-_OUTPUTS = 4
+_STRONGEST = 12  # correlations that are printed
+_DECIDING = 4  # wheels that are printed for each output
+_OUTPUTS = 4  # with more outputs only the maximum error of a combination is printed
 _DECIDED = ("output", "mean speed", "standard deviation", "total Sobol indices")
 
 

@@ -79,6 +79,7 @@ class WheelPosterior(Result):
         """Most probable count (the smallest if several are); None if no combination satisfies the observations."""
         if not self.probabilities:
             return None
+        # -at: the smallest of equally probable counts
         best = max(range(len(self.probabilities)), key=lambda at: (self.probabilities[at].value, -at))
         return self.uncertainty.counts[best]
 

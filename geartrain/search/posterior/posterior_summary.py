@@ -204,6 +204,7 @@ def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> d
         return {}
     wheels = tally.batch.wheels
     means, spreads = _moments(question, dict(zip(wheels, tally.by, strict=True)), tally.weight)
+    # sums of products are relative to these origins
     off = [means[wheel] - origin_of(question.uncertainties[wheel]) for wheel in wheels]
     found = {}
     for i, first in enumerate(wheels):

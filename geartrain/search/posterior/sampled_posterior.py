@@ -174,7 +174,7 @@ class PosteriorTally:
         self._keep(misfit, at)
 
     def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
-        near = np.flatnonzero(misfit <= self._threshold())
+        near = np.flatnonzero(misfit <= self._threshold())  # candidates for the list of the best
         order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
         self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
         self._trim()
@@ -385,6 +385,7 @@ class OutputLikelihood:
         doubtful: Bools = np.zeros(len(value), dtype=np.bool_)
         size = np.abs(value) if self._interval_ends else value
         for middle, half, edge in self._ends:
+            # distance from the middle of the interval, then from its ends
             gap = np.abs(size - middle)
             gap -= half
             met |= gap <= 0

@@ -55,6 +55,7 @@ def find_pairs(
     if number is not None and number < 1:
         raise QuestionError(Problem(f"best is {number}", "a list has at least one solution", "give best >= 1"))
     found = [pair for box in boxes for pair in _box_pairs(wanted.value, box, bound, number)]
+    # pairs of several boxes are merged by rank
     found.sort(key=lambda pair: _rank(wanted.value, pair))
     return tuple(_stages(wanted.value, pair) for pair in found[:number])
 
@@ -174,6 +175,7 @@ def _tree_is_shorter(value: Fraction, box: _Box, number: int) -> bool:
     """
     if not box.contiguous:
         return False
+    # range of denominators whose matching numerator is admissible
     minimum = max(Fraction(box.beneath.minimum), box.top.minimum / value)
     most = min(Fraction(box.beneath.most), box.top.most / value)
     if most <= minimum:

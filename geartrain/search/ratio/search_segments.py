@@ -232,6 +232,7 @@ class ValueFinder:
             else:
                 tolerance, span = middle, inner
         i, j = spread(*span)
+        # multisets with these two products
         sets = (under[1][i + 1] - under[1][i]) * (over[1][j + 1] - over[1][j])
         return over[0][j], under[0][i], sets
 
@@ -260,6 +261,7 @@ class ValueFinder:
             miss, total = misses[place[at]], float(minimum[at])
             if self._too_late(miss, total):
                 break
+            # as far away as the known bound, but with a larger sum
             if self.most and miss == self.most[0] and total > self.most[1]:
                 continue
             beneaths = expand(int(under[at]), self.question.beneath, size)

@@ -110,6 +110,7 @@ def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageF
     for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
         # only halves in ascending order, so that each multiset occurs once
         once = np.flatnonzero(lower[i, -1] <= upper[j, 0]) if size > 1 else np.arange(len(i))
+        # indices of the stages of each candidate
         chosen = np.concatenate([lower[i[once]], upper[j[once]]], axis=1)
         _judge(question, counts, chosen, judge)
 
@@ -189,6 +190,7 @@ def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     """
     search = _search_for(question)
     minimum, most = reach_of_errors(question.value, *question.reach)
+    # the pilot finds some good solutions, whose error limits the search
     start, bound = search.start(), search.widened_pilot()
     if bound:
         start = rounded_up(bound[1])

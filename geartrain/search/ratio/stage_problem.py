@@ -279,9 +279,11 @@ def _evaluate_chunk(
         if fit.hunting:
             possible &= alone == size
     if fit.internal:
+        # a ring and its pinion must have different counts
         possible &= (_code(tops[:, :, None] != beneaths[:, None, :])[:, None] & ringed) == ringed
     if fit.reverted or centres:
         tall, short = tops[:, None, :], beneaths[:, orders]
+        # twice the centre distance in modules
         distances = np.where(rings, np.abs(tall - short), tall + short)
         if fit.reverted:
             possible &= (distances[:, :, 1:] == distances[:, :, :1]).all(axis=2)

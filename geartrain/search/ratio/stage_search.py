@@ -318,6 +318,7 @@ def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
     rotation.
     """
     stages, internal = question.stages, question.fit.internal
+    # one more or one less internal mesh reverses the sense
     rings = internal + 1 if internal < stages else internal - 1
     has = "the same sense as" if question.fit.sense(stages) > 0 else "the opposite sense to"
     return Shortfall(

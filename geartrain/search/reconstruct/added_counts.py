@@ -185,6 +185,7 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
     some = (
         quotient_table(1, 1, counts) if drivers and driven else quotient_table(min(drivers, 2), min(driven, 2), counts)
     )
+    # numbers of driving and driven wheels of the enumerated part
     used = (1, 1) if drivers and driven else (min(drivers, 2), min(driven, 2))
     return sum(
         int(own) * count_between(minimum / some[at], maximum / some[at], drivers - used[0], driven - used[1], counts)
@@ -229,6 +230,7 @@ class AddedCounts:
             return sum(self.count_limited(left, divided(wanted, limit.dials, each), others) for each in quotients_of)
 
         allowed, ruled_out = range(minimum, limit.most + 1), range(max(minimum, limit.most + 1), maximum + 1)
+        # the shorter of the two sums
         if len(allowed) <= len(ruled_out):
             return among(allowed)
         return self.count_limited(added, wanted, others) - among(ruled_out)
@@ -314,7 +316,7 @@ class AddedCounts:
         return at, (Fraction(0), _BOUNDLESS), False
 
 
-_BOUNDLESS = Fraction(10**40)
+_BOUNDLESS = Fraction(10**40)  # beyond every quotient of added counts
 _LISTED_TOGETHER = 3
 """Maximum number of wheels in two groups whose choices with a given total quotient are enumerated."""
 
@@ -462,6 +464,7 @@ class AddedCountSums:
         (kind, wheels), others = kinds[0], kinds[1:]
         found, left, total = 0, requested, number
         for chosen in range(wheels + 1):
+            # inclusion-exclusion over the wheels that have the count
             found += (-1) ** chosen * comb(wheels, chosen) * self._without_count(left, others, count, total)
             if chosen == wheels or (kind.most is not None and count > kind.most):
                 break

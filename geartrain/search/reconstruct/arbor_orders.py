@@ -233,7 +233,7 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
             waiting += [(each, (end.name, driver)) for driver, chains in _driven_chains(end) for each in chains]
         else:
             waiting += [(each, last) for each in chain.end]
-    return found == facts.meshes
+    return found == facts.meshes  # every known mesh must be in the train
 
 
 class _Assembly:

@@ -141,6 +141,7 @@ def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterato
     yield candidate, speed
     for wheel, child in candidate.driven_arbors():
         assert child.driven is not None
+        # an internal mesh keeps the sense of rotation
         sense = 1 if {wheel.name, child.driven.name} & rings else -1
         yield from _speeds(child, sense * speed * wheel.teeth / child.driven.teeth, rings)
 
@@ -390,6 +391,7 @@ class _TrainReading:
         free = [name for name in self.train.wheels if name not in self.same]
         found = {name: name for name in wanted if name in free} | found
         for name in wanted:
+            # names that differ only in capitals
             alike = [own for own in free if own.casefold() == name.casefold() and own not in found.values()]
             if name not in found and len(alike) == 1:
                 found[name] = alike[0]

@@ -23,7 +23,7 @@ from geartrain.search.reconstruct.reconstruction_search import Reconstructions, 
 Search = Callable[[ReconstructionProblem], Reconstructions]
 """Function that finds all explanations of a problem."""
 
-_MINIMUM_TEETH = 3
+_MINIMUM_TEETH = 3  # lower end of the widened range of added tooth counts
 
 
 @dataclass(frozen=True)
@@ -221,6 +221,7 @@ def explain_missing(
 def _lone_dial(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
     """Search an explanation of one dial by itself. Surviving arbors that do not lead to it may be unused."""
     dial = problem.dials[at]
+    # known meshes may belong to arbors of other dials
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
     for wheels in range(problem.additions.wheels + 1):
         try:

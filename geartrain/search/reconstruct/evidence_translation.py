@@ -127,6 +127,7 @@ def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
     for target in output.targets:
         goal = goal_of(evidence, target)
         if target.tolerance is not None:
+            # absolute tolerance if the speed is 0
             half = target.tolerance.base * (abs(goal.speed) or 1)
         elif target.speed is not None and output.expect is None:
             half = (target.speed.half or Fraction(0)) * target.turns.value

@@ -210,6 +210,7 @@ class ExplainedFacts:
         requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
         requested = [one for one in requested if len(one.answers) > 1]
         order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
+        # rounded, so that equal entropies are ordered by kind
         requested.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
         alike: dict[Hashable, list[FactMarginal]] = {}
         for one in requested[:_MOST_FACTS]:

@@ -278,5 +278,6 @@ class _Modules:
         """Return the misfit as a function of the module of a driving wheel, from its mesh with the arbor `child`."""
         assert child.driven is not None
         held = self._misfit_of_wheel(child.driven, child.passes)
+        # springs in series: the mesh has stiffness 1
         stiffness = 1.0 if held.stiffness == math.inf else held.stiffness / (1 + held.stiffness)
         return _Pull(stiffness, held.centre, held.misfit)

@@ -119,7 +119,7 @@ def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], los
     facts = sorted(left, key=lambda one: (one.solutions, _KINDS.index(one.kind), one.subject))
     first: dict[frozenset[int], TellingFact] = {}
     for each in facts:
-        first.setdefault(left[each], each)
+        first.setdefault(left[each], each)  # equivalent facts are represented by the first
     return TellingFacts(tuple(facts), tuple(_smallest_sets(first, which)))
 
 
@@ -316,6 +316,7 @@ def _all_admitted(
             continue
         known_changes.add(changes)
         own = known.arbor.added_wheels
+        # trains with more added wheels than this one are not searched
         requested = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
         said = changes, dict(known.added), known.arbor.added_arbors, requested.additions.wheels
         try:

@@ -101,7 +101,7 @@ class PathColumns:
         self.paths = paths
         self._clusters = [sum(1 << at - 1 for at in each) for each in seen_clusters(problem) if 0 not in each]
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
-        number = {name: at for at, name in enumerate(names, 1)}
+        number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
         self.codes = np.ascontiguousarray(paths.codes.T)
         self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
         self.driven = np.ascontiguousarray(paths.driven_at(np.arange(len(paths))).T.astype(np.int16)) + np.int16(1)
@@ -341,7 +341,7 @@ class PathChoice:
         missing = self._missing(paths)
         if missing & ~reduce(or_, (self._reach(each, near) for each, near in kept.items()), 0):
             return
-        following = min(kept, key=lambda each: len(kept[each].rows))
+        following = min(kept, key=lambda each: len(kept[each].rows))  # most constrained dial first
         near = kept.pop(following)
         if not kept:
             near = near.kept(np.int64(missing) & ~self._columns[following].used[near.rows] == 0)

@@ -354,6 +354,7 @@ class PathList:
 
     def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
         """Return the paths extended by one arbor or avoiding it. No later arbor contains the primes in `closing`."""
+        # wheels unused on this path must be used on paths to the other dials
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
         parts = []

@@ -89,7 +89,7 @@ def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ..
 
 
 _Drive = tuple[PlacedWheel | None, tuple[Chain, ...]]
-_ENDLESS = 1 << 20
+_ENDLESS = 1 << 20  # number of added arbors if it is not limited
 
 
 class DialPath(NamedTuple):
@@ -305,6 +305,7 @@ class PathTrees:
         if not after.is_possible or not all(ways.values()):
             return
         for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(paths)):
+            # otherwise it is an arbor on a chain, not a branching
             if not here and len(blocks) < 2:
                 continue
             below = dict(paths)

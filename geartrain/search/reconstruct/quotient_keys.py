@@ -18,7 +18,7 @@ from geartrain.search.reconstruct.added_counts import quotient_table
 
 Keys = NDArray[np.uint64]
 
-_WHOLE = 1 << 64
+_WHOLE = 1 << 64  # keys are added modulo 2^64
 _LONGEST = 3_000_000
 """Maximum number of quotients in a table. Larger tables are not built, and every number is then accepted."""
 

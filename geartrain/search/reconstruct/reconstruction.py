@@ -37,7 +37,7 @@ from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, 
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
 
-_MOST_LISTED = 1_000_000
+_MOST_LISTED = 1_000_000  # list of all trains, `best` None
 _MINIMUM_COMPARED = 2000
 """Minimum number of candidates whose meshes and counts are compared, even if fewer are listed."""
 

@@ -32,7 +32,7 @@ NEW = "new"
 """Value of `SearchedDial.place` for a dial whose arbor does not survive."""
 UNMEASURED_SPREADS = 3
 """Maximum difference of the modules of a measured wheel and an unmeasured mate, in standard deviations `module`."""
-_MOST_UNCERTAINTIES = 3
+_MOST_UNCERTAINTIES = 3  # wheels that a message names
 
 
 @dataclass(frozen=True)
@@ -121,6 +121,7 @@ class SurvivingGeometry:
         module = self.module_of(mate)
         if module is None:
             return None
+        # at most 1, so that the minimum module is not negative
         spread = min(Fraction(1), UNMEASURED_SPREADS * self.module)
         return module * (1 - spread), module * (1 + spread)
 

@@ -482,6 +482,7 @@ def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[S
     """Yield the section on the family tree. The first `turning` trains are animated on the HTML page."""
     if not tree:
         return
+    # the most probable branches
     shown = set(sorted(range(len(tree)), key=lambda at: -tree[at].share)[:_MOST_BRANCHES])
     below: dict[int, list[int]] = {}
     for at, branch in enumerate(tree):

@@ -211,6 +211,7 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
     """Yield candidates in descending order of probability, then by the number and the sum of teeth of added wheels."""
     weighed = [(topology_prior(each.topology, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.solutions for weight, _, each in weighed)
+    # ranks cover all trains, listed or not
     ranks = weight_ranks((weight, each.solutions) for weight, _, each in weighed)
     weighed.sort(key=lambda one: (-one[0], one[1]))
     made, most = 0, max(listed, _LISTED)
@@ -263,6 +264,7 @@ def _weighed_one_by_one(
         classes: dict[object, int] = {}
         for _, _, arbor in weighed:
             classes[ratio_class(arbor)] = classes.get(ratio_class(arbor), 0) + 1
+        # the trains of a class share its weight
         weighed = [(weight / classes[ratio_class(arbor)], added, arbor) for weight, added, arbor in weighed]
     weighed.sort(key=lambda one: (-one[0], one[1], _order(one[2])))
     whole = sum(weight for weight, _, _ in weighed)

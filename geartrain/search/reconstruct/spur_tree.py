@@ -26,7 +26,7 @@ from geartrain.train.reconstruction import NEW_ARBOR
 # Driving mesh of every arbor, along meshes of spur wheels from the input.
 
 
-_Z_AXIS = (0, 0, 1)
+_Z_AXIS = (0, 0, 1)  # default direction of an axis
 _KEPT_KEYS = ("title", "sources", "unit", "view")
 _WHEEL_KEYS = ("internal", "status", "source", "note")
 
@@ -385,6 +385,7 @@ class _Parts:
             return None
         outputs = [(name, self._arbor_of_link(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
         pointers = {name: arbor for name, arbor, wanted in outputs if arbor in driven and wanted}
+        # reversed: the first output of an arbor names it
         named = {arbor: name for name, arbor, _ in reversed(outputs)}
         # arbors without a pointer below are dropped; a known speed makes a pointer
         for arbor in reversed(list(driven)):

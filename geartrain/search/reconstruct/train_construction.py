@@ -43,7 +43,7 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
     for group, logs in measured.items():
         if group not in placed and len(logs) == 1 and geometry.measured[next(iter(logs))].is_module:
             continue
-        found |= dict.fromkeys(logs)
+        found |= dict.fromkeys(logs)  # None: the module follows from other wheels
         if group not in placed:
             found[next(iter(logs))] = math.exp(sum(logs.values()) / len(logs))
     return found

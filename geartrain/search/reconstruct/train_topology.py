@@ -271,6 +271,7 @@ def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Co
         return 0
     past = set(_dials_of(end.passes))  # the speeds of dials driven by an idler do not depend on its count
     turned = tuple(dial for dial in dials if dial not in past)
+    # its count changes the speeds of all dials except those that it drives as an idler
     driven[turned] += bool(turned)
     return not turned
 

@@ -20,6 +20,7 @@ from geartrain.search.join.wheel_monomials import Function, Interval, IntervalCo
 from geartrain.search.train.train_findings import ReachedSpeed
 from geartrain.train import Output, Published, StateCase, Teeth, Train
 
+# both sides of 0, which is excluded by `strict`
 _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 
 
@@ -145,7 +146,7 @@ class OutputRequirement:
         share    relative tolerance of graded requirements
         strict   True to exclude the ends of the intervals
         """
-        common: tuple[Interval, ...] = ((None, None),)
+        common: tuple[Interval, ...] = ((None, None),)  # all speeds
         for demand in self.demands:
             near = demand.within(share)
             common = common if near is None else meet(common, near)
@@ -222,6 +223,7 @@ def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iter
     if published.as_ == "speed":
         yield SpeedRequirement(label, published.value.value, True, ((low, high),), graded)
     elif drive is None:
+        # no interval: no speed is admissible
         yield SpeedRequirement(label, Fraction(1), True, (), False)
     elif published.as_ == "output/input":
         ends = sorted((low * drive, high * drive))
@@ -246,7 +248,7 @@ def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interva
 # The varied wheels of a train and their requirements, in connected components.
 
 
-_MOST_COUNTS = 10**6
+_MOST_COUNTS = 10**6  # counts of one wheel that are listed
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,7 +34,7 @@ from geartrain.search.train.train_findings import Assignment, By
 
 _SMALL = 3e6
 """Number of steps below which a pass is one task; it takes about a second."""
-_MOST_TASKS = 100_000
+_MOST_TASKS = 100_000  # maximum number of tasks of a pass
 _SAMPLED = 16
 """Number of tasks of a random sample."""
 _POOL = 20_000
@@ -336,7 +336,7 @@ class PartSearch:
             if len(rule.wheels) == 1:
                 narrowed = narrow(domains, rule)
                 alone.append((rule.name, size_of(domains) - size_of(narrowed)))
-                domains = narrowed
+                domains = narrowed  # later constraints are counted on what is left
         self.removed_first, self.domains = tuple(alone), domains
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
 

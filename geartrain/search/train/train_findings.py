@@ -221,7 +221,7 @@ class TrainFindings(Tabular, Result):
     @property
     def count(self) -> int:
         """Number of assignments of all varied wheels that satisfy all requirements, the product over the parts."""
-        return prod(part.count for part in self.parts)
+        return prod(part.count for part in self.parts)  # parts are independent
 
     @property
     def considered(self) -> int:
@@ -286,7 +286,7 @@ def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Itera
     """
     if not parts or not all(parts):
         return
-    start = (0,) * len(parts)
+    start = (0,) * len(parts)  # the best solution of every part
     heap = [(_joined(parts, start).measure(by), start)]
     seen = {start}
     for _ in range(best):

@@ -180,6 +180,7 @@ def _explain(search: PartSearch) -> tuple[str, str]:
     others = "; ".join(_relaxations(search))
     if best is None:
         return "", others or "no single requirement is the cause: widen the ranges of the wheels"
+    # with one output it would repeat the nearest miss
     alone = "; ".join(_individual_errors(search)) if len(search.part.requirements) > 1 else ""
     nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (individually, {alone})" if alone else "")
     advice = f"a relative tolerance of {_rounded_up(best.error)} includes it"
@@ -192,7 +193,7 @@ def _has_wrong_sense(requirement: OutputRequirement) -> bool:
     senses = [_sense(terms) for terms in (requirement.function.numerator, requirement.function.denominator)]
     if requested is None or not all(senses):
         return False
-    lasting = senses[0] * senses[1]
+    lasting = senses[0] * senses[1]  # sign of the speed for all counts
     return bool(requested.intervals) and all(_is_opposite(interval, lasting) for interval in requested.intervals)
 
 
@@ -528,5 +529,6 @@ def _rank(search: PartSearch, assignment: Assignment) -> int | None:
     """Return one plus the number of assignments with a smaller error; None if the count is not complete."""
     if not assignment.error or not search.part.requirements:
         return 1
+    # strict: assignments with an equal error are not counted
     passed = search.run(assignment.error, 0, strict=True)
     return passed.tally.count + 1 if passed.complete else None

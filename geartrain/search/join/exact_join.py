@@ -21,7 +21,7 @@ from geartrain.search.join.polynomial_constraints import (
 )
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
 
-# Monomials through which some constraints depend on items: assignments with equal values of all these monomials are
+# Monomials through which some constraints depend on variables: assignments with equal values of all these monomials are
 # equivalent. Once x and y are assigned, an output that depends only on x y cannot distinguish 2 x 6 from 3 x 4. Rows
 # are merged accordingly as soon as possible (bucket elimination, Dechter 1999).
 
@@ -32,14 +32,14 @@ _LARGEST = 1 << 62  # products below this are exact in int64
 def find_item_monomials(
     items: Sequence[int], constraints: Sequence[CountConstraint | PolynomialConstraint], lists: Sequence[Item]
 ) -> Iterator[ItemMonomial]:
-    """Yield the minimum number of monomials of some items that determine the constraints, each exact in int64.
+    """Yield the minimum number of monomials of some variables that determine the constraints, each exact in int64.
 
-    Items that no constraint depends on are in no monomial. Items are combined if their powers, relative to the
-    first term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of
-    constraints on counts are not combined.
+    Variables that no constraint depends on are in no monomial. Variables are combined if their powers, relative
+    to the first term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels
+    of constraints on counts are not combined.
 
-    items   assigned items of the constraints
-    lists   all items
+    items   assigned variables of the constraints
+    lists   all variables
     """
     alone = {
         item
@@ -74,7 +74,7 @@ def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[It
 
 
 Slices = Mapping[int, tuple[int, int]]
-"""Half-open range of values of each item in this part of the work; items that are missing have all values."""
+"""Half-open range of values of each variable in this part of the work; variables that are missing have all values."""
 AssignmentColumns = dict[str, Ints]
 
 
@@ -128,11 +128,11 @@ class ExactJoin:
         self._full: dict[int, int] = {}
 
     def start(self) -> PartialAssignments:
-        """Return one row without assigned items, from which a join starts."""
+        """Return one row without assigned variables, from which a join starts."""
         return PartialAssignments(self.items, {}, 1)
 
     def full(self, node: PlanNode) -> int:
-        """Return the number of assignments of the items of a node and its subtree, without constraints."""
+        """Return the number of assignments of the variables of a node and its subtree, without constraints."""
         if id(node) not in self._full:
             first, last = self._run(node.item)
             total = int(self.items[node.item].sums[last] - self.items[node.item].sums[first])
@@ -146,7 +146,7 @@ class ExactJoin:
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
         at, alive = self.pruned(node, rows, removed)
-        # a last item with only a guide is counted from the ends of its windows, without a row for each value
+        # a last variable with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
             total[at] = self._count_windows(node, at, alive, removed)
             return total, removed.by
@@ -156,7 +156,9 @@ class ExactJoin:
         return total, removed.by
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
-        """Yield all assignments that extend the rows by the items of some nodes and their subtrees, block by block."""
+        """Yield all assignments that extend the rows by the variables of some nodes and their subtrees, block
+        by block.
+        """
         if not nodes:
             yield rows
             return
@@ -213,7 +215,7 @@ class ExactJoin:
     ) -> tuple[Ints, PartialAssignments]:
         """Return the indices and rows that remain after pruning by relaxed constraints.
 
-        Rows are removed if a constraint rejects them for all values of the free items. They are counted in
+        Rows are removed if a constraint rejects them for all values of the free variables. They are counted in
         `removed`.
         """
         at = np.arange(rows.size)
@@ -228,7 +230,7 @@ class ExactJoin:
         return at, rows
 
     def _prunes(self, node: PlanNode) -> list[tuple[int, list[list[RelaxedInequality]]]]:
-        """Return the constraints that can prune rows at a node, relaxed over the items of its subtree."""
+        """Return the constraints that can prune rows at a node, relaxed over the variables of its subtree."""
         if id(node) not in self._reaches:
             found = []
             below = set(node.below())
@@ -241,7 +243,7 @@ class ExactJoin:
         return self._reaches[id(node)]
 
     def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the admissible values of a last item with one constraint from its windows, without a row for each
+        """Count the admissible values of a last variable with one constraint from its windows, without a row for each
         value.
         """
         constraint, item = self.constraints[node.guide], self.items[node.item]
@@ -259,11 +261,11 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the rows extended by the item of a node that satisfy its constraints, with the indices of their
+        """Yield the rows extended by the variable of a node that satisfy its constraints, with the indices of their
         original rows.
         """
         times, total = self.items[node.item].times, self._total(node.item)
-        below = self.full(node) // total  # assignments of the subtree for each value of the item
+        below = self.full(node) // total  # assignments of the subtree for each value of the variable
         polynomial = node.guide >= len(self.question.rules)
         # all assignments are charged here; those that the guide accepts are subtracted below
         if node.guide >= 0 and removed is not None:
@@ -310,8 +312,8 @@ class ExactJoin:
     def _solved(
         self, equation: CountEquation, item: int, rows: PartialAssignments, first: int, last: int
     ) -> tuple[Ints, Ints]:
-        """Return the rows for which an equation has an admissible solution for an item, and the index of its value in
-        each.
+        """Return the rows for which an equation has an admissible solution for a variable, and the index of its value
+        in each.
         """
         counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
         tops = self.items[item].tops

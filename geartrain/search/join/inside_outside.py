@@ -25,7 +25,7 @@ from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import Item, PartialAssignments, ProductStep, Tallies
 from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
 
-# Recorded join: the values of each item that are compatible with the assignments above, and the counts that produce
+# Recorded join: the values of each variable that are compatible with the assignments above, and the counts that produce
 # each value. Every transition leads to at least one complete assignment. Sums over all assignments are then sums over
 # the tree, which can be repeated with other weights.
 
@@ -37,7 +37,7 @@ CountWeights = Mapping[str, Tallies]
 
 
 class RecordedItem:
-    """Values of an item, and the tooth counts that produce them.
+    """Values of a variable, and the tooth counts that produce them.
 
     size    number of values
     sides   numerator, and denominator if there is one: the last product step, and the product of each value
@@ -83,7 +83,7 @@ class RecordedNode:
     places: Ints
     """Index in `values` of the value that each transition assigns."""
     values: RecordedItem
-    """Values of the item that occur."""
+    """Values of the variable that occur."""
     misfit: Floats | None
     """Misfit that each transition adds by graded constraints that are complete at this node; None if there are none."""
     children: tuple[tuple[RecordedNode, Ints], ...]
@@ -175,7 +175,7 @@ class AssignmentSums:
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
         """Return the rows of a table as alternatives.
 
-        A row of a node continues with a value of its item and a row of each child; a value continues with its
+        A row of a node continues with a value of its variable and a row of each child; a value continues with its
         products, and a product with its factors.
         """
         if isinstance(table, RecordedNode):
@@ -267,7 +267,7 @@ class BestFirst:
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
-        """Yield all assignments of tooth counts that produce the given values of items."""
+        """Yield all assignments of tooth counts that produce the given values of variables."""
         if not taken:
             yield {}
             return

@@ -1,5 +1,5 @@
-"""Order in which a join assigns its items: a tree, because assigned items separate the others into independent
-parts.
+"""Order in which a join assigns its variables: a tree, because assigned variables separate the others into
+independent parts.
 
 Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are
 then counted separately for each distinct assignment of the common wheels, and the counts are multiplied.
@@ -39,18 +39,18 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """Node of a plan: an item that is assigned after all items above it."""
+    """Node of a plan: a variable that is assigned after all variables above it."""
 
     item: int
-    """Index of the item."""
+    """Index of the variable."""
     interface: tuple[int, ...]
-    """Items above the node that a constraint of the node or of its subtree depends on."""
+    """Variables above the node that a constraint of the node or of its subtree depends on."""
     guide: int
     """Number of the constraint that selects the values to try; -1 if all values are tried."""
     checks: tuple[int, ...]
-    """Numbers of the other constraints that are complete with this item, in the order of evaluation."""
+    """Numbers of the other constraints that are complete with this variable, in the order of evaluation."""
     prunes: tuple[int, ...]
-    """Numbers of polynomial constraints with at least two free items, by which rows are pruned here."""
+    """Numbers of polynomial constraints with at least two free variables, by which rows are pruned here."""
     children: tuple[PlanNode, ...]
     """Child nodes, no two of which have a common constraint."""
     reach: tuple[int, ...]
@@ -65,7 +65,7 @@ class PlanNode:
             yield from child.decided()
 
     def below(self) -> Iterator[int]:
-        """Yield the items of this node and its subtree."""
+        """Yield the variables of this node and its subtree."""
         yield self.item
         for child in self.children:
             yield from child.below()
@@ -83,9 +83,9 @@ class JoinProblem:
     late: tuple[CountConstraint, ...]
     """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[ItemRecipe, ...]
-    """Definitions of the items."""
+    """Definitions of the variables."""
     plan: PlanNode
-    """Root of the plan, which assigns the first item."""
+    """Root of the plan, which assigns the first variable."""
     steps: float
     """Expected number of partial assignments to examine."""
     weights: Weights = field(default_factory=dict)
@@ -93,7 +93,7 @@ class JoinProblem:
 
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
-        """Constraints `requested`, converted to polynomial constraints in items."""
+        """Constraints `requested`, converted to polynomial constraints in variables."""
         return tuple(find_polynomial_constraints(self.requested, self.recipes, self.domains))
 
     @property
@@ -127,7 +127,7 @@ def find_join_problem(
 ) -> JoinProblem:
     """Return the join with the minimum expected cost.
 
-    Combinations of wheels, choices of late constraints and orders of items are compared.
+    Combinations of wheels, choices of late constraints and orders of variables are compared.
 
     probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
     weights         weights of `JoinProblem`
@@ -151,7 +151,7 @@ def _rule_partitions(
     """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
-    # a rule evaluated early makes its wheels separate items, which may cost more than it saves
+    # a rule evaluated early makes its wheels separate variables, which may cost more than it saves
     yield tuple(rules), ()
     if conditions:
         yield equations, conditions
@@ -199,16 +199,16 @@ class _Planner:
         self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
 
     def ways(self) -> Iterator[tuple[int, bool]]:
-        """Yield pairs: constraint to complete first, and True if items in many constraints precede items with few
-        values.
+        """Yield pairs: constraint to complete first, and True if variables in many constraints precede variables with
+        few values.
         """
         order = sorted(range(len(self.scopes)), key=lambda one: (len(self.scopes[one]), one))
-        # six first constraints and two orders of items are tried, so that planning takes milliseconds
+        # six first constraints and two orders of variables are tried, so that planning takes milliseconds
         yield from product(order[:6] or [-1], (True, False))
 
     def plan(self, first: int, shared: bool) -> tuple[PlanNode, float]:
         node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0, first, shared)
-        # constraints without items are evaluated at the root
+        # constraints without variables are evaluated at the root
         converged = tuple(at for at, scope in enumerate(self.scopes) if not scope)
         return replace(node, checks=converged + node.checks, reach=converged + node.reach), cost
 
@@ -239,11 +239,11 @@ class _Planner:
         return node, cost
 
     def _share(self, item: int, guide: int) -> float:
-        """Return the expected fraction of the values of an item that its guide constraint selects."""
+        """Return the expected fraction of the values of a variable that its guide constraint selects."""
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int], first: int, shared: bool) -> int:
-        """Select the next item: one that an equation determines, otherwise one of the constraint with the
+        """Select the next variable: one that an equation determines, otherwise one of the constraint with the
         lowest cost.
         """
         for at in active:
@@ -264,8 +264,8 @@ class _Planner:
         return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Select the equation that determines the item, otherwise the most selective constraint that has windows in
-        it.
+        """Select the equation that determines the variable, otherwise the most selective constraint that has windows
+        in it.
 
         Return -1 if there is neither.
         """
@@ -281,7 +281,7 @@ class _Planner:
 
 
 def extents(question: JoinProblem) -> list[tuple[float, float]]:
-    """Return the minimum and maximum value of each item."""
+    """Return the minimum and maximum value of each variable."""
     return [extent(recipe, question.domains) for recipe in question.recipes]
 
 

@@ -1,14 +1,15 @@
-"""Constraints on outputs as signs of polynomials in items, and whether they can be satisfied with free items.
+"""Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free
+variables.
 
 |N/D - w| <= t w is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0.
-Each case is a set of inequalities sense * polynomial >= 0. With one free item each case leaves one window
-of its values. Entries that floats cannot decide are decided by exact signs.
+Each case is a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one
+window of its values. Entries that floats cannot decide are decided by exact signs.
 
-With more free items, these lie between bounds, and rows are dropped that no values within the bounds can
-satisfy. If a polynomial has at most two powers of each free item, it is monotone in each after division by
-the lower powers, and its extremes are at the corners of the box of bounds. If no free item is in two of its
-terms, each term has its own extremes. Otherwise, or with too many corners, the extremes of the terms are
-still valid bounds.
+With more free variables, these lie between bounds, and rows are dropped that no values within the bounds
+can satisfy. If a polynomial has at most two powers of each free variable, it is monotone in each after
+division by the lower powers, and its extremes are at the corners of the box of bounds. If no free variable
+is in two of its terms, each term has its own extremes. Otherwise, or with too many corners, the extremes of
+the terms are still valid bounds.
 """
 
 from __future__ import annotations
@@ -29,10 +30,10 @@ from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.integer_columns import spread
 from geartrain.search.join.product_lists import Item, PartialAssignments
 
-# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the items: N/D
-# <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all points. At the
-# others the value is small compared with its terms. Arithmetic modulo 2^64 is then exact if the magnitude is certainly
-# below 2^63; Python integers decide the rest.
+# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the
+# variables: N/D <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all
+# points. At the others the value is small compared with its terms. Arithmetic modulo 2^64 is then exact if the
+# magnitude is certainly below 2^63; Python integers decide the rest.
 
 
 Signs = NDArray[np.int8]
@@ -43,7 +44,9 @@ _WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Polynomial with integer coefficients in the items, whose sign is computed exactly. All powers are at least 1."""
+    """Polynomial with integer coefficients in the variables, whose sign is computed exactly. All powers are at
+    least 1.
+    """
 
     terms: tuple[tuple[int, Monomial], ...]
 
@@ -57,7 +60,7 @@ class SignPolynomial:
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """Items that the polynomial depends on, ascending."""
+        """Variables that the polynomial depends on, ascending."""
         return tuple(sorted({item for _, monomial in self.terms for item, _ in monomial}))
 
     @cached_property
@@ -69,16 +72,16 @@ class SignPolynomial:
     def rounding(self) -> float:
         """Upper bound of the rounding error of `values`, relative to the sum of the magnitudes of their terms."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
-        # an item has at most three roundings and each product one; the factor of two covers squares and the bound
+        # a variable has at most three roundings and each product one; the factor of two covers squares and the bound
         # itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
 
     def degree(self, item: int) -> int:
-        """Return the highest power of an item."""
+        """Return the highest power of a variable."""
         return max((dict(monomial).get(item, 0) for _, monomial in self.terms), default=0)
 
     def powers(self, item: int) -> tuple[int, ...]:
-        """Return the powers of an item that occur, ascending."""
+        """Return the powers of a variable that occur, ascending."""
         return tuple(sorted({dict(monomial).get(item, 0) for _, monomial in self.terms}))
 
     @property
@@ -88,7 +91,9 @@ class SignPolynomial:
         return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
     def split(self, item: int) -> Mapping[int, SignPolynomial]:
-        """Return the polynomial by powers of an item: each power with its factor, a polynomial in the other items."""
+        """Return the polynomial by powers of a variable: each power with its factor, a polynomial in the other
+        variables.
+        """
         parts: dict[int, list[tuple[int, Monomial]]] = {}
         for coefficient, monomial in self.terms:
             power = dict(monomial).get(item, 0)
@@ -177,10 +182,10 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
     return term
 
 
-# The values of the free item for which a polynomial keeps its sign are a ray of the sorted values, found by binary
-# search. After division by the lowest power of the item the polynomial is A y + B, where y is a power of the item, and
-# changes its sign at -B/A. Rounding makes values close to -B/A uncertain: a window separates the values that certainly
-# satisfy the inequalities from those that may.
+# The values of the free variable for which a polynomial keeps its sign are a ray of the sorted values, found by
+# binary search. After division by the lowest power of the variable the polynomial is A y + B, where y is a power of
+# the variable, and changes its sign at -B/A. Rounding makes values close to -B/A uncertain: a window separates the
+# values that certainly satisfy the inequalities from those that may.
 
 
 @dataclass(frozen=True)
@@ -199,7 +204,9 @@ class PolynomialInequality:
 
 @dataclass(frozen=True)
 class SolutionWindow:
-    """Range of the values of an item that may satisfy a case, and the inner range that certainly does, for each row."""
+    """Range of the values of a variable that may satisfy a case, and the inner range that certainly does, for
+    each row.
+    """
 
     start: Ints
     """Start of the outer range. Values before it certainly violate the case."""
@@ -219,7 +226,7 @@ class SolutionWindow:
 
 
 def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Return the window of a case in its free item, the intersection of the windows of its inequalities."""
+    """Return the window of a case in its free variable, the intersection of the windows of its inequalities."""
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
     sure_start, sure_end = start.copy(), end.copy()
     for inequality in case:
@@ -230,9 +237,9 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Return the window of one inequality, sense * (A y + B) >= 0, where y is a power of the item.
+    """Return the window of one inequality, sense * (A y + B) >= 0, where y is a power of the variable.
 
-    The polynomial has been divided by the lowest power of the item.
+    The polynomial has been divided by the lowest power of the variable.
     """
     parts = inequality.polynomial.split(item)
     most = len(rows.items[item])
@@ -261,7 +268,7 @@ def _certain_ray(
     a, off_a = slope
     b, size = rest.values(rows, inequality.polynomial.scale)
     end = -b / a
-    # first-order bound of the error of -b/a, and the rounding error of the power of the item
+    # first-order bound of the error of -b/a, and the rounding error of the power of the variable
     off = (rest.rounding * size + np.abs(end) * off_a) / (np.abs(a) - off_a)
     off += np.abs(end) * (8 * power + 8) * ROUNDING
     minimum, maximum, y = end - off, end + off, item.powers(power)
@@ -333,7 +340,7 @@ def _uncertain_ray(
 
 
 Corners = Mapping[int, tuple[float, float]]
-"""Minimum and maximum value of each free item."""
+"""Minimum and maximum value of each free variable."""
 
 _MOST_CORNERS = 64  # maximum number of corners of a box; beyond it, terms are bounded separately
 _SHORT = 4096
@@ -342,16 +349,16 @@ _SHORT = 4096
 
 @dataclass(frozen=True, slots=True)
 class RelaxedInequality:
-    """Inequality with some free items, relaxed over the box of their bounds."""
+    """Inequality with some free variables, relaxed over the box of their bounds."""
 
     sense: int
     """Sense of the inequality, 1 or -1."""
     rest: tuple[SignPolynomial, ...]
-    """Factor of each term that depends on the assigned items."""
+    """Factor of each term that depends on the assigned variables."""
     lows: Floats
-    """Minimum over the box of each term's factor in the free items, shape (terms,)."""
+    """Minimum over the box of each term's factor in the free variables, shape (terms,)."""
     highs: Floats
-    """Maximum over the box of each term's factor in the free items, shape (terms,)."""
+    """Maximum over the box of each term's factor in the free variables, shape (terms,)."""
     points: Floats | None
     """Factor of each term at each corner of the box, shape (terms, corners); None if terms are bounded separately."""
     slack: float
@@ -361,7 +368,7 @@ class RelaxedInequality:
 
     def possible(self, rows: PartialAssignments) -> Bools:
         """Return whether each row can satisfy the inequality; False only if it fails for all values of the free
-        items.
+        variables.
         """
         factors = [self.sense * one.values(rows, self.scale)[0] for one in self.rest]
         minimum = np.zeros(rows.size)
@@ -384,7 +391,7 @@ class RelaxedInequality:
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """Return an inequality relaxed over the items in `corners`; its other items are assigned."""
+    """Return an inequality relaxed over the variables in `corners`; its other variables are assigned."""
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
@@ -401,13 +408,13 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
 
 
 def _is_in_one_term(polynomial: SignPolynomial, item: int) -> bool:
-    """Return whether at most one term has more than the lowest power of an item."""
+    """Return whether at most one term has more than the lowest power of a variable."""
     powers = [dict(monomial).get(item, 0) for _, monomial in polynomial.terms]
     return sum(power > min(powers) for power in powers) <= 1
 
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
-    """Return each term's factor in the free items at given values, divided by the lowest power of each item."""
+    """Return each term's factor in the free variables at given values, divided by the lowest power of each variable."""
     minimum = {item: polynomial.powers(item)[0] for item in inside}
     factors = []
     for _, monomial in polynomial.terms:
@@ -428,7 +435,7 @@ class PolynomialConstraint:
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """Items that the constraint depends on, ascending."""
+        """Variables that the constraint depends on, ascending."""
         polynomials = [*(inequality.polynomial for inequality in self._inequalities), *(self.function or ())]
         return tuple(sorted({item for polynomial in polynomials for item in polynomial.items}))
 
@@ -437,7 +444,7 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def steps(self, item: int) -> Iterator[int]:
-        """Yield the powers of an item in all terms, relative to the first term of each polynomial."""
+        """Yield the powers of a variable in all terms, relative to the first term of each polynomial."""
         sums = [inequality.polynomial.terms for inequality in self._inequalities]
         if self.function is not None:
             sums.append(self.function[0].terms + self.function[1].terms)
@@ -446,13 +453,13 @@ class PolynomialConstraint:
             yield from (power - powers[0] for power in powers)
 
     def opens(self, item: int) -> bool:
-        """Return whether windows can be computed in an item, which requires at most two powers of it in each
+        """Return whether windows can be computed in a variable, which requires at most two powers of it in each
         polynomial.
         """
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 
     def holds(self, rows: PartialAssignments) -> Bools:
-        """Return whether each row satisfies the constraint, exactly. All its items must be assigned."""
+        """Return whether each row satisfies the constraint, exactly. All its variables must be assigned."""
         known: dict[SignPolynomial, Signs] = {}
         found: Bools = np.zeros(rows.size, dtype=np.bool_)
         for case in self.cases:
@@ -467,11 +474,11 @@ class PolynomialConstraint:
         return np.asarray(above / below)
 
     def reaches(self, corners: Corners) -> list[list[RelaxedInequality]]:
-        """Return the inequalities of each case relaxed over the free items, as arguments of `possible`."""
+        """Return the inequalities of each case relaxed over the free variables, as arguments of `possible`."""
         return [[relax_inequality(inequality, corners) for inequality in case] for case in self.cases]
 
     def windows(self, rows: PartialAssignments, item: int) -> list[SolutionWindow]:
-        """Return the window of the admissible values of the free item, for each case."""
+        """Return the window of the admissible values of the free variable, for each case."""
         return [find_window(case, rows, item) for case in self.cases]
 
     def fringe(self, at: int, rows: PartialAssignments, item: int, window: SolutionWindow) -> tuple[Ints, Ints]:

@@ -1,9 +1,9 @@
-"""Items of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from
-them.
+"""Variables of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected
+from them.
 
 An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns
-items instead of wheels. An item is a list of products of counts, or of quotients of two such products. A
-wheel in a constraint on counts is an item by itself.
+variables instead of wheels. A variable (class `Item`) is a list of products of counts, or of quotients of
+two such products. A wheel in a constraint on counts is a variable by itself.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _REMEMBERED = 20_000_000  # maximum number of values in all cached lists
 
 @dataclass(frozen=True, slots=True)
 class ItemRecipe:
-    """Definition of an item as plain data: the wheels of its numerator and denominator."""
+    """Definition of a variable as plain data: the wheels of its numerator and denominator."""
 
     top: tuple[tuple[str, int], ...]
     """Wheels of the numerator, each with its positive power."""
@@ -44,7 +44,7 @@ class ItemRecipe:
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """All wheels of the item."""
+        """All wheels of the variable."""
         return tuple(wheel for wheel, _ in self.top + self.bottom)
 
 
@@ -234,7 +234,7 @@ def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, I
 
 
 class Item:
-    """Values of an item, numerator over denominator, ascending, with the total weight of each.
+    """Values of a variable, numerator over denominator, ascending, with the total weight of each.
 
     x               values, shape (m,) float64, ascending, accurate to a few roundings
     tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal
@@ -298,22 +298,22 @@ _ITEMS: ListCache[Item] = ListCache()
 
 
 def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the item of a definition, from the cache if possible."""
+    """Return the variable of a definition, from the cache if possible."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel in recipe.wheels), dtype is object
     return _ITEMS.get(key, lambda: Item(recipe, domains, weights, dtype))
 
 
-# --------------------------------------------------------------- rows over some items, each with the index of its value
+# ----------------------------------------------------------- rows over some variables, each with the index of its value
 
 
 ItemMonomial = tuple[tuple[int, int], ...]
-"""Pairs (item, power) with powers of either sign, never 0."""
+"""Pairs (variable, power) with powers of either sign, never 0."""
 
 
 class PartialAssignments:
-    """Partial assignments as rows of the values of the items that are assigned.
+    """Partial assignments as rows of the values of the variables that are assigned.
 
-    columns   item -> index of its value, shape (size,)
+    columns   variable -> index of its value, shape (size,)
     """
 
     __slots__ = ("_x", "columns", "items", "size")
@@ -323,17 +323,17 @@ class PartialAssignments:
         self._x: dict[int, Floats] = {}
 
     def x(self, item: int) -> Floats:
-        """Return the values of an item as float64, one for each row."""
+        """Return the values of a variable as float64, one for each row."""
         if item not in self._x:
             self._x[item] = self.items[item].x[self.columns[item]]
         return self._x[item]
 
     def top(self, item: int) -> Ints:
-        """Return the numerators of the values of an item."""
+        """Return the numerators of the values of a variable."""
         return self.items[item].tops[self.columns[item]]
 
     def bottom(self, item: int) -> Ints | None:
-        """Return the denominators of the values of an item; None if all are 1."""
+        """Return the denominators of the values of a variable; None if all are 1."""
         bottoms = self.items[item].bottoms
         return None if bottoms is None else bottoms[self.columns[item]]
 
@@ -344,15 +344,18 @@ class PartialAssignments:
         return PartialAssignments(self.items, columns, size)
 
     def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
-        """Return rows extended by one item: `parents` are the original rows, `indices` the values of the item."""
+        """Return rows extended by one variable: `parents` are the original rows, `indices` the values of the
+        variable.
+        """
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int], seen: Sequence[ItemMonomial]) -> tuple[PartialAssignments, Ints | None]:
-        """Return the distinct rows on some items, and the index of each row among them; None if the rows are
+        """Return the distinct rows on some variables, and the index of each row among them; None if the rows are
         unchanged.
 
-        seen   monomials of these items that constraints depend on; rows with equal values of all of them are merged
+        seen   monomials of these variables that constraints depend on; rows with equal values of all of them are
+               merged
         """
         if len(seen) == len(items) == len(self.columns):
             return self, None

@@ -1,4 +1,6 @@
-"""Conversion of wheels to items: wheels in common monomials of all outputs, and constraints in terms of items."""
+"""Conversion of wheels to variables: wheels in common monomials of all outputs, and constraints in terms of
+variables.
+"""
 
 from __future__ import annotations
 
@@ -24,9 +26,9 @@ Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
-"""Maximum number of values of one item, which need half a gigabyte with all their arrays."""
-_MOST_QUOTIENTS = 1 << 22  # maximum number of values of an item with numerator and denominator
-_MOST_WORK = 2 * 10**8  # maximum number of products formed to list one item
+"""Maximum number of values of one variable, which need half a gigabyte with all their arrays."""
+_MOST_QUOTIENTS = 1 << 22  # maximum number of values of a variable with numerator and denominator
+_MOST_WORK = 2 * 10**8  # maximum number of products formed to list one variable
 _LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
 
@@ -107,7 +109,9 @@ def _inverted(powers: Mapping[str, int]) -> dict[str, int]:
 
 
 def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    """Yield definitions of items for the monomials: whole quotients, or numerator and denominator as separate items."""
+    """Yield definitions of variables for the monomials: whole quotients, or numerator and denominator as separate
+    variables.
+    """
     choices = [list(_item_cuts(bundle, domains)) for bundle in bundles]
     # too many combinations to plan: all quotients, or all separate
     if math.prod(map(len, choices)) > 8:
@@ -125,7 +129,7 @@ def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRe
 
 
 def quotients(top: Factors, bottom: Factors, domains: Domains) -> int:
-    """Estimate the number of values of an item with this numerator and denominator."""
+    """Estimate the number of values of a variable with this numerator and denominator."""
     return forecast(top, domains)[0] * forecast(bottom, domains)[0]
 
 
@@ -151,7 +155,7 @@ def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
 def find_polynomial_constraints(
     requested: Sequence[IntervalConstraint], recipes: Sequence[ItemRecipe], domains: Domains
 ) -> list[PolynomialConstraint]:
-    """Convert interval constraints to polynomial constraints in items."""
+    """Convert interval constraints to polynomial constraints in variables."""
     extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
     constraints = []
     for one in requested:
@@ -172,7 +176,7 @@ def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
 
 
 def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
-    """Return the minimum and maximum value of an item as floats, accurate to a few roundings."""
+    """Return the minimum and maximum value of a variable as floats, accurate to a few roundings."""
     above, below = ([domains[wheel] for wheel, _ in side] for side in (recipe.top, recipe.bottom))
     ends = []
     for up, down in ((0, -1), (-1, 0)):
@@ -183,7 +187,7 @@ def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
 
 
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
-    """Return each term as a monomial in items, divided by a common monomial."""
+    """Return each term as a monomial in variables, divided by a common monomial."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe.top[0] if recipe.top else recipe.bottom[0]
@@ -218,7 +222,7 @@ def _feasible(
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
     """Return the cases that some tooth counts can satisfy; the first case if there are none.
 
-    One case is kept so that the constraint still depends on its items.
+    One case is kept so that the constraint still depends on its variables.
     """
     nothing = PartialAssignments((), {}, 1)
     kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]

@@ -52,7 +52,7 @@ Powers = Mapping[str, int]
 
 
 Key = tuple[tuple[int, int], ...]
-"""Product of powers of items, as pairs (item, power) with ascending items and powers of either sign."""
+"""Product of powers of variables, as pairs (variable, power) with ascending variables and powers of either sign."""
 ProductPlan = Mapping[Key, tuple[Key, Key]]
 """Factorisation of each product into a shorter product that divides it, and the remaining factor."""
 
@@ -461,9 +461,9 @@ def exact_constraint(
 
 
 class MonomialColumns(PartialAssignments):
-    """Rows that store the values of their items instead of indices into lists.
+    """Rows that store the values of their variables instead of indices into lists.
 
-    tops, bottoms   item -> positive values, shape (size,) int64
+    tops, bottoms   variable -> positive values, shape (size,) int64
     values          cached values of each function, with upper bounds of their errors
     """
 
@@ -476,21 +476,21 @@ class MonomialColumns(PartialAssignments):
         self.values: dict[object, tuple[Floats, Floats | None]] = {}
 
     def x(self, item: int) -> Floats:
-        """Return the values of an item, float64 with at most three roundings: two conversions and one division."""
+        """Return the values of a variable, float64 with at most three roundings: two conversions and one division."""
         if item not in self._x:
             self._x[item] = self.top(item) / self.bottom(item)
         return self._x[item]
 
     def top(self, item: int) -> Ints:
-        """Return the numerators of the values of an item."""
+        """Return the numerators of the values of a variable."""
         return self._tops[item]
 
     def bottom(self, item: int) -> Ints:
-        """Return the denominators of the values of an item."""
+        """Return the denominators of the values of a variable."""
         return self._bottoms[item]
 
     def product(self, key: Key, plan: ProductPlan) -> Floats:
-        """Return a product of items in float64, with one further rounding per multiplication or division."""
+        """Return a product of variables in float64, with one further rounding per multiplication or division."""
         if key not in self._products:
             shorter, rest = plan.get(key, ((), key))
             found: Floats = self.product(shorter, plan) if shorter else np.ones(())
@@ -509,7 +509,7 @@ class MonomialColumns(PartialAssignments):
 class CombinationColumns(MonomialColumns):
     """Rows of tooth counts, whose monomials are computed on demand.
 
-    monomials   items
+    monomials   variables
     counts      wheel -> counts, shape (size,)
     """
 
@@ -520,7 +520,7 @@ class CombinationColumns(MonomialColumns):
         self._monomials, self._counts = monomials, counts
 
     def x(self, item: int) -> Floats:
-        """Return the values of an item, with at most one rounding per factor and one per conversion."""
+        """Return the values of a variable, with at most one rounding per factor and one per conversion."""
         if item not in self._x:
             self._x[item] = self._quotient(self._monomials[item])
         return self._x[item]
@@ -540,11 +540,11 @@ class CombinationColumns(MonomialColumns):
         return top if bottom is None else np.divide(top, bottom, out=bottom)
 
     def top(self, item: int) -> Ints:
-        """Return the numerators of the values of an item."""
+        """Return the numerators of the values of a variable."""
         return self._whole(item, 1)
 
     def bottom(self, item: int) -> Ints:
-        """Return the denominators of the values of an item."""
+        """Return the denominators of the values of a variable."""
         return self._whole(item, -1)
 
     def _whole(self, item: int, sign: int) -> Ints:
@@ -580,7 +580,7 @@ def _divides(whole: int, power: int) -> bool:
 
 
 def recipe_of(powers: Powers) -> ItemRecipe:
-    """Convert a monomial to the definition of an item."""
+    """Convert a monomial to the definition of a variable."""
     above = tuple((wheel, power) for wheel, power in powers.items() if power > 0)
     return ItemRecipe(above, tuple((wheel, -power) for wheel, power in powers.items() if power < 0))
 

@@ -48,8 +48,8 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
     """Return the tasks of a pass, and the fraction of the pass that they cover, below 1 if the limit of steps is
     exceeded.
 
-    Tasks are runs of the values of the first item, and of its child in the plan if the first has few values. If
-    the limit is exceeded, the tasks are a random sample with a fixed seed.
+    Tasks are runs of the values of the first variable, and of its child in the plan if the first has few
+    values. If the limit is exceeded, the tasks are a random sample with a fixed seed.
     """
     if question.steps <= _SMALL <= limit:
         return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
@@ -68,7 +68,7 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
 
 
 def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
-    """Return items from the root downwards, each with the number of runs into which its values are divided.
+    """Return variables from the root downwards, each with the number of runs into which its values are divided.
 
     The product of these numbers is about `wanted`.
     """
@@ -116,10 +116,10 @@ def _unpacked(packed: bytes) -> tuple[PassWork, ExactJoin]:
 
 
 def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
-    """Run one task of a search, which covers a part of the values of some items.
+    """Run one task of a search, which covers a part of the values of some variables.
 
-    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts; `budget`: maximum number of
-           steps;
+    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts of the values of a variable;
+           `budget`: maximum number of steps;
            `pieces`: number of pieces, so that the results of finished pieces remain if the budget is exceeded
 
     The result has the keys `count`, `removed` (one number for each constraint), `listed` (True if `best` is
@@ -144,7 +144,7 @@ def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
-    """Yield the runs of values of a task, with the run of the first item divided into pieces."""
+    """Yield the runs of values of a task, with the run of the first variable divided into pieces."""
     runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
     item = parts[0][0]
     first, last = runs[item]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """Findings on a train in a file; true as a boolean if there are no failures."""
+    """Findings on a train in a file; true as a boolean without failures."""
 
     train: GearTrain
     file: str

@@ -538,9 +538,7 @@ def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floa
 
 @dataclass(frozen=True, slots=True)
 class OnInvolute:
-    """Exact condition that each tip of an external pair meets the involute of its mate, so that there is no
-    interference.
-    """
+    """Exact condition that the tips of an external pair do not interfere: each meets the involute of its mate."""
 
     first: CountRef
     second: CountRef

@@ -44,8 +44,8 @@ _WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Polynomial with integer coefficients in the variables, whose sign is computed exactly. All powers are at
-    least 1.
+    """Polynomial with integer coefficients in the variables, whose sign is computed exactly. Powers are 1 or
+    more.
     """
 
     terms: tuple[tuple[int, Monomial], ...]

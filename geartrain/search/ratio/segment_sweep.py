@@ -95,7 +95,7 @@ def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageFilter) -> None:
-    """Pass all multisets of these stages whose ratio is within the tolerance to the filter `judge`."""
+    """Send all multisets of these stages whose ratio is within the tolerance to the filter `judge`."""
     size = question.stages
     counts = np.array(stages, dtype=np.int64 if question.plain_integers else object)
     lower, upper = _halves(len(stages), size // 2), _halves(len(stages), size - size // 2)

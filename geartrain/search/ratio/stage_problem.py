@@ -449,7 +449,7 @@ class RankedStages:
 
     @classmethod
     def joined(cls, parts: Sequence[RankedStages]) -> RankedStages:
-        """Concatenate the rows of all parts."""
+        """Join the rows of all parts into one set of arrays."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 

@@ -172,7 +172,7 @@ class PathGrowth:
 
     @staticmethod
     def joined(parts: list[PathGrowth]) -> PathGrowth:
-        """Concatenate the paths of several parts."""
+        """Join the paths of several parts into one set of arrays."""
         return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
 
     def kept(self, rows: NDArray[np.bool_] | np.bool_ | slice) -> PathGrowth:

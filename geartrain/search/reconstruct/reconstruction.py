@@ -342,7 +342,7 @@ def _findings(
     counts_only: bool,
     run: ReconstructionRun,
 ) -> CandidateFindings:
-    """Return the facts of the candidates, or the reasons why there is no explanation.
+    """Return the facts of the candidates, or the reasons why nothing explains the evidence.
 
     With `counts_only` the result has only the counts without each hard fact.
     """

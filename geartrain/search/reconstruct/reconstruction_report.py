@@ -448,7 +448,7 @@ def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
-    """Yield sections on the reasons why there is no explanation; `most` is the maximum number of added wheels."""
+    """Yield sections on the reasons why nothing explains the evidence; `most` is the maximum number of added wheels."""
     if found is None:
         return
     line = "Each dial without the others; surviving arbors that do not lead to it need not be used."

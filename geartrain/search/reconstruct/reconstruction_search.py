@@ -241,7 +241,7 @@ def _written_out(value: object) -> str:
 def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, per: str
 ) -> Reconstructions:
-    """Weight every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
+    """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
         what = f"{number} trains would have to be weighted one by one, more than {_LISTED}"

@@ -254,8 +254,7 @@ def result_words(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """Return a count such as `all 3 expectations and 2 published figures hold`, or how many fail; "" if there are
-    none.
+    """Return a count such as `all 3 expectations and 2 published figures hold`, or how many fail; "" if there are none.
 
     A target with a tolerance is counted; a target without tolerance is not.
     """

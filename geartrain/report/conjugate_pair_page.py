@@ -1,5 +1,4 @@
-"""Documents on one pair of wheels with conjugate teeth, and on tooth forms compared with the 20 degree
-involute.
+"""Documents on one pair of wheels with conjugate teeth, and on tooth forms compared with the 20 degree involute.
 
 The document on a pair has sections on the wheels, the path of contact, losses and stresses, and friction.
 """

@@ -260,8 +260,8 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
 
     requested   words of section titles; if given, only the sections whose titles contain one of them are kept
 
-    Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a
-    requested word is in no title.
+    Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a requested
+    word is in no title.
     """
     titles = [section.title for section in document.sections]
     for word in requested:

@@ -26,8 +26,7 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """Return a document on the states of a gearbox, its speeds, slip and torques, and the maximum load of each
-    element.
+    """Return a document on the states of a gearbox, its speeds, slip and torques, and the maximum load of each element.
 
     Parameters
     ----------

@@ -224,11 +224,10 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
 
 
 def separation_rates(train: GearTrain, state: str | None, without: Sequence[str] = ()) -> Any:
-    """Return the speeds of the input at which teeth first separate in a state
-    (`geartrain.simulation.SeparationRates`).
+    """Return the speeds of the input at which teeth first separate in a state (`geartrain.simulation.SeparationRates`).
 
-    Return None if no link driven by the input has an inertia, if torques have no units, or if the optional
-    package `simulation` is not installed.
+    Return None if no link driven by the input has an inertia, if torques have no units, or if the optional package
+    `simulation` is not installed.
     """
     if not (train.declaration.has_inertia and has_wing("simulation")):
         return None

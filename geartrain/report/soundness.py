@@ -128,8 +128,8 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     """Yield the states in which the escape wheel's speed does not match the declared beat.
 
-    The beat depends on the speed of the escape wheel relative to the link that bears it, because that link
-    carries the pallets.
+    The beat depends on the speed of the escape wheel relative to the link that bears it, because that link carries the
+    pallets.
     """
     declared = train.declaration
     escapement = declared.escapement

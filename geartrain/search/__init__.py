@@ -1,13 +1,12 @@
 """Searches for tooth counts, reconstruction of gear trains, and posterior distributions of tooth counts.
 
-Input is a ratio, a train with unknown tooth counts, a type of epicyclic gear set, the periods of an orrery,
-surviving wheels, or uncertain tooth counts. Output is a ranked list of the tooth counts that satisfy the
-conditions, with a statement whether the search was complete, or their posterior probabilities. Tooth counts
-are compared as integers and ratios as `Fraction`s, so rounding errors cannot change a result.
+Input is a ratio, a train with unknown tooth counts, a type of epicyclic gear set, the periods of an orrery, surviving
+wheels, or uncertain tooth counts. Output is a ranked list of the tooth counts that satisfy the conditions, with a
+statement whether the search was complete, or their posterior probabilities. Tooth counts are compared as integers and
+ratios as `Fraction`s, so rounding errors cannot change a result.
 
 ratio          one ratio by stages of gear pairs: meet in the middle on sorted products (`find_stages`)
-train          the wheels of a declared train whose tooth counts are varied: an exact weighted join
-               (`search_train`)
+train          the wheels of a declared train whose tooth counts are varied: an exact weighted join (`search_train`)
 epicyclic      sets of sun, planets and ring: the Willis equation over all coaxial sets (`find_sets`)
 orrery         many periods with shared wheels: branch and bound, beam search (`find_orrery`)
 reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
@@ -15,13 +14,10 @@ posterior      the posterior of uncertain counts by Bayes' theorem, exact or fro
 join           the exact join used by `train` and `posterior`: bucket elimination on lists of products
 constraints    further conditions on tooth counts: assembly, planets, interference
 
-target_ratio, tooth_count_ranges   parsers of ratios and of ranges of tooth counts (`read_ratio`,
-                                   `read_counts`)
-search_outcome          results common to all searches: tooth counts of stages, numbers of rejected
-                        candidates
+target_ratio, tooth_count_ranges   parsers of ratios and of ranges of tooth counts (`read_ratio`, `read_counts`)
+search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates
 stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`)
-weighted_alternatives   totals, marginals and random samples by the inside-outside algorithm; information in
-                        bits
+weighted_alternatives   totals, marginals and random samples by the inside-outside algorithm; information in bits
 integer_columns         ranges of integers as arrays
 teeth_verb, approximants_verb      the command `teeth`, and the options that its searches share
 tooth_numbers_report    tooth counts as documents and tables

@@ -229,10 +229,10 @@ def nearest_first(value: Fraction, most_numerator: int, most_denominator: int) -
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:
     """Return the minimum k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, at most `length` + 1.
 
-    The fractions of a run approach the number monotonically, and all fractions between them and the number have
-    larger denominators. It is therefore sufficient to compare each with the end on the opposite side. Zero and
-    infinity are excluded, because they are not gear ratios. An integer is compared with the next integer, which
-    has the same denominator.
+    The fractions of a run approach the number monotonically, and all fractions between them and the number have larger
+    denominators. It is therefore sufficient to compare each with the end on the opposite side. Zero and infinity are
+    excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
+    denominator.
     """
     if not far[1]:
         return length if value - length < Fraction(1, 2) else length + 1

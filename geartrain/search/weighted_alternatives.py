@@ -1,14 +1,13 @@
 """Totals, marginals and random samples of weighted derivations by the inside-outside algorithm.
 
-A derivation chooses one alternative at a node, and again one at each node that this alternative refers to.
-Its weight is the product of the weights of all chosen alternatives. The inside sum of a node is the total
-weight of all ways to complete a derivation from it. The outside sum is the total weight of all contexts in
-which the node occurs. Their product is the weight of all derivations that include the node. With integer
-weights all sums are exact. Sources: Baker 1979; for chains the forward-backward algorithm, Baum 1970.
+A derivation chooses one alternative at a node, and again one at each node that this alternative refers to. Its weight
+is the product of the weights of all chosen alternatives. The inside sum of a node is the total weight of all ways to
+complete a derivation from it. The outside sum is the total weight of all contexts in which the node occurs. Their
+product is the weight of all derivations that include the node. With integer weights all sums are exact. Sources: Baker
+1979; for chains the forward-backward algorithm, Baum 1970.
 
-A node may also be a table in which each row is a node and the alternatives of all rows are arrays. This
-form is used for millions of nodes. `relative_entropy` and `entropy` measure the information in
-probabilities in bits.
+A node may also be a table in which each row is a node and the alternatives of all rows are arrays. This form is used
+for millions of nodes. `relative_entropy` and `entropy` measure the information in probabilities in bits.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Constraints on the tooth counts of a declared train from assembly, positions of axes, and interference.
 
-`find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation`
-can be solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many
-candidates at once.
+`find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
+solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
 """
 
 from __future__ import annotations
@@ -67,15 +66,13 @@ BACKLASH = 0.05
 def find_constraints(
     train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
 ) -> tuple[CountConstraint, ...]:
-    """Return the constraints on the wheels of a train whose tooth counts are varied, those with the lowest cost
-    first.
+    """Return the constraints on the wheels of a train whose tooth counts are varied, those with the lowest cost first.
 
     free   wheel -> admissible counts; all other wheels have their declared counts
 
-    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and
-    loops. Constraints that involve no varied wheel are omitted, because the search cannot change them.
-    `QuestionError` is raised if a requested constraint cannot be evaluated for this train or cannot be
-    satisfied by any counts.
+    The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops.
+    Constraints that involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is
+    raised if a requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
     """
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
@@ -519,10 +516,9 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
     """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 if the ring's tip does not
     interfere.
 
-    h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was
-    derived independently: the ring's tip circle must intersect the line of action beyond the point where that
-    touches the base circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h
-    and a = (z2 - z1)/2.
+    h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
+    independently: the ring's tip circle must intersect the line of action beyond the point where that touches the base
+    circle of 1, seen from the ring, r_a2^2 - r_b2^2 >= (a sin alpha)^2 with r_a2 = z2/2 - h and a = (z2 - z1)/2.
     """
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 

@@ -17,8 +17,7 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, slots=True)
 class ConstraintOptions:
-    """Constraints on tooth counts in addition to ratios. By default only equal coaxial centre distances are
-    required.
+    """Constraints on tooth counts in addition to ratios. By default only equal coaxial centre distances are required.
 
     See Also
     --------
@@ -33,8 +32,8 @@ class ConstraintOptions:
     coaxial: bool | None = None
     """Requirement that spur wheels of the same module between the same two axes have equal centre distances.
 
-    Wheels without a declared module are assumed to have the same one. None requires it unless declared counts
-    that are not varied already violate it, because the modules then differ or the profiles are shifted.
+    Wheels without a declared module are assumed to have the same one. None requires it unless declared counts that are
+    not varied already violate it, because the modules then differ or the profiles are shifted.
     """
     shift: int = 0
     """Maximum difference between coaxial centre distances, to be compensated by profile shift [half modules]."""

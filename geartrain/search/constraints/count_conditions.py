@@ -286,8 +286,7 @@ def distance_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 Kernel = Callable[..., Sequence[Any]]
-"""Function `kernel(root, *numbers)` that returns the terms of a clearance, for arrays of floats or for
-decimals.
+"""Function `kernel(root, *numbers)` that returns the terms of a clearance, for arrays of floats or for decimals.
 
 `root` is the square root of the number type, with 0 for negative arguments.
 """
@@ -324,8 +323,8 @@ def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Deci
     counts     integers, arrays that broadcast to one shape, (candidates,)
     constants  numbers that are the same for all candidates
 
-    The sum is evaluated in floats, and with fifty digits where the result in floats is near 0. Terms may
-    include roots of differences of products.
+    The sum is evaluated in floats, and with fifty digits where the result in floats is near 0. Terms may include roots
+    of differences of products.
     """
     spread = np.broadcast_arrays(*counts)
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))

@@ -43,8 +43,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class EqualPlanets:
-    """Condition that n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central
-    wheels.
+    """Condition that n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
     The condition is that n divides each number of `phase_numbers`, which derives it.
     """
@@ -82,8 +81,8 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
     """Return the assembly condition of a set of planets.
 
-    Return None if no wheel is varied or the planets mesh with fewer than two central wheels, because any number
-    can then be assembled.
+    Return None if no wheel is varied or the planets mesh with fewer than two central wheels, because any number can
+    then be assembled.
     """
     assert found.planets is not None
     first = planet_arm(found.planets)
@@ -113,8 +112,8 @@ def reason(found: PlanetSet, number: int) -> str:
 class NeighbourClearance:
     """Exact condition that the tip circles of neighbouring planets have more than the required clearance.
 
-    `reach` is twice the distance of a planet's axis from the central axis, `tips` the tip diameter plus the
-    clearance; see `neighbour_terms`.
+    `reach` is twice the distance of a planet's axis from the central axis, `tips` the tip diameter plus the clearance;
+    see `neighbour_terms`.
     """
 
     number: int
@@ -179,9 +178,8 @@ class PlanetClearance:
         """Yield the clearance conditions of one set of planets: of neighbouring equal wheels, then of planets that
         mesh.
 
-        The wheels of a planet are as far apart as the axes. In a set of two planets, if one meshes only with
-        external central wheels and the other only with rings, these are assumed to lie in one plane with both
-        planets.
+        The wheels of a planet are as far apart as the axes. In a set of two planets, if one meshes only with external
+        central wheels and the other only with rings, these are assumed to lie in one plane with both planets.
         """
         assert found.planets is not None
         _check(found)

@@ -1,9 +1,9 @@
 """Types of epicyclic gear sets, results of their search, and their declarations.
 
-Relative to the carrier, every central wheel turns `f = sign P / z` times as fast as the reference wheel of
-the planets, where z is its own tooth count and P is the tooth count of the planet wheel with which it
-meshes (Willis 1841, with a fixed carrier). The signs and meshes define a type: ratios of all modes,
-positions of equal planets and the coaxial equations follow from them.
+Relative to the carrier, every central wheel turns `f = sign P / z` times as fast as the reference wheel of the planets,
+where z is its own tooth count and P is the tooth count of the planet wheel with which it meshes (Willis 1841, with a
+fixed carrier). The signs and meshes define a type: ratios of all modes, positions of equal planets and the coaxial
+equations follow from them.
 """
 
 from __future__ import annotations

@@ -1,17 +1,14 @@
-"""Search for epicyclic sets of a requested ratio: every set of tooth counts of a type within bounds, in every
-mode.
+"""Search for epicyclic sets of a requested ratio: every set of tooth counts of a type within bounds, in every mode.
 
-The coaxial equations leave at most three independent counts, so all sets are enumerated and the result is
-complete. The ratio is determined in integers; floats only select the few candidates that are compared as
-Fractions.
+The coaxial equations leave at most three independent counts, so all sets are enumerated and the result is complete. The
+ratio is determined in integers; floats only select the few candidates that are compared as Fractions.
 
-The exact join of `search.join` could solve the same problem, but for one mode and 12 to 120 teeth it takes
-2 to 30 times as long (Wolfrom sets 22 to 110 times). Only from about 200 teeth on is it as fast for types
-with two central wheels. One enumeration covers all modes, and counts every rejected set under one reason in
-a fixed order.
+The exact join of `search.join` could solve the same problem, but for one mode and 12 to 120 teeth it takes 2 to 30
+times as long (Wolfrom sets 22 to 110 times). Only from about 200 teeth on is it as fast for types with two central
+wheels. One enumeration covers all modes, and counts every rejected set under one reason in a fixed order.
 
-The ratio of a set is input over output, the convention of gear manufacturers: a reduction is above 1, and
-it is negative if the output turns in the opposite sense. `ratio_is` selects the reciprocal.
+The ratio of a set is input over output, the convention of gear manufacturers: a reduction is above 1, and it is
+negative if the output turns in the opposite sense. `ratio_is` selects the reciprocal.
 """
 
 from __future__ import annotations
@@ -436,8 +433,8 @@ def _add_dependent_counts(
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
     """Return False for each set whose stepped planet is equivalent to a planet with one wheel.
 
-    Equal steps differ from one wheel only if they mesh with two suns, or two rings, of different counts, which
-    `slack` permits.
+    Equal steps differ from one wheel only if they mesh with two suns, or two rings, of different counts, which `slack`
+    permits.
     """
     stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
     for one, other in ((one, other) for link in kind.planets for one, other in combinations(link, 2)):
@@ -481,9 +478,8 @@ def _select(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]
 def ratio_terms(kind: EpicyclicKind, mode: EpicyclicMode, columns: Columns) -> tuple[Ints, Ints]:
     """Return the numerator and denominator of the ratio of input to output speed, exact and not reduced.
 
-    The ratio is (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for
-    the carrier. If one of the terms is 0 the mode does not transmit motion: the output is at rest, or the input
-    is locked.
+    The ratio is (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for the
+    carrier. If one of the terms is 0 the mode does not transmit motion: the output is at rest, or the input is locked.
     """
     (n1, d1), (n2, d2), (n0, d0) = (
         _relative(kind.member(link), columns) for link in (mode.input, mode.output, mode.held)
@@ -505,12 +501,11 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
 
     n equal planets, equally spaced, can be assembled exactly if n divides this number; 0 permits any position.
 
-    Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after
-    which its teeth must align where the next planet is inserted. If both mesh with the same step of the planet,
-    (z_y -+ z_x)/n must be an integer. If they mesh with two steps, the planet may also be rotated by whole
-    teeth of the first step, each of which shifts the second by P_y/P_x of a tooth, so (z_y P_x -+ z_x P_y)/(n
-    gcd(P_x, P_y)) must be an integer. Well known cases are (s + r)/n and, for stepped planets, (s1 p2 + r2
-    p1)/(n gcd(p1, p2)).
+    Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
+    teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n
+    must be an integer. If they mesh with two steps, the planet may also be rotated by whole teeth of the first step,
+    each of which shifts the second by P_y/P_x of a tooth, so (z_y P_x -+ z_x P_y)/(n gcd(P_x, P_y)) must be an integer.
+    Well known cases are (s + r)/n and, for stepped planets, (s1 p2 + r2 p1)/(n gcd(p1, p2)).
     """
     number: Ints = np.zeros_like(columns[kind.members[0].wheel])
     for x, y in combinations(kind.members, 2):
@@ -525,9 +520,9 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
 def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
     """Return whether one planet (or pair of planets) fits between the central wheels, for each set.
 
-    Planets are smaller than their ring. Planets in mesh extend from wheel to wheel and clear all wheels with
-    which they do not mesh. Cones of bevel wheels open outwards. The addendum is one module. Interference of
-    flanks is not tested here.
+    Planets are smaller than their ring. Planets in mesh extend from wheel to wheel and clear all wheels with which they
+    do not mesh. Cones of bevel wheels open outwards. The addendum is one module. Interference of flanks is not tested
+    here.
     """
     good = np.ones(columns[kind.members[0].wheel].shape, dtype=bool)
     for member in kind.members:
@@ -549,8 +544,8 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     """Return the clearance between the tips of equally spaced neighbouring planets [modules], for each set.
 
-    It is negative if they overlap, and infinite for one planet. For planets on one circle it is (s + p)
-    sin(pi/n) - p - 2. Planets in mesh with each other are placed by the law of cosines.
+    It is negative if they overlap, and infinite for one planet. For planets on one circle it is (s + p) sin(pi/n) - p -
+    2. Planets in mesh with each other are placed by the law of cosines.
     """
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
@@ -576,8 +571,8 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
 def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
     """Return whether the tips of neighbouring planets have at least a clearance [modules], for each set.
 
-    Near ties are decided exactly, as for the clearance of a declared train. For bevel wheels, whose clearance
-    is an angle, floats decide.
+    Near ties are decided exactly, as for the clearance of a declared train. For bevel wheels, whose clearance is an
+    angle, floats decide.
     """
     found, minimum = room(kind, columns, planets), float(clearance)
     good = np.asarray(found >= minimum - _BEVEL)
@@ -613,9 +608,8 @@ def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> I
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:
     """Return the cosine of the pitch cone angle of a side wheel, if both side wheels mesh with one bevel planet.
 
-    The cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi.
-    They are the angles of a triangle with the sides a, b and 2 p cos g_p, so that cos^2 g_p = (a + b)^2 / 4(p^2
-    + ab).
+    The cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi. They are
+    the angles of a triangle with the sides a, b and 2 p cos g_p, so that cos^2 g_p = (a + b)^2 / 4(p^2 + ab).
     """
     a, b, third = columns[own], columns[other], 2 * columns["p"] * _planet_cosine(columns)
     return np.asarray((b**2 + third**2 - a**2) / (2 * b * third), dtype=np.float64)
@@ -627,8 +621,8 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
-    """Return the clearance of bevel planets [modules]: angle between neighbouring axes minus pitch cones, times
-    the radius, minus the addenda.
+    """Return the clearance of bevel planets [modules]: angle between neighbouring axes minus pitch cones, times the
+    radius, minus the addenda.
     """
     cone = np.arccos(_planet_cosine(columns))
     with np.errstate(divide="ignore", invalid="ignore"):

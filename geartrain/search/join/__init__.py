@@ -1,13 +1,10 @@
-"""Exact join: tooth counts of some wheels that satisfy polynomial constraints, and the number of these
-assignments.
+"""Exact join: tooth counts of some wheels that satisfy polynomial constraints, and the number of these assignments.
 
-Lists of products are joined on their common wheels, the smallest expected result first. All numbers are
-integers and Fractions.
+Lists of products are joined on their common wheels, the smallest expected result first. All numbers are integers and
+Fractions.
 
-product_lists           distinct products with the number of assignments of each, and partial assignments as
-                        columns
-wheel_monomials         constraints on functions of tooth counts, and the monomials by which functions
-                        depend on wheels
+product_lists           distinct products with the number of assignments of each, and partial assignments as columns
+wheel_monomials         constraints on functions of tooth counts, and the monomials by which functions depend on wheels
 polynomial_constraints  constraints as signs of polynomials, and windows of the last free variable
 join_plan               order in which variables are assigned, by expected cost
 exact_join              the join: bucket elimination (Dechter 1999)

@@ -34,9 +34,9 @@ def find_item_monomials(
 ) -> Iterator[ItemMonomial]:
     """Yield the minimum number of monomials of some variables that determine the constraints, each exact in int64.
 
-    Variables that no constraint depends on are in no monomial. Variables are combined if their powers, relative
-    to the first term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels
-    of constraints on counts are not combined.
+    Variables that no constraint depends on are in no monomial. Variables are combined if their powers, relative to the
+    first term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of constraints
+    on counts are not combined.
 
     items   assigned variables of the constraints
     lists   all variables

@@ -1,11 +1,10 @@
 """Sums over all assignments of a recorded join: total weight, and weight for each tooth count of each wheel.
 
-They are inside and outside sums over tables of `search.weighted_alternatives`, and exact for integer
-weights. All sums are linear in the weights of each wheel, which may be negative: with weights w(z) (z -
-mean) instead of w(z) for one wheel, the sums of the others are their covariances with it.
+They are inside and outside sums over tables of `search.weighted_alternatives`, and exact for integer weights. All sums
+are linear in the weights of each wheel, which may be negative: with weights w(z) (z - mean) instead of w(z) for one
+wheel, the sums of the others are their covariances with it.
 
-The best assignments are found in order by an A* search along the tree, with exact minimum remaining
-misfits.
+The best assignments are found in order by an A* search along the tree, with exact minimum remaining misfits.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Order in which a join assigns its variables: a tree, because assigned variables separate the others into
-independent parts.
+"""Order in which a join assigns its variables: a tree, because assigned variables separate the others into independent
+parts.
 
-Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are
-then counted separately for each distinct assignment of the common wheels, and the counts are multiplied.
+Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are then counted
+separately for each distinct assignment of the common wheels, and the counts are multiplied.
 """
 
 from __future__ import annotations
@@ -243,8 +243,8 @@ class _Planner:
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int], first: int, shared: bool) -> int:
-        """Select the next variable: one that an equation determines, otherwise one of the constraint with the
-        lowest cost.
+        """Select the next variable: one that an equation determines, otherwise one of the constraint with the lowest
+        cost.
         """
         for at in active:
             left = self.scopes[at] & open_
@@ -264,8 +264,8 @@ class _Planner:
         return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Select the equation that determines the variable, otherwise the most selective constraint that has windows
-        in it.
+        """Select the equation that determines the variable, otherwise the most selective constraint that has windows in
+        it.
 
         Return -1 if there is neither.
         """

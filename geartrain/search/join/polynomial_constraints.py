@@ -1,15 +1,13 @@
-"""Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free
-variables.
+"""Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free variables.
 
-|N/D - w| <= t w is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0.
-Each case is a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one
-window of its values. Entries that floats cannot decide are decided by exact signs.
+|N/D - w| <= t w is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is
+a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values. Entries
+that floats cannot decide are decided by exact signs.
 
-With more free variables, these lie between bounds, and rows are dropped that no values within the bounds
-can satisfy. If a polynomial has at most two powers of each free variable, it is monotone in each after
-division by the lower powers, and its extremes are at the corners of the box of bounds. If no free variable
-is in two of its terms, each term has its own extremes. Otherwise, or with too many corners, the extremes of
-the terms are still valid bounds.
+With more free variables, these lie between bounds, and rows are dropped that no values within the bounds can satisfy.
+If a polynomial has at most two powers of each free variable, it is monotone in each after division by the lower powers,
+and its extremes are at the corners of the box of bounds. If no free variable is in two of its terms, each term has its
+own extremes. Otherwise, or with too many corners, the extremes of the terms are still valid bounds.
 """
 
 from __future__ import annotations
@@ -44,9 +42,7 @@ _WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Polynomial with integer coefficients in the variables, whose sign is computed exactly. Powers are 1 or
-    more.
-    """
+    """Polynomial with integer coefficients in the variables, whose sign is computed exactly. Powers are 1 or more."""
 
     terms: tuple[tuple[int, Monomial], ...]
 

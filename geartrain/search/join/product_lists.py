@@ -1,9 +1,8 @@
-"""Variables of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected
-from them.
+"""Variables of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
 
-An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns
-variables instead of wheels. A variable (class `Item`) is a list of products of counts, or of quotients of
-two such products. A wheel in a constraint on counts is a variable by itself.
+An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns variables
+instead of wheels. A variable (class `Item`) is a list of products of counts, or of quotients of two such products. A
+wheel in a constraint on counts is a variable by itself.
 """
 
 from __future__ import annotations
@@ -237,8 +236,8 @@ class Item:
     """Values of a variable, numerator over denominator, ascending, with the total weight of each.
 
     x               values, shape (m,) float64, ascending, accurate to a few roundings
-    tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal
-                    quotients may be repeated
+    tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal quotients
+                    may be repeated
     times           weights, shape (m,)
     sums            cumulative weights, shape (m + 1,), from 0
     """
@@ -354,8 +353,7 @@ class PartialAssignments:
         """Return the distinct rows on some variables, and the index of each row among them; None if the rows are
         unchanged.
 
-        seen   monomials of these variables that constraints depend on; rows with equal values of all of them are
-               merged
+        seen   monomials of these variables that constraints depend on; rows with equal values of all of them are merged
         """
         if len(seen) == len(items) == len(self.columns):
             return self, None

@@ -88,8 +88,8 @@ def find_wheel_monomials(
 ) -> list[WheelMonomial]:
     """Return the largest possible monomials. Each wheel in `alone` is a monomial by itself with power 1.
 
-    Wheels are combined if their powers, relative to the first term of each function and listed over all terms
-    of all functions, are proportional.
+    Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
+    functions, are proportional.
     """
     lists: dict[str, list[int]] = {wheel: [] for wheel in wheels}
     for one in requested:

@@ -1,8 +1,7 @@
 """Trees of arbors that show given periods, with the minimum number of wheels and the enumeration up to a size.
 
-A table contains the distinct ratios of two wheels. The number of wheels of a tree is minimised by branch
-and bound over the multiples of its ratios. Trees are enumerated up to a number of additional arbors, which
-do not show a period.
+A table contains the distinct ratios of two wheels. The number of wheels of a tree is minimised by branch and bound over
+the multiples of its ratios. Trees are enumerated up to a number of additional arbors, which do not show a period.
 """
 
 from __future__ import annotations
@@ -206,9 +205,8 @@ class ReachablePeriods:
 def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
     """Find all intermediate arbors from which one pair can drive at least one requested target.
 
-    If several ratios lead to a target, one of them is returned. Floats select with a margin; ratios are
-    compared exactly where they are used. The table and the queries are sorted, so one target costs one pass
-    over the table.
+    If several ratios lead to a target, one of them is returned. Floats select with a margin; ratios are compared
+    exactly where they are used. The table and the queries are sorted, so one target costs one pass over the table.
     """
     logs, size = table.logs, len(table)
     found = np.full((len(targets.periods), size), -1, dtype=np.int32)
@@ -250,9 +248,9 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
     """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is the proved
     minimum.
 
-    Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of others. The
-    search is branch and bound over the multiples that can coincide. If it reaches its limit of steps, the
-    number is only an upper bound and is not proved.
+    Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of others. The search is
+    branch and bound over the multiples that can coincide. If it reaches its limit of steps, the number is only an upper
+    bound and is not proved.
     """
     choices = [[(driver, driven) for driven, driver in table.choices(*edge[2:])] for edge in edges]
     users: dict[tuple[int, int], int] = {}
@@ -363,10 +361,10 @@ def edges(tree: ArborTree) -> list[Edge]:
 class TreeEnumeration:
     """Enumeration of every tree with exactly `extra` arbors that do not show a period.
 
-    A tree grows from the first arbor. Whenever one pair can drive targets from an arbor, each of them is either
-    driven from there or left for later arbors, and all combinations are visited. The tree then receives one
-    more additional arbor. Additional arbors that cannot drive a target are visited as long as another one can
-    follow. Each tree is visited once for each order in which its additional arbors can be added.
+    A tree grows from the first arbor. Whenever one pair can drive targets from an arbor, each of them is either driven
+    from there or left for later arbors, and all combinations are visited. The tree then receives one more additional
+    arbor. Additional arbors that cannot drive a target are visited as long as another one can follow. Each tree is
+    visited once for each order in which its additional arbors can be added.
     """
 
     def __init__(
@@ -430,8 +428,8 @@ class TreeEnumeration:
     def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
         """Yield the trees whose last two additional arbors form a chain, in which the first drives only the second.
 
-        The period of the second is determined from the targets: it drives one of them, and all others must be
-        reachable from those that it drives.
+        The period of the second is determined from the targets: it drives one of them, and all others must be reachable
+        from those that it drives.
         """
         low, high = self._ends(left)
         logs, start = self.table.logs, tree[parent].log
@@ -471,8 +469,7 @@ def _useful(tree: ArborTree) -> bool:
 
 
 def _closures(table: PairRatios, targets: PeriodTargets) -> Ints:
-    """Return for each bit mask of targets the targets that chains of single pairs can reach from them, and
-    themselves.
+    """Return for each bit mask of targets the targets that chains of single pairs can reach from them, and themselves.
 
     The period of an arbor may be anywhere within its tolerance, so the result is a superset.
     """

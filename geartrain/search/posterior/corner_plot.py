@@ -61,8 +61,8 @@ class CountProbabilities:
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
     """Draw a corner plot: marginal probabilities on the diagonal, joint probabilities of each pair below it.
 
-    Darker squares are more probable. Outlines show priors, dashed lines declared counts. Raise `QuestionError`
-    for no wheel, or for more than 9.
+    Darker squares are more probable. Outlines show priors, dashed lines declared counts. Raise `QuestionError` for no
+    wheel, or for more than 9.
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:
@@ -186,8 +186,7 @@ Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair of
-    wheels.
+    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair of wheels.
 
     Parameters
     ----------

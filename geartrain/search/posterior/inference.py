@@ -339,8 +339,7 @@ def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
 
 
 def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
-    """Return the join of the constraints of the observed outputs, followed by the conditions for the train to
-    turn.
+    """Return the join of the constraints of the observed outputs, followed by the conditions for the train to turn.
 
     graded   True if the misfits of the outputs are also required
     """

@@ -50,8 +50,8 @@ class InferenceProblem:
     remarks: tuple[str, ...] = ()
     """Remarks on observations that are not used or are violated by every combination."""
     soft: bool = False
-    """True for the Gaussian likelihood exp(-misfit / 2), up to `FAR` tolerances; False for the likelihood 1 within
-    all tolerances and 0 otherwise.
+    """True for the Gaussian likelihood exp(-misfit / 2), up to `FAR` tolerances; False for the likelihood 1 within all
+    tolerances and 0 otherwise.
     """
 
     @property
@@ -99,8 +99,8 @@ def build_inference_problem(
     against     kinds of observations that are used: "targets", "figures" (`expect` and `published`), or "all"
     scale       factor of every tolerance
 
-    Raise `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if no
-    output that depends on uncertain counts has a known speed, and for trains that never turn.
+    Raise `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if no output that
+    depends on uncertain counts has a known speed, and for trains that never turn.
     """
     _check(train, state, against, tolerance, scale)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
@@ -236,9 +236,9 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
 
     free   wheel -> possible counts, which replace the declared ones; a single count makes the wheel certain
 
-    A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared), a wheel
-    with `search` a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that
-    are not probabilities, and if no count is uncertain; `RangeError` for a wheel with too many counts to list.
+    A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared), a wheel with
+    `search` a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that are not
+    probabilities, and if no count is uncertain; `RangeError` for a wheel with too many counts to list.
     """
     given = dict(free or {})
     for name in given:
@@ -405,8 +405,8 @@ class ObservedOutput:
     def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
         """Return the interval constraint of this output for a join.
 
-        It is unbounded if no observation has bounds, because the join must reject counts without a defined speed
-        even then. With `graded` the join also returns the misfit of the output.
+        It is unbounded if no observation has bounds, because the join must reject counts without a defined speed even
+        then. With `graded` the join also returns the misfit of the output.
         """
         return replace(self.requested(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
 

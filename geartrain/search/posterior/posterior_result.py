@@ -129,8 +129,8 @@ class CountCombination(Result):
     speeds: Mapping[str, Fraction]
     """Exact speed of each output in the unit of the train."""
     errors: Mapping[str, Fraction]
-    """Relative error of each output with respect to the observation with the largest misfit; the speed itself if 0
-    was observed.
+    """Relative error of each output with respect to the observation with the largest misfit; the speed itself if 0 was
+    observed.
     """
     misfit: Fraction
     """Sum of (error / tolerance)^2 over the observations; exact observations add 0."""
@@ -227,8 +227,8 @@ class ToothCountPosterior(Tabular, Result):
     examined: int
     """Number of steps of the exact join, or number of sampled combinations."""
     evidence: CountProbability
-    """Evidence (marginal likelihood): prior probability that all observations are satisfied; with `soft`, prior
-    mean of exp(-misfit / 2).
+    """Evidence (marginal likelihood): prior probability that all observations are satisfied; with `soft`, prior mean of
+    exp(-misfit / 2).
     """
     turning: CountProbability
     """Prior probability that the train turns."""

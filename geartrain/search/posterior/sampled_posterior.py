@@ -1,8 +1,8 @@
 """Random sample of combinations of tooth counts: speeds of outputs, likelihoods, and their sums.
 
-The train is solved once, as formulas; each combination then costs a few multiplications per output.
-Combinations are evaluated in blocks that fit into the processor cache. Sums are plain data that can be
-added, for tasks of any size and in any order.
+The train is solved once, as formulas; each combination then costs a few multiplications per output. Combinations are
+evaluated in blocks that fit into the processor cache. Sums are plain data that can be added, for tasks of any size and
+in any order.
 """
 
 from __future__ import annotations
@@ -61,8 +61,7 @@ class LikelihoodBatch:
     """Vectorised likelihood of an inference problem for arrays of tooth counts.
 
     every    True if the speeds of all outputs are also required
-    wheels   wheels that an observed output or a condition depends on, with `every` also those of all outputs,
-             in the
+    wheels   wheels that an observed output or a condition depends on, with `every` also those of all outputs, in the
              order of declaration
     """
 
@@ -102,8 +101,8 @@ class LikelihoodBatch:
     def judged(self, rows: MonomialColumns) -> tuple[Bools, Floats]:
         """Return whether each combination satisfies the observations, exactly, and its misfit up to rounding.
 
-        The misfit is infinite for the others. Combinations that one output rejects are removed before the next
-        output when this saves work.
+        The misfit is infinite for the others. Combinations that one output rejects are removed before the next output
+        when this saves work.
         """
         alive, total = np.arange(rows.size), np.zeros(rows.size)
         some = rows
@@ -586,8 +585,7 @@ def recipe_of(powers: Powers) -> ItemRecipe:
 
 
 def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
-    """Return the minimum number of monomials through which all functions depend on the wheels, each exact in
-    int64.
+    """Return the minimum number of monomials through which all functions depend on the wheels, each exact in int64.
 
     domains   possible counts of the wheels; wheels that no function depends on are in no monomial
     """

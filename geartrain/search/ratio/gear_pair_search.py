@@ -1,10 +1,9 @@
-"""Search for one gear pair of a given ratio: all pairs within a tolerance, or the best, in ranges of any
-length.
+"""Search for one gear pair of a given ratio: all pairs within a tolerance, or the best, in ranges of any length.
 
-Two algorithms give the same pairs. A scan visits the tooth counts of one wheel and looks up the admissible
-counts of the other; it is fast for lists and short ranges. The Stern-Brocot tree yields reduced fractions
-in the order of their errors, and each fraction represents all its multiples. Its cost is proportional to
-the number of fractions that it yields, so it is fast for long ranges.
+Two algorithms give the same pairs. A scan visits the tooth counts of one wheel and looks up the admissible counts of
+the other; it is fast for lists and short ranges. The Stern-Brocot tree yields reduced fractions in the order of their
+errors, and each fraction represents all its multiples. Its cost is proportional to the number of fractions that it
+yields, so it is fast for long ranges.
 """
 
 from __future__ import annotations
@@ -84,8 +83,8 @@ class _Box:
     def windows(self, low: Fraction, high: Fraction) -> Iterator[tuple[int, bool, int, int]]:
         """Yield the windows of counts for which low <= top/beneath <= high.
 
-        Each window is a tuple: a count of one wheel, True if that count is the numerator, and the first and last
-        count of the other wheel. The first wheel is the one with fewer counts that can occur in a pair.
+        Each window is a tuple: a count of one wheel, True if that count is the numerator, and the first and last count
+        of the other wheel. The first wheel is the one with fewer counts that can occur in a pair.
         """
         (a, b), (c, d) = (low.numerator, low.denominator), (high.numerator, high.denominator)
         # counts of each wheel for which some count of the other wheel may be in reach
@@ -169,9 +168,9 @@ def _box_pairs(value: Fraction, box: _Box, tolerance: Fraction | None, number: i
 def _tree_is_shorter(value: Fraction, box: _Box, number: int) -> bool:
     """Return whether the Stern-Brocot tree needs fewer steps than a scan. Both find the same pairs.
 
-    Let x be the ratio, and let the pairs that are possible have denominators from L to U. A scan takes min(x,
-    1) (U - L) steps. The tree visits all fractions with a denominator up to U, and a fraction 2 (U/L - 1) of
-    them has a multiple in the ranges.
+    Let x be the ratio, and let the pairs that are possible have denominators from L to U. A scan takes min(x, 1) (U -
+    L) steps. The tree visits all fractions with a denominator up to U, and a fraction 2 (U/L - 1) of them has a
+    multiple in the ranges.
     """
     if not box.contiguous:
         return False
@@ -228,11 +227,10 @@ def _count_below(box: _Box, ratio: Fraction, strictly: bool = False) -> int:
 
 
 def _floor_sum(number: int, slope: int, offset: int, divisor: int) -> int:
-    """Return the sum of floor((slope i + offset)/divisor) for i from 0 to `number` - 1; all arguments are 0 or
-    more.
+    """Return the sum of floor((slope i + offset)/divisor) for i from 0 to `number` - 1; all arguments are 0 or more.
 
-    The sum counts the lattice points under a line. Integer parts are split off and the axes are exchanged, as
-    in Euclid's algorithm, so the number of steps is logarithmic.
+    The sum counts the lattice points under a line. Integer parts are split off and the axes are exchanged, as in
+    Euclid's algorithm, so the number of steps is logarithmic.
     """
     total, sign = 0, 1
     while number > 0:

@@ -54,8 +54,8 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
 def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.bool_]]:
     """Return floor(factor x edge), at most `cap`, and whether the product is an integer.
 
-    For int64 the remainder factor n - floor d is computed modulo 2^64. With d below 2^52, and a float64
-    estimate of the floor that is within 3 of it, the remainder is less than 2^63 and therefore exact.
+    For int64 the remainder factor n - floor d is computed modulo 2^64. With d below 2^52, and a float64 estimate of the
+    floor that is within 3 of it, the remainder is less than 2^63 and therefore exact.
     """
     n, d = edge.numerator, edge.denominator
     if factors.dtype == object:
@@ -135,9 +135,9 @@ _MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 class ProductWindows:
     """Products c_1 c_2 ... c_k of admissible counts c_1 <= ... <= c_k, each stored as (low part) x (high part).
 
-    The sorted counts are split at their middle element m. A row holds m and the counts below it, and is
-    combined with every high part whose counts are all at least m, so each multiset occurs once. Memory is
-    O(n^3) for n counts, while the C(n+k-1, k) products are generated window by window.
+    The sorted counts are split at their middle element m. A row holds m and the counts below it, and is combined with
+    every high part whose counts are all at least m, so each multiset occurs once. Memory is O(n^3) for n counts, while
+    the C(n+k-1, k) products are generated window by window.
     """
 
     counts: tuple[int, ...]

@@ -1,7 +1,7 @@
 """Search of one segment of the denominator products for the numerator products that match them.
 
-`lay_out` divides a search into segments of about equal work. Segments are independent, their problems and
-results are plain JSON data, and the division has no influence on the result.
+`lay_out` divides a search into segments of about equal work. Segments are independent, their problems and results are
+plain JSON data, and the division has no influence on the result.
 """
 
 from __future__ import annotations
@@ -129,8 +129,8 @@ def task_of(
 def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
     """Count the solutions of a segment exactly, and return the best of them.
 
-    The result has the keys `count`; `removed`, the number of pairs of multisets within the tolerance that are
-    not solutions, by reason; and `rows`, the best as [rank value, numerator counts, denominator counts].
+    The result has the keys `count`; `removed`, the number of pairs of multisets within the tolerance that are not
+    solutions, by reason; and `rows`, the best as [rank value, numerator counts, denominator counts].
     """
     question = stage_problem_of(task["question"])
     plain = task["bound"]
@@ -282,8 +282,7 @@ class ValueFinder:
 
 
 def distinct(values: Ints) -> Span:
-    """Return the distinct values of an ascending array, shape (n,), and the index of the first of each, shape (n +
-    1,).
+    """Return the distinct values of an ascending array, shape (n,), and the index of the first of each, shape (n + 1,).
 
     The last index is the length of the array.
     """

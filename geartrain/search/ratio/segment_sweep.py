@@ -79,8 +79,8 @@ def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
     """Search all reverted trains whose stages have a sum of counts in [low, high), with the same result as
     `search_segment`.
 
-    Every multiset of stages is generated once, from a lower and an upper half, by a meet in the middle on the
-    products of ratios.
+    Every multiset of stages is generated once, from a lower and an upper half, by a meet in the middle on the products
+    of ratios.
     """
     question = stage_problem_of(task["question"])
     judge = StageFilter(question)
@@ -185,8 +185,8 @@ def within(question: StageProblem, means: Execution) -> SweepOutcome:
 def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     """Find the best solutions by absolute error, with proof.
 
-    The tolerance is increased until it includes enough solutions, so all other solutions have larger errors.
-    The tolerance of the problem is ignored.
+    The tolerance is increased until it includes enough solutions, so all other solutions have larger errors. The
+    tolerance of the problem is ignored.
     """
     search = _search_for(question)
     minimum, most = reach_of_errors(question.value, *question.reach)

@@ -1,5 +1,4 @@
-"""Problem data of a search for one ratio by stages: ratio, constraints, feasible pairings, orders of
-solutions.
+"""Problem data of a search for one ratio by stages: ratio, constraints, feasible pairings, orders of solutions.
 
 The orders are total, and do not depend on the sequence in which solutions are found.
 """
@@ -250,8 +249,8 @@ class FeasiblePairings:
 def suited(
     tops: Ints, beneaths: Ints, fit: StageConstraints, *, coprime: bool = True, centres: bool = True
 ) -> FeasiblePairings:
-    """Evaluate all k! pairings of numerator and denominator counts, shape (n, k) each, with all choices of
-    internal meshes.
+    """Evaluate all k! pairings of numerator and denominator counts, shape (n, k) each, with all choices of internal
+    meshes.
 
     coprime, centres   False if this property is not needed; it is then not evaluated
     """
@@ -324,8 +323,8 @@ def _coprime_table() -> Bools:
 def _arrangements(size: int, internal: int) -> tuple[Ints, Bools, Ints, Ints]:
     """Return every permutation of the denominator counts with every choice of the internal stages.
 
-    The arrays are permutations and choices, shape (arrangements, size) each, and the bit masks of all meshes
-    and of the internal meshes, shape (arrangements,) each, encoded as by `_code`.
+    The arrays are permutations and choices, shape (arrangements, size) each, and the bit masks of all meshes and of the
+    internal meshes, shape (arrangements,) each, encoded as by `_code`.
     """
     choices = [[stage in chosen for stage in range(size)] for chosen in combinations(range(size), internal)]
     both = [(order, choice) for order in permutations(range(size)) for choice in choices]
@@ -400,8 +399,8 @@ def _spread(pairs: Pairs, scale: int) -> Fraction:
 
 
 StageOrder = Literal["error", "total", "largest", "distinct", "hunting", "centres"]
-"""Primary criterion of the order of solutions: minimum absolute error, sum of counts, largest count or number
-of distinct counts; maximum number of stages with coprime counts; minimum number of centre distances.
+"""Primary criterion of the order of solutions: minimum absolute error, sum of counts, largest count or number of
+distinct counts; maximum number of stages with coprime counts; minimum number of centre distances.
 
 Ties are broken by absolute error, sum, largest count, and the counts.
 """

@@ -1,12 +1,11 @@
-"""Search for one ratio by one to five stages of gear pairs: all solutions within a tolerance, or the best with
-proof.
+"""Search for one ratio by one to five stages of gear pairs: all solutions within a tolerance, or the best with proof.
 
-A train of k stages has the ratio P / Q, where P and Q are products of k tooth counts each. For every
-denominator product Q, the numerator products P within the tolerance are a contiguous window of a sorted
-list. This meet-in-the- middle search finds all solutions at the cost of sorting. The ends of the windows
-are determined in integers. Products are generated in segments of value, which bounds the memory and gives
-independent tasks. Four stages of 200 counts (69 million multisets per side) need less than 0.2 GB, five
-stages (2800 million) less than 0.4 GB, and less than 0.5 GB with constraints and other orders.
+A train of k stages has the ratio P / Q, where P and Q are products of k tooth counts each. For every denominator
+product Q, the numerator products P within the tolerance are a contiguous window of a sorted list. This meet-in-the-
+middle search finds all solutions at the cost of sorting. The ends of the windows are determined in integers. Products
+are generated in segments of value, which bounds the memory and gives independent tasks. Four stages of 200 counts (69
+million multisets per side) need less than 0.2 GB, five stages (2800 million) less than 0.4 GB, and less than 0.5 GB
+with constraints and other orders.
 """
 
 from __future__ import annotations

@@ -1,10 +1,9 @@
 """Number of choices of tooth counts of added wheels that give every dial its speed, by variable elimination.
 
-Wheels that change the speeds of the same dials form a group, of which only the quotient matters. A dial
-with one group left determines the quotient of this group. Otherwise all possible quotients of the smallest
-group are tried. Tables of products are faster here than the exact join of uncertain tooth counts
-(`search.join`): 1 to 4 ms per topology instead of 5 to 7 ms, and for seven added wheels 0.6 s instead of 90
-s.
+Wheels that change the speeds of the same dials form a group, of which only the quotient matters. A dial with one group
+left determines the quotient of this group. Otherwise all possible quotients of the smallest group are tried. Tables of
+products are faster here than the exact join of uncertain tooth counts (`search.join`): 1 to 4 ms per topology instead
+of 5 to 7 ms, and for seven added wheels 0.6 s instead of 90 s.
 """
 
 from __future__ import annotations
@@ -89,8 +88,7 @@ def list_choices(
 def quotients_of_parts(
     quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
 ) -> tuple[tuple[Fraction, int], ...]:
-    """Return the quotients of the first of two groups whose total quotient is given, each with its number of
-    choices.
+    """Return the quotients of the first of two groups whose total quotient is given, each with its number of choices.
 
     A group is given by its numbers of driving and of driven wheels.
     """

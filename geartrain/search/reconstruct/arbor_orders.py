@@ -203,8 +203,7 @@ def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: M
 def in_order(topology: Topology, orders: Mapping[int, list[int]], counts: Counts, idle: tuple[int, ...]) -> Arbor:
     """Return the train of a topology with a given order of arbors.
 
-    orders   `id` of a chain -> its arbors from the driving wheel on: index of a surviving arbor, `COMPOUND` for
-             an
+    orders   `id` of a chain -> its arbors from the driving wheel on: index of a surviving arbor, `COMPOUND` for an
              added arbor with two wheels, or `IDLER`
     """
     added = {COMPOUND: _COMPOUND, IDLER: _IDLER}

@@ -137,8 +137,7 @@ class _Naming:
     def _drives(self, arbor: Arbor) -> Iterator[tuple[int, int, PlacedWheel, Arbor]]:
         """Yield every driven arbor with its sort key and its driving wheel.
 
-        The key is the first dial of the driven subtree, and the index of the driving wheel (-1 for the driven
-        wheel).
+        The key is the first dial of the driven subtree, and the index of the driving wheel (-1 for the driven wheel).
         """
         for child in arbor.passes:
             assert arbor.driven is not None

@@ -65,8 +65,8 @@ def changed_counts(
 ) -> Iterator[ChangedCount]:
     """Yield the counts of changed problems in their order, as soon as each is complete.
 
-    An interrupted search is omitted, so no journal stores a partial result. `search` must be a function at
-    module level, because it is sent to other processes.
+    An interrupted search is omitted, so no journal stores a partial result. `search` must be a function at module
+    level, because it is sent to other processes.
     """
     answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
     for question, (solutions, complete, refused) in zip(questions, answers, strict=True):

@@ -63,8 +63,7 @@ class PointerBounds:
 
 
 def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Return the bounds of the speed of an output relative to the base; with `free_sense`, bounds of its
-    magnitude.
+    """Return the bounds of the speed of an output relative to the base; with `free_sense`, bounds of its magnitude.
 
     Raise `DeclarationError` if the admissible speeds are not one range.
     """

@@ -1,8 +1,8 @@
 """Facts derived from all candidates: marginal probabilities, the fact of maximum entropy, the family tree.
 
-A fact has one answer in each candidate: whether two wheels mesh, which wheel drives an arbor, the tooth
-count of a wheel. Its marginals are the probabilities of its answers. The candidate determines the answer,
-so the expected information of an observation is the entropy of these probabilities.
+A fact has one answer in each candidate: whether two wheels mesh, which wheel drives an arbor, the tooth count of a
+wheel. Its marginals are the probabilities of its answers. The candidate determines the answer, so the expected
+information of an observation is the entropy of these probabilities.
 """
 
 from __future__ import annotations

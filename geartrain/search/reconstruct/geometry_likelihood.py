@@ -1,14 +1,13 @@
 """Likelihood of a candidate by measured modules, radii and positions of axes: a float, 0 if it is impossible.
 
-Every mesh of two measured wheels contributes exp(-(e/s)^2 / 2), where e is the logarithm of the ratio of
-their modules and s its standard deviation. A wheel that was not measured has the module that fits the
-adjacent wheels best. Misfits therefore combine like springs: a mesh with a wheel of known module has
-stiffness 1, and a mesh with a wheel that is itself supported with stiffness k has stiffness k/(1 + k). A
-measured radius with an error also acts as a spring of stiffness (s*radius/error)^2.
+Every mesh of two measured wheels contributes exp(-(e/s)^2 / 2), where e is the logarithm of the ratio of their modules
+and s its standard deviation. A wheel that was not measured has the module that fits the adjacent wheels best. Misfits
+therefore combine like springs: a mesh with a wheel of known module has stiffness 1, and a mesh with a wheel that is
+itself supported with stiffness k has stiffness k/(1 + k). A measured radius with an error also acts as a spring of
+stiffness (s*radius/error)^2.
 
-A mesh of two axes with known positions contributes exp(-(f/s')^2 / 2), where f is the logarithm of the sum
-of the pitch radii over the distance of the axes. Misfits of modules and of distances are treated as
-independent.
+A mesh of two axes with known positions contributes exp(-(f/s')^2 / 2), where f is the logarithm of the sum of the pitch
+radii over the distance of the axes. Misfits of modules and of distances are treated as independent.
 """
 
 from __future__ import annotations

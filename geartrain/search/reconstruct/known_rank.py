@@ -263,9 +263,8 @@ def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
     """Return the rank and probability of one explanation among all.
 
-    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If
-    the prior depends only on the topology, the rank follows from the numbers of trains of each weight, and no
-    train is listed.
+    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the prior
+    depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is listed.
     """
     added = candidate.added_wheels
     counts = {count.added: count.solutions for count in found.counts}
@@ -331,11 +330,9 @@ def _all_admitted(
 def _changed(
     train: Train, problem: ReconstructionProblem, same: Mapping[str, str], without_dials: bool
 ) -> tuple[tuple[str, ...], ReconstructionProblem, KnownTrain | None]:
-    """Return the changes by which a train breaks no rule, the changed problem, and the train as read in it (or
-    None).
+    """Return the changes by which a train breaks no rule, the changed problem, and the train as read in it (or None).
 
-    The train is read again after each round, because without a dial the problem needs fewer of its arbors and
-    wheels.
+    The train is read again after each round, because without a dial the problem needs fewer of its arbors and wheels.
     """
     changes: dict[str, None] = {}
     known = find_known_train(train, problem, same)

@@ -1,14 +1,13 @@
 """Backtracking search for one path to every dial, such that all of them are paths of one train.
 
-A hash join on quotients finds pairs of paths, bit masks represent shared arbors and wheels, and the length
-of the shortest tour of the dials is the lower bound that prunes branches.
+A hash join on quotients finds pairs of paths, bit masks represent shared arbors and wheels, and the length of the
+shortest tour of the dials is the lower bound that prunes branches.
 
-The distance of two dials is the number of added wheels on exactly one of their paths; the distance of a
-dial from the input is the number on its path. A tour around the tree passes each added wheel twice, so not
-all distances can be large. The search therefore begins with a short path, or with two paths at a small
-distance, whose quotients are looked up in a table. Then only paths of the other dials remain that are
-compatible with all chosen ones, and the dial with the fewest paths is next. The search is complete, because
-every choice begins in one of these ways.
+The distance of two dials is the number of added wheels on exactly one of their paths; the distance of a dial from the
+input is the number on its path. A tour around the tree passes each added wheel twice, so not all distances can be
+large. The search therefore begins with a short path, or with two paths at a small distance, whose quotients are looked
+up in a table. Then only paths of the other dials remain that are compatible with all chosen ones, and the dial with
+the fewest paths is next. The search is complete, because every choice begins in one of these ways.
 """
 
 from __future__ import annotations
@@ -123,8 +122,8 @@ class PathColumns:
     def fit(self, rows: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
         """Return whether each path can be in one tree with a path to another dial, or with one of several paths.
 
-        Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared
-        arbor by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
+        Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared arbor
+        by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)

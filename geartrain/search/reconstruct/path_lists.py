@@ -1,8 +1,8 @@
 """Enumeration of all paths from the input to one dial through surviving arbors and wheels.
 
-Most paths are impossible, because the speed of the dial divided by the ratio of the surviving wheels must
-be a quotient of few added tooth counts. Few paths remain, and the search for trains visits only branches in
-which every dial still has a path.
+Most paths are impossible, because the speed of the dial divided by the ratio of the surviving wheels must be a quotient
+of few added tooth counts. Few paths remain, and the search for trains visits only branches in which every dial still
+has a path.
 """
 
 from __future__ import annotations
@@ -252,8 +252,8 @@ class PathList:
 
     along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
 
-    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided;
-                        , shape (rows, arbors)
+    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; , shape
+                         (rows, arbors)
     arbors               bit mask of the surviving arbors on the path, bit i - 1 for arbor i
     idle                 bit mask of the arbors with unused surviving wheels that must mesh
     ends_new             True if the arbor of the dial is added

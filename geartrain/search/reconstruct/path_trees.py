@@ -1,7 +1,7 @@
 """Recursive enumeration of all topologies that have one given path for each dial, each topology once.
 
-Surviving arbors that two paths share are above their branching. The remaining choices are the number of
-added arbors on each chain, the added arbors at which paths separate, and the shared added driving wheels.
+Surviving arbors that two paths share are above their branching. The remaining choices are the number of added arbors on
+each chain, the added arbors at which paths separate, and the shared added driving wheels.
 """
 
 from __future__ import annotations
@@ -44,8 +44,7 @@ def dial_partitions(
 
     Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
 
-    arbors   bit mask of the surviving arbors on the path to each dial; dials with a common arbor stay in one
-             block
+    arbors   bit mask of the surviving arbors on the path to each dial; dials with a common arbor stay in one block
     """
     for chosen in product(*(ways[dial] for dial in dials)):
         by_way: dict[str, list[str]] = {}

@@ -1,9 +1,8 @@
-"""Additive hashing of positive rationals, so that millions of quotients are looked up at once in sorted
-tables.
+"""Additive hashing of positive rationals, so that millions of quotients are looked up at once in sorted tables.
 
-The key of a number is the sum of fixed random 64-bit words, one for each of its prime factors, modulo 2^64.
-Equal numbers have equal keys. Different numbers have equal keys with probability 2^-64. Such a collision
-only lets the search explore a branch without solutions, so no result depends on it.
+The key of a number is the sum of fixed random 64-bit words, one for each of its prime factors, modulo 2^64. Equal
+numbers have equal keys. Different numbers have equal keys with probability 2^-64. Such a collision only lets the search
+explore a branch without solutions, so no result depends on it.
 """
 
 from __future__ import annotations

@@ -85,8 +85,8 @@ class ReconstructionRequest(Shown):
 class ReconstructionRun:
     """Callbacks and executors of the long parts of a reconstruction.
 
-    The default runs every part in this process and to its end. The command overrides the methods to show
-    progress, to write journals, and to let the user interrupt a part.
+    The default runs every part in this process and to its end. The command overrides the methods to show progress, to
+    write journals, and to let the user interrupt a part.
     """
 
     def begin(self, problem: ReconstructionProblem) -> None:

@@ -1,8 +1,7 @@
 """Problem of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, limits of additions.
 
-Speeds are exact, in turns per unit of the input arbor, and signed. The input arbor turns at `input_speed`.
-Lengths are exact, in millimetres. All axes are parallel, so the position of an arbor is a point in the
-plan.
+Speeds are exact, in turns per unit of the input arbor, and signed. The input arbor turns at `input_speed`. Lengths are
+exact, in millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
 """
 
 from __future__ import annotations
@@ -268,8 +267,8 @@ class ReconstructionProblem(Shown):
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
     """Pairs of names of arbors on one axis. Wheels of such a pair, including added ones, do not mesh."""
     use: Literal["wheels", "arbors", "some"] = "wheels"
-    """Use of surviving parts: "wheels" if every wheel must mesh, "arbors" if every arbor must be in the train,
-    "some" if neither is required.
+    """Use of surviving parts: "wheels" if every wheel must mesh, "arbors" if every arbor must be in the train, "some"
+    if neither is required.
     """
     idlers: bool = False
     """True if a driven wheel may also drive (an idler)."""
@@ -427,8 +426,7 @@ def _plain(value: object) -> object:
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
     """Return the measurements of the evidence; `NO_GEOMETRY` if it has no block `geometry`.
 
-    Raise `DeclarationError` for a module that is not above 0, and for an arbor with a position if there is a
-    ring.
+    Raise `DeclarationError` for a module that is not above 0, and for an arbor with a position if there is a ring.
     """
     assert evidence.reconstruct is not None, "no evidence"
     requested = evidence.reconstruct.geometry

@@ -73,8 +73,7 @@ _GOLDEN = (5**0.5 - 1) / 2
 class OrderPart(NamedTuple):
     """Orders of one topology that all have the same choices of added tooth counts.
 
-    A train is one of the orders with one of the choices. The marginals of the orders are `NamedMesh` and
-    `AddedPlace`.
+    A train is one of the orders with one of the choices. The marginals of the orders are `NamedMesh` and `AddedPlace`.
     """
 
     open: OpenCounts
@@ -301,8 +300,7 @@ def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
 def _search(problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTrains]:
     """Return the cached search of a problem.
 
-    Path lists are made once per process. The cache key is the digest of the problem, which need not be
-    hashable.
+    Path lists are made once per process. The cache key is the digest of the problem, which need not be hashable.
     """
     digest = question_digest(problem)
     if digest not in _SEARCHES:
@@ -389,8 +387,7 @@ def _refuse_absurd(problem: ReconstructionProblem) -> None:
 
 
 def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) -> None:
-    """Raise `QuestionError` if the expected time, extrapolated by the ratio of the last two times, exceeds
-    `_LONGEST`.
+    """Raise `QuestionError` if the expected time, extrapolated by the ratio of the last two times, exceeds `_LONGEST`.
 
     seconds   times [s] for increasing numbers of added wheels, from the first number that is timed
     """

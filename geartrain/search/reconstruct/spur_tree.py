@@ -1,7 +1,7 @@
 """Parts of a train that a reconstruction can find: trees of arbors on the frame or on one carrier.
 
-Spur wheels and rings connect the arbors. Links that a pin and slot joins are one arbor. A part without some
-of its arbors is evidence with a known answer, so it measures how much the evidence determines.
+Spur wheels and rings connect the arbors. Links that a pin and slot joins are one arbor. A part without some of its
+arbors is evidence with a known answer, so it measures how much the evidence determines.
 """
 
 from __future__ import annotations
@@ -226,12 +226,11 @@ class SpurTree:
 def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
     """Return all parts of a train that lead to pointers, the part that begins at the input first.
 
-    A pointer is an output with a target whose speed is known by `expect` or by a target with a tolerance. If no
-    pointer follows an arbor of known speed, that arbor is a pointer. Arbors that lead to no pointer belong to
-    no part.
+    A pointer is an output with a target whose speed is known by `expect` or by a target with a tolerance. If no pointer
+    follows an arbor of known speed, that arbor is a pointer. Arbors that lead to no pointer belong to no part.
 
-    Raise `QuestionError` if the train has no such part, because it has no single input, no pointer is reached,
-    or its meshes close a loop.
+    Raise `QuestionError` if the train has no such part, because it has no single input, no pointer is reached, or its
+    meshes close a loop.
     """
     _check_input(train)
     parts = _Parts(train)
@@ -485,15 +484,13 @@ def _joined(parts: Sequence[str]) -> str:
 def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Train:
     """Return the evidence that remains of a tree if some arbors are lost.
 
-    The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between
-    them. Every pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost.
-    Their tooth counts have the range of the first part, or for a later part the range of all parts.
+    The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between them.
+    Every pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost. Their tooth
+    counts have the range of the first part, or for a later part the range of all parts.
 
-    lost   links; `QuestionError` is raised for the first arbor, for a link that is not in the tree, and for an
-           arbor
+    lost   links; `QuestionError` is raised for the first arbor, for a link that is not in the tree, and for an arbor
            with a ring
-    seen   True if meshes of surviving wheels are known and no more arbors may be added than are lost; otherwise
-           meshes
+    seen   True if meshes of surviving wheels are known and no more arbors may be added than are lost; otherwise meshes
            are unknown
     """
     return declare(lost_evidence_data(tree, lost, seen))

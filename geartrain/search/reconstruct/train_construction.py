@@ -24,9 +24,9 @@ from geartrain.train.yaml_nodes import as_yaml
 def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, float | None]:
     """Return the modules [mm] to declare for measured wheels whose measured module does not apply.
 
-    Wheels that mesh share one module. The first measured wheel of a group has the geometric mean of the
-    measured modules, and its mates have None, because their modules follow from it. All wheels of a group have
-    None if the positions of two axes determine the module.
+    Wheels that mesh share one module. The first measured wheel of a group has the geometric mean of the measured
+    modules, and its mates have None, because their modules follow from it. All wheels of a group have None if the
+    positions of two axes determine the module.
     """
     mates = _meshing(train)
     placed = {

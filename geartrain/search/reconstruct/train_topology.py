@@ -1,7 +1,7 @@
 """Topology of a train: a rooted tree of arbors without the tooth counts of added wheels.
 
-The arbors between two branchings form a chain and have no order. A topology is therefore an equivalence
-class of trains, up to the order of arbors on chains and the counts of added wheels.
+The arbors between two branchings form a chain and have no order. A topology is therefore an equivalence class of
+trains, up to the order of arbors on chains and the counts of added wheels.
 """
 
 from __future__ import annotations
@@ -66,8 +66,8 @@ class ArborPass:
 def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Iterator[ArborPass]:
     """Yield all pairs of wheels by which a path can pass through a surviving arbor or end at it.
 
-    An added wheel on an arbor with surviving wheels can only drive. On an arbor without surviving wheels the
-    driven wheel is added.
+    An added wheel on an arbor with surviving wheels can only drive. On an arbor without surviving wheels the driven
+    wheel is added.
     """
     beside = problem.additions.on == "any" and problem.additions.wheels > 0
     is_input = arbor is problem.input

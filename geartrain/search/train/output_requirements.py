@@ -161,8 +161,7 @@ class OutputRequirement:
 
 
 def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
-    """Yield the conditions for a train to turn: loops must close, and links must not be driven in contradictory
-    ways.
+    """Yield the conditions for a train to turn: loops must close, and links must not be driven in contradictory ways.
 
     Raise `QuestionError` if the train cannot turn with any counts.
     """
@@ -283,8 +282,8 @@ class TrainRequirements:
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
     """Return the admissible counts of each varied wheel, ascending, in the order of declaration.
 
-    `free` is the argument of `search_train`. Raise `QuestionError` if no wheel is varied, or if one has no
-    range of counts.
+    `free` is the argument of `search_train`. Raise `QuestionError` if no wheel is varied, or if one has no range of
+    counts.
     """
     if isinstance(free, str) and free not in ("search", "uncertain"):
         free = [free]

@@ -1,7 +1,7 @@
 """One pass of a search over a part of a train: its requirements as a join, divided into tasks, and run.
 
-If there are very many assignments only the best are kept. Bounds in floats discard most others, and exact
-errors sort the rest.
+If there are very many assignments only the best are kept. Bounds in floats discard most others, and exact errors sort
+the rest.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
     """Return the tasks of a pass, and the fraction of the pass that they cover, below 1 if the limit of steps is
     exceeded.
 
-    Tasks are runs of the values of the first variable, and of its child in the plan if the first has few
-    values. If the limit is exceeded, the tasks are a random sample with a fixed seed.
+    Tasks are runs of the values of the first variable, and of its child in the plan if the first has few values. If the
+    limit is exceeded, the tasks are a random sample with a fixed seed.
     """
     if question.steps <= _SMALL <= limit:
         return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
@@ -118,12 +118,12 @@ def _unpacked(packed: bytes) -> tuple[PassWork, ExactJoin]:
 def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
     """Run one task of a search, which covers a part of the values of some variables.
 
-    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts of the values of a variable;
-           `budget`: maximum number of steps;
-           `pieces`: number of pieces, so that the results of finished pieces remain if the budget is exceeded
+    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts of the values of a variable; `budget`:
+           maximum number of steps; `pieces`: number of pieces, so that the results of finished pieces remain if the
+           budget is exceeded
 
-    The result has the keys `count`, `removed` (one number for each constraint), `listed` (True if `best` is
-    complete), `best` (counts in the order of the wheels), `steps`, and `cut` (True if the budget was exceeded).
+    The result has the keys `count`, `removed` (one number for each constraint), `listed` (True if `best` is complete),
+    `best` (counts in the order of the wheels), `steps`, and `cut` (True if the budget was exceeded).
     """
     work, join = _unpacked(packed)
     total: dict[str, Any] = {"count": 0, "removed": [0] * len(work.question.reasons), "listed": True, "cut": False}

@@ -36,8 +36,8 @@ class ReachedSpeed(Result):
     label: str
     """Description of the requirement with the maximum error, such as "period 583.92 d"."""
     error: Fraction
-    """Relative error with respect to that requirement: |speed| / requested - 1 for a target, speed / expected - 1
-    for an `expect`, or the speed itself if 0 is expected.
+    """Relative error with respect to that requirement: |speed| / requested - 1 for a target, speed / expected - 1 for
+    an `expect`, or the speed itself if 0 is expected.
     """
     met: bool
     """True if the output satisfies all its requirements."""
@@ -280,9 +280,8 @@ class TrainFindings(Tabular, Result):
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
     """Yield the best combinations of one solution from each part, best first, by a search with a priority queue.
 
-    The solutions of every part are sorted, so the next best combination is one step in one part from a
-    combination that was already visited. Numbers of distinct counts do not add over parts, so that order is
-    only approximate.
+    The solutions of every part are sorted, so the next best combination is one step in one part from a combination that
+    was already visited. Numbers of distinct counts do not add over parts, so that order is only approximate.
     """
     if not parts or not all(parts):
         return

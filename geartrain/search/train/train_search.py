@@ -33,8 +33,8 @@ from geartrain.train import Train
 
 
 _LISTED = 100_000
-"""Maximum number of assignments that are enumerated to find the best by error. If there are more, the
-tolerance is reduced.
+"""Maximum number of assignments that are enumerated to find the best by error. If there are more, the tolerance is
+reduced.
 """
 _TRIES = 40  # maximum number of passes with different tolerances
 _MINIMUM = Fraction(1, 10**40)  # smaller tolerances include nothing, tolerances above `_WIDEST` include everything
@@ -69,8 +69,8 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
     long   a tolerance that includes too many to list; None if none is known
     some   approximate number of assignments it should include
 
-    If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it
-    can enumerate within its limit.
+    If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
+    enumerate within its limit.
     """
     short = Fraction(0)
     for _ in range(_TRIES):

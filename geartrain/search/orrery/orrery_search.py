@@ -453,8 +453,8 @@ class BeamSearch:
     """Beam search that adds targets to trees and keeps the `width` best trees with the same number of targets.
 
     A move drives a target directly, or adds an arbor together with all targets that one pair can drive from it. Wheels
-    that a new pair can share with pairs on the same arbor are counted when moves are ranked: for all moves by least
-    common multiples in numpy, and exactly for the selected ones. The search is deterministic.
+    that a new pair can share with pairs on the same arbor are counted when moves are ranked: approximately for all
+    moves, by common multiples in numpy, and exactly for the selected ones. The search is deterministic.
     """
 
     def __init__(

@@ -86,7 +86,7 @@ class WillisSystem(Shown):
     """Names of redundant pairs, which close loops with ratio product 1; empty if not determined."""
 
     def __str__(self) -> str:
-        """Return the equations as text, one per line, as printed by `geartrain equations`."""
+        """Return the equations as printed by `geartrain inspect equations`."""
         return self.text()
 
     def _summary(self) -> str:

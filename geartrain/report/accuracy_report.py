@@ -38,7 +38,7 @@ def describe_accuracy(found: AccuracyReport) -> Document:
 
 
 def accuracy_document(found: TrainAccuracy) -> Document:
-    """Return the output of `geartrain bench` for one state."""
+    """Return the output of `geartrain inspect bench` for one state."""
     return describe_accuracy(
         AccuracyReport("" if found._declaration is None else found._declaration.name, "", (found,))
     )

@@ -77,14 +77,14 @@ def _of_trains() -> dict[str, Schema]:
         "solve": shape_of(TrainAnswers),
         "report": _list(report),
         "compare": _list(report),
-        "formula": shape_of(FormulaReport),
+        "inspect formula": shape_of(FormulaReport),
         "gearbox": shape_of(Gearbox),
         "gearbox --search": shape_of(GearSearch),
         "torques": shape_of(TorqueReport),
         "motion": shape_of(MotionFigures),
-        "bench": shape_of(AccuracyReport),
-        "graph --as matrix": shape_of(LabelledArray),
-        "graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
+        "inspect bench": shape_of(AccuracyReport),
+        "inspect graph --as matrix": shape_of(LabelledArray),
+        "inspect graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
     }
 
 
@@ -120,11 +120,11 @@ def _of_pairs() -> dict[str, Schema]:
     from geartrain.teeth.pair_results import PinFigures
 
     return {
-        "mesh triangular": shape_of(TriangularPair),
-        "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
-        "mesh pin": shape_of(PinFigures),
-        "mesh FORM": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
-        "mesh compare": shape_of(FormComparison),
+        "mesh --form triangular": shape_of(TriangularPair),
+        "mesh --form triangular --vary": shape_of(list[dict[str, float | str | None]]),
+        "pin": shape_of(PinFigures),
+        "mesh": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
+        "mesh --compare": shape_of(FormComparison),
     }
 
 
@@ -450,7 +450,7 @@ def declaration_reference() -> str:
     lines = [
         "# The declaration, key by key",
         "",
-        "Written by `geartrain schema --as markdown` from the models that read the files.",
+        "Written by `geartrain inspect schema --as markdown` from the models that read the files.",
         "",
         *_part("Train", found),
     ]

@@ -416,7 +416,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
     if still := [name for name in motion.outputs if name not in moved]:
         text.append(f"No pair affects {', '.join(still)}.")
     if neglected := moved[len(shown) :]:
-        text.append(f"Not shown: {', '.join(neglected)}; `--wide` or `--output` shows them.")
+        text.append(f"Not shown: {', '.join(neglected)}; `--wide` or `--of` shows them.")
     # a table with all outputs would be too wide
     blocks = [shown[at : at + _ABREAST] for at in range(0, len(shown), _ABREAST)]
     return Section("Pairs", tuple(text), tuple(_shares(motion, outputs) for outputs in blocks or [[]]))

@@ -176,27 +176,25 @@ def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> Conjugat
 def arcs_error(text: str) -> QuestionError:
     """Return the error for arcs of contact that are out of range."""
     why = f"arcs of approach and recess are numbers from 0 to {_MOST_PITCHES:g}, and not both 0"
-    fix = "give two arcs in pitches with a sum of 1 or more, such as `--arcs 0.5,0.5`"
-    return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "--arcs"))
+    fix = "give two arcs in pitches with a sum of 1 or more, such as 0.5,0.5"
+    return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "arcs"))
 
 
 def _check(
     known: Mapping[str, object], names: Sequence[str], arcs: tuple[float, float], angle: Quantity | None
 ) -> None:
     if not names:
-        raise QuestionError(
-            Problem("no tooth form is given", "", f"give one or more of: {', '.join(known)}", "--forms")
-        )
+        raise QuestionError(Problem("no tooth form is given", "", f"give one or more of: {', '.join(known)}"))
     for name in names:
         if name not in known:
             fix = suggest(name, list(known), otherwise=f"give one or more of: {', '.join(known)}", wide=True)
-            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix, "--forms"))
+            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix))
     if not 0 <= min(arcs) <= max(arcs) <= _MOST_PITCHES or sum(arcs) <= 0:
         raise arcs_error(",".join(f"{arc:g}" for arc in arcs))
     if angle is not None and not 0 < angle.base < _EIGHTH:
         why = "from 45 deg on, the pressure angle does not determine teeth of uniform stress"
-        fix = "give an angle between 0 and 45 deg, such as `--pressure-angle 20deg`"
-        raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "--pressure-angle"))
+        fix = "give an angle between 0 and 45 deg, such as 20 deg"
+        raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "pressure_angle"))
 
 
 def _reference_error(base: MeasuredForm) -> QuestionError:
@@ -207,7 +205,7 @@ def _reference_error(base: MeasuredForm) -> QuestionError:
     what = "the 20 deg involute, the reference of the comparison, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
     return QuestionError(
-        Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "--arcs")
+        Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "arcs")
         for fault, fix in zip(base.faults, fixes, strict=True)
     )
 

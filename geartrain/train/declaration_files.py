@@ -347,7 +347,7 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
 def _suggestion(name: str, evidence: bool) -> str:
     """Suggest a correction for a name that is not shipped as evidence or as a train."""
     if evidence and name in shipped():
-        return f"it is a shipped train: name lost arbors by `--without ARBOR`, or give evidence: {_evidence_names()}"
+        return f"it is a shipped train: name lost arbors by `--lost ARBOR`, or give evidence: {_evidence_names()}"
     if not evidence and name in shipped_evidence():
         return f"it is evidence: `geartrain reconstruct {name}` finds the trains that explain it"
     if evidence:

@@ -196,7 +196,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
         return Problem(f"{_where(loc)} is not {_SHAPES[kind]}", got, f"write {_SHAPES[kind]}", place(loc))
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
-    return Problem(what, got, "see `geartrain schema`", place(loc))
+    return Problem(what, got, "see `geartrain inspect schema`", place(loc))
 
 
 def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:

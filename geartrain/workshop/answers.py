@@ -16,5 +16,5 @@ def answers() -> dict[str, Any]:
         "montecarlo": MonteCarloResult,
         "budget": TrainBudget,
         "optimise": BestTrainSizes,
-        "mesh triangular --best": BestToothSizes,
+        "mesh --form triangular --objective": BestToothSizes,
     }

@@ -74,7 +74,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
 def test_everything_that_can_be_requested_stands_in_one_document(train_file: Write, here: Path) -> None:
     found = ask(
         train_file(PAIR),
-        *("--trials", 128, "--output", "b", "--clearance", "1.01:1.03:2", "--sobol"),
+        *("--trials", 128, "--of", "b", "--clearance", "1.01:1.03:2", "--sobol"),
         "--json",
     )
     assert found.exit_code == 0, found.output
@@ -177,7 +177,7 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
         (("--set", "x9.pitch_deviation=3 %"), "wheel 'x9'"),
         (("--set", "p.centre=3 %"), "pair 'p'"),
         (("--set", "pitch_deviation=0"), "declares no errors"),
-        (("--output", "nothing"), "no output or link"),
+        (("--of", "nothing"), "no output or link"),
         (("--state", "fast"), "no state"),
         (("--clearance", "1.03:1.01:3"), "not a sweep"),
         (("--clearance", "0.5:1.5:3"), "not a sweep"),

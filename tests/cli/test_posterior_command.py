@@ -74,7 +74,7 @@ def test_counts_are_freed_held_and_weighed_by_options(train: Path) -> None:
     assert plain["wheels"]["v"]["counts"] == [57, 59, 60, 61]
     assert plain["wheels"]["w"]["counts"] == [20]
     assert plain["combinations"] == 4
-    assert json.loads(call("posterior", train, "--soft", "--json").stdout)["soft"] is True
+    assert json.loads(call("posterior", train, "--gaussian", "--json").stdout)["soft"] is True
     tight = json.loads(call("posterior", train, "--scale", "0", "--json").stdout)
     assert {(one["teeth"]["w"], one["teeth"]["v"]) for one in tight["best"]} == {(20, 60)}
 

@@ -1,4 +1,4 @@
-"""`--workers` and `--dask`: the same bytes whoever works, and one line on standard error that says who does."""
+"""`--workers` and `--workers`: the same bytes whoever works, and one line on standard error that says who does."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(tra
     train = train_file(PAIR)
     local, _ = ended("montecarlo", train, *MONTE_CARLO, "--workers", 1)
     with small_cluster() as cluster:
-        requested = command("montecarlo", train, *MONTE_CARLO, "--dask", cluster.scheduler_address)
+        requested = command("montecarlo", train, *MONTE_CARLO, "--workers", cluster.scheduler_address)
         victim = next(iter(cluster.workers.values())).pid
         running = subprocess.Popen(requested, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
         until(lambda: any(tmp_path.glob("*.partial.jsonl")), "the run to begin")
@@ -91,7 +91,7 @@ def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(tra
 
 
 def test_both_workers_and_a_cluster_are_refused(train_file: Write) -> None:
-    requested = command("montecarlo", train_file(PAIR), "--workers", 2, "--dask", "tcp://127.0.0.1:1")
+    requested = command("montecarlo", train_file(PAIR), "--workers", 2, "--workers", "tcp://127.0.0.1:1")
     done = subprocess.run(requested, capture_output=True, text=True, check=False, timeout=PATIENCE)
     assert done.returncode == 2
     assert "both workers and a dask scheduler are given" in done.stderr

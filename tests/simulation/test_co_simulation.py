@@ -39,7 +39,7 @@ def _path_as_before() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def unit(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("fmu") / "moon.fmu"
-    done = call("export", TRAIN, "-o", out, "--rate", "1", "--restitution", "0.3", "--step", "0.00025s")
+    done = call("export", TRAIN, "-o", out, "--rate", "1", "--restitution", "0.3", "--time-step", "0.00025s")
     assert done.exit_code == 0, done.output
     return out
 

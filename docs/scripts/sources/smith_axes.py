@@ -63,7 +63,7 @@ def generatrix() -> Finding:
 def efficiencies() -> Finding:
     """Teeth alone: spur and bevel wheels of 24 and 36 teeth, and wheels on axes that cross under 90 degrees."""
     near = [
-        answer(f"mesh involute --teeth 24 36 --friction {friction}{bevel}")["efficiency"]["mean"]
+        answer(f"mesh 24 36 --friction {friction}{bevel}")["efficiency"]["mean"]
         for friction in DUDLEY
         for bevel in ("", " --bevel 90deg")
     ]

@@ -99,8 +99,7 @@ def read_constraint_options(
     largest_radius                       "60 mm", or "30" modules
     others          as in `ConstraintOptions`: coaxial, shift, minimum, maximum_teeth, different, hunting, closure
 
-    The options of a command have the same names, and `--no-coaxial` turns `coaxial` off. `QuestionError` is raised with
-    all texts that cannot be parsed.
+    `QuestionError` is raised with all texts that cannot be parsed, at the options of `geartrain teeth train`.
     """
     problems: list[Problem] = []
 
@@ -119,7 +118,7 @@ def read_constraint_options(
         "addendum": number("addendum", addendum),
         "ring_addendum": number("ring-addendum", ring_addendum),
         "largest_radius": _read(
-            problems, "largest-radius", largest_radius, lambda raw: Quantity.parse(raw, "length", plain=True)
+            problems, "max-radius", largest_radius, lambda raw: Quantity.parse(raw, "length", plain=True)
         ),
     }
     if problems:
@@ -135,7 +134,7 @@ def _read(problems: list[Problem], option: str, text: str | None, parse: Callabl
         return parse(text)
     except PydanticCustomError as error:
         fix = (error.context or {}).get("fix", "")
-        problems.append(Problem(f"--{option}: {error.message()}", "", str(fix)))
+        problems.append(Problem(error.message(), "", str(fix), f"--{option}"))
         return None
 
 

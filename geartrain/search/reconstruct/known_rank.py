@@ -29,9 +29,9 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, Reconstru
 from geartrain.search.reconstruct.reconstruction_search import (
     Reconstructions,
     is_all_listed,
-    prior,
     rank_of,
     train_key,
+    train_prior,
     weight_ranks,
 )
 from geartrain.search.reconstruct.train_construction import named_candidate
@@ -272,7 +272,7 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
         return None
     if not found.weights:
         return _listed_place(candidate, found)
-    weight = prior(candidate, problem)
+    weight = train_prior(candidate, problem)
     every = [(each.weight, each.solutions) for each in found.weights]
     alike = [(each.weight, each.solutions) for each in found.weights if each.added == added]
     whole = sum(own * number for own, number in every)

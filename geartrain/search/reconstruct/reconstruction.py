@@ -68,8 +68,8 @@ class ReconstructionRequest(Shown):
     """Number of trains to list; None lists all of them."""
     counts_only: bool = False
     """True if trains are counted but not listed."""
-    per: Literal["mechanism", "class"] = "mechanism"
-    """Unit of the prior: equal weights of every train, or of every equivalence class of trains with equal ratios."""
+    prior: Literal["solution", "class"] = "solution"
+    """Unit of the prior: one weight for every train, or one for every equivalence class of equal ratios."""
     sample: int = 0
     """Number of trains drawn at random, with their posterior probabilities."""
     seed: int = 1
@@ -256,7 +256,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
         0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
     )
     with run.search(problem, expected) as execution:
-        found = find_reconstructions(problem, execution, listing, request.per)
+        found = find_reconstructions(problem, execution, listing, request.prior)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
     listed = () if request.counts_only else found.candidates[: request.best]

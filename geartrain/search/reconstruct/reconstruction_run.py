@@ -47,7 +47,7 @@ class CommandRun(ReconstructionRun):
         tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in cost.paths.items())}")
         if seconds := rough(cost.whole):
             workers = self._options.workers
-            shared = f", shared by {workers} processes" if workers not in (None, 1) else ""
+            shared = f", shared by {workers} processes" if workers not in (None, "1") else ""
             timed = f"one part in {cost.parts} of the search was timed"
             tell(f"expected time: about {_duration_text(seconds)} in one process{shared}; {timed}")
 

@@ -126,7 +126,7 @@ def find_reconstructions(
     problem: ReconstructionProblem,
     execution: Execution | None = None,
     listed: int = 1000,
-    per: Literal["mechanism", "class"] = "mechanism",
+    prior: Literal["solution", "class"] = "solution",
 ) -> Reconstructions:
     """Count all explanations with up to the maximum number of added wheels, and list the most probable.
 
@@ -138,7 +138,7 @@ def find_reconstructions(
         Executor of the parts of the search. By default they run one after the other in this process.
     listed : int
         Minimum number of candidates to list; fewer if there are not as many.
-    per : {"mechanism", "class"}
+    prior : {"solution", "class"}
         Unit of the prior: one weight for every train, or one for every ratio class, which its trains share.
 
     Returns
@@ -160,7 +160,7 @@ def find_reconstructions(
     found: dict[int, list[CountedTopology]] = {added: [] for added in range(problem.additions.wheels + 1)}
     whole: set[int] = set()
     geometry = problem.geometry
-    one_by_one = per == "class" or bool(geometry.wheels or geometry.arbors)
+    one_by_one = prior == "class" or bool(geometry.wheels or geometry.arbors)
     try:
         for part in count_topologies(problem, execution):
             found[part.added] += part.topologies
@@ -170,7 +170,7 @@ def find_reconstructions(
         found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
-        return _weighed_one_by_one(problem, found, complete, per)
+        return _weighed_one_by_one(problem, found, complete, prior)
     counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
     weights = tuple(_weight_classes(problem, found))
@@ -239,14 +239,14 @@ def _written_out(value: object) -> str:
 
 
 def _weighed_one_by_one(
-    problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, per: str
+    problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior: str
 ) -> Reconstructions:
     """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
         what = f"{number} trains would have to be weighted one by one, more than {_LISTED}"
         why = "weights per class and weights of measured sizes need every train"
-        fix = "add fewer wheels (-k), or use `--per mechanism` without `geometry`"
+        fix = "add fewer wheels (--max-added), or use `--prior solution` without `geometry`"
         raise QuestionError(Problem(what, why, fix))
     counts, weighed = [], []
     for added, topologies in found.items():
@@ -254,13 +254,13 @@ def _weighed_one_by_one(
         for arbor in (arbor for each in topologies for arbor in _trains(each, problem)):
             likelihood = candidate_likelihood(arbor, problem.geometry)
             if likelihood:
-                own.append((float(prior(arbor, problem)) * likelihood, added, arbor))
+                own.append((float(train_prior(arbor, problem)) * likelihood, added, arbor))
         arbors = [arbor for _, _, arbor in own]
         counts.append(
             ExplanationCount(added, len(own), len({*map(arbor_multiset, arbors)}), len({*map(ratio_class, arbors)}))
         )
         weighed += own
-    if per == "class":
+    if prior == "class":
         classes: dict[object, int] = {}
         for _, _, arbor in weighed:
             classes[ratio_class(arbor)] = classes.get(ratio_class(arbor), 0) + 1
@@ -311,7 +311,7 @@ def draw_candidates(
         if not sum(each.solutions for each in found.counts):
             return ()
         what = "trains cannot be sampled if they are weighted one by one"
-        fix = "list them instead (--all), or use `--per mechanism` without `geometry`"
+        fix = "list them instead (--all), or use `--prior solution` without `geometry`"
         raise QuestionError(Problem(what, "sampling needs sums over trains of equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
@@ -347,7 +347,7 @@ def topology_prior(topology: Topology, problem: ReconstructionProblem) -> Fracti
     return added * survivors_prior(problem, topology.used)
 
 
-def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
+def train_prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
     """Return the prior weight of a candidate, up to a common factor."""
     used = [wheel for wheel in arbor.wheels() if wheel.name is not None]
     return added_prior(problem, arbor.added_wheels, arbor.added_arbors) * survivors_prior(problem, used)

@@ -244,7 +244,7 @@ class StrengthQuestion:
         """Return omitted pairs in the order of the declaration, then arbors, then variation of torques."""
         swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
-            why = "stresses follow from mean torques; `--over` uses the maximum over some turns"
+            why = "stresses follow from mean torques; `--peak-turns` uses the maximum over some turns"
             for each in swinging:
                 self.neglected[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
         order = {gear.name: at for at, gear in enumerate(self.declared.gears)}

@@ -181,8 +181,8 @@ def _shallow_root(gear: int, overlap: float) -> Problem:
     return Problem(
         f"the root of gear {gear} interferes with its mate's tip",
         f"they overlap by {overlap:.4g} modules at this centre distance",
-        "give a larger --dedendum or a smaller --addendum",
-        "--dedendum",
+        "give a larger dedendum or a smaller addendum",
+        "dedendum",
     )
 
 

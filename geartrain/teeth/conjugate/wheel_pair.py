@@ -147,6 +147,6 @@ class WheelPair(Shown):
             raise refused(
                 f"the {name} {length.text} cannot be converted to modules",
                 "the wheels declare no module with a unit",
-                f"give the `module` of both wheels, --module to `export`, or the {name} as a plain number of modules",
+                f"give the `module` of both wheels (option --module), or the {name} as a plain number of modules",
             )
         return length.si / self.module

@@ -300,7 +300,7 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
             f"gear {demand.gear} cannot have a root circle",
             f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
             "give less clearance, or thinner teeth by more backlash",
-            "--clearance",
+            "--blank clearance",
         )
     )
 

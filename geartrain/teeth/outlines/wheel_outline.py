@@ -59,12 +59,12 @@ class BlankSizes:
         above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
         minimum = {"fillet": self.fillet, "clearance": self.clearance}
         problems = [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--blank {name}")
             for name, value in above.items()
             if value is not None and not (isfinite(value) and value > 0)
         ]
         problems += [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--blank {name}")
             for name, value in minimum.items()
             if value is not None and not (isfinite(value) and value >= 0)
         ]
@@ -258,7 +258,7 @@ def _fillet_too_large(gear: int, requested: float, fits: float) -> QuestionError
             f"a fillet of {requested:g} mm does not fit the root of gear {gear}",
             "a larger fillet would touch the mate's tips or the next tooth",
             f"give at most {fits:.4g} mm, or more clearance",
-            "--fillet",
+            "--blank fillet",
         )
     )
 
@@ -268,10 +268,10 @@ def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
     teeth = tooth.whole().scaled(cut.module)
     if tooth.flank.outward > 0:
         if cut.rim is not None:
-            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --rim", "--rim"))
+            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --blank rim", "--blank rim"))
         return [teeth, *bore(cut, tooth.root * cut.module)]
     if cut.bore is not None:
-        raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --bore", "--bore"))
+        raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --blank bore", "--blank bore"))
     return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
 
 
@@ -286,7 +286,7 @@ def bore(cut: BlankSizes, root: float) -> list[Contour]:
                 f"a bore of {cut.bore:g} mm does not fit",
                 f"the wheel's root circle has a diameter of {2 * root:.4g} mm",
                 f"give less than {most:.4g} mm",
-                "--bore",
+                "--blank bore",
             )
         )
     return [Contour.circle(cut.bore / 2)]

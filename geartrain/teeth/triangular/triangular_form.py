@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-_CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance", "window")
+CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance", "window")
+"""Parameters of which exactly one gives the clearance."""
 _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
@@ -97,12 +98,12 @@ class Triangular(ToothForm):
                         "fix": "give a half aperture angle between 0 and 90 deg, at least 0.001 deg",
                     },
                 )
-        given = [name for name in _CLEARANCES if getattr(self, name) is not None]
+        given = [name for name in CLEARANCES if getattr(self, name) is not None]
         if len(given) != 1:
             raise PydanticCustomError(
                 "clearance",
                 "the clearance is given {count} times",
-                {"count": len(given), "fix": f"give exactly one of: {', '.join(_CLEARANCES)}"},
+                {"count": len(given), "fix": f"give exactly one of: {', '.join(CLEARANCES)}"},
             )
         self._check_clearance()
         self._check_lengths()
@@ -119,7 +120,7 @@ class Triangular(ToothForm):
                 continue
             inside = figure.value > low if high is None else low <= figure.value <= high
             if not inside:
-                name = next(name for name in _CLEARANCES if getattr(self, name) is figure)
+                name = next(name for name in CLEARANCES if getattr(self, name) is figure)
                 raise PydanticCustomError(
                     "clearance", "{name} {text} is out of range", {"name": name, "text": figure.text, "fix": fix}
                 )
@@ -156,7 +157,7 @@ class Triangular(ToothForm):
         """Return the parameters with defaults for missing ones: equilateral teeth in the middle of the clearance
         window.
         """
-        placed = {} if any(name in parameters for name in _CLEARANCES) else {"window": "0.5"}
+        placed = {} if any(name in parameters for name in CLEARANCES) else {"window": "0.5"}
         return {"half_angle": "30 deg", **placed, **parameters}
 
     @property

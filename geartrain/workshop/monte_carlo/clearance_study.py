@@ -51,20 +51,21 @@ class ClearanceCase(Result):
 
 
 def read_clearances(text: str) -> list[float]:
-    """Return the clearances of a sweep START:END:COUNT: factors (`1.005:1.04:8`) or fractions of windows
-    (`0.1:0.9:9`).
-    """
-    first, last, many = [*text.split(":"), "", ""][:3]
+    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9`; windows are below 1, factors are not."""
+    name, _, rest = text.partition("=")
+    bounds = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0)}.get(name.strip())
     try:
-        low, high, count = float(first), float(last or first), int(many or (1 if not last else 9))
+        first, last, many = rest.split(":")
+        low, high, count = float(first), float(last), int(many)
     except ValueError:
-        low, high, count = -1.0, -1.0, 0
-    if text.count(":") > 2 or not 0 <= low <= high < 10 or not 1 <= count <= _MOST or (low < 1 <= high):
+        low, high, count = 0.0, 0.0, 0
+    if bounds is None or not bounds[0] <= low <= high < bounds[1] or not 1 <= count <= _MOST:
         why = (
-            "a sweep is MINIMUM:MAXIMUM:COUNT, both clearance factors (1 to 10) or both fractions of the clearance "
-            f"window (0 to 1), with a count up to {_MOST}"
+            "a sweep is NAME=FIRST:LAST:COUNT of clearance_factor (1 to 10) or window (0 to 1), with a count up to "
+            f"{_MOST}"
         )
-        raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, "give --clearance 1.005:1.04:8"))
+        fix = "give --vary clearance_factor=1.005:1.04:8"
+        raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, fix, "--vary"))
     return [float(each) for each in np.linspace(low, high, count)]
 
 

@@ -145,7 +145,7 @@ def errors_figure(trials: TrialResults) -> Figure:
 
 def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str) -> Figure:
     """Draw bands of pointer errors along one turn of each evaluated pointer."""
-    _require(courses, "no pointer was followed along a turn", "name the outputs to follow: --output NAME")
+    _require(courses, "no pointer was followed along a turn", "name the outputs to follow: --of NAME")
     return pointer_error_figure(
         {each.name: ErrorBands.of(each.turns, np.degrees(each.errors)) for each in courses}, driving_link
     )
@@ -284,7 +284,7 @@ def _largest_spreads(what: Mapping[str, _Given], spread: Callable[[_Given], floa
     straying = [name for name in what if spread(what[name]) > 0] or list(what)
     names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
     left, still = len(straying) - len(names), [name for name in what if name not in straying]
-    words = f"\n{left} pointers with smaller errors are not drawn: name them with --output" if left else ""
+    words = f"\n{left} pointers with smaller errors are not drawn: name them with --of" if left else ""
     if still:
         words += f"\nno error: {shorten(', '.join(still), _STILL, placeholder=' ...')}"
     return {name: each for name, each in what.items() if name in names}, words

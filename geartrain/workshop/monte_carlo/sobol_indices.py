@@ -127,7 +127,7 @@ def find_sobol_indices(
     if len(names) < 2:
         what = f"no wheel with errors moves '{plan.outputs[output]}'"
         why = "Sobol indices are shares of a variance, and the variance of this output is 0"
-        raise QuestionError(Problem(what, why, "name another output: --output NAME"))
+        raise QuestionError(Problem(what, why, "name another output: --of NAME"))
     rows: list[Any] = []
     # no journal: its tasks are identified by block and trials, and would be confused with those of the trials
     for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):

@@ -219,7 +219,7 @@ class TriangularTrialPair(TrialPair):
         if not window:
             what = f"pair '{self.name}' has no clearance window"
             why = "its perfect teeth jam or lose contact at every clearance"
-            raise RangeError(Problem(what, why, "give clearance factors above 1: --clearance 1.005:1.04:8"))
+            raise RangeError(Problem(what, why, "give clearance factors above 1: --vary clearance_factor=1.005:1.04:8"))
         return self.sizes.at(window.at(clearance))
 
 
@@ -281,7 +281,7 @@ class DisplacedTrialPair(TrialPair):
             what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
             why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"
             raise RangeError(
-                Problem(what, why, "omit --clearance, or give clearance factors above 1 if all axes are parallel")
+                Problem(what, why, "omit --vary, or give clearance factors above 1 if all axes are parallel")
             )
         return replace(self, contact=self.contact.apart_by((clearance - 1) * self.contact.distance))
 
@@ -449,7 +449,7 @@ def find_trial_plan(
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
         why = "perfect wheels are the same in every trial"
-        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set pitch_deviation='2 %'"
+        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting pitch_deviation='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))

@@ -195,7 +195,7 @@ def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
         Problem(
             f"in {uncut.any(axis=1).mean():.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'",
             f"errors must be smaller than a tooth: the angular pitch of '{wheel.name}' is {360 / wheel.z:.3g} deg",
-            "give smaller errors: --set pitch_deviation='2 %'",
+            "give smaller errors: --cutting pitch_deviation='2 %'",
         )
     )
 

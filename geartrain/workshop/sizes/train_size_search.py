@@ -169,7 +169,7 @@ class TrainSizeSearch:
         if not found:
             what = f"no pair with triangular teeth acts on '{self.output}'"
             why = "only pairs between the input and the output influence it, and only triangular teeth have free sizes"
-            fix = "give another --output, or declare `tooth_form: {form: triangular}`"
+            fix = "give another --of, or declare `tooth_form: {form: triangular}`"
             raise QuestionError(Problem(what, why, fix))
         return found
 

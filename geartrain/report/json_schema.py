@@ -1,8 +1,8 @@
 """JSON Schema (draft 2020-12) of the answers of all commands, and of the declaration.
 
-Keys of an answer follow from `geartrain.numerics.results`, kinds of values from annotations, and descriptions from
-docstrings. Additions of commands to a result are written by hand. The reference of the declaration is generated from
-its models.
+The keys of an answer are those of its result class (`geartrain.numerics.results`), the kinds of values follow from
+annotations, and descriptions are the docstrings of fields. Keys that a command adds to a result are written by hand.
+The reference of the declaration is generated from its models.
 """
 
 from __future__ import annotations
@@ -36,12 +36,11 @@ FLAG: Schema = {"type": "boolean"}
 
 
 def _list(item: Schema) -> Schema:
-    """Return the schema of a list whose items have one schema."""
     return {"type": "array", "items": item}
 
 
 def _has(keys: Schema) -> Schema:
-    """Return the schema of an object with all of these keys; a later version may add others."""
+    """Return the schema of an object that has at least these keys, because a later version may add others."""
     return {"type": "object", "required": list(keys), "properties": keys}
 
 
@@ -52,7 +51,7 @@ OBJECT: Schema = {"type": "object"}
 
 @cache
 def answers() -> dict[str, Schema]:
-    """Return the schema of each answer by question."""
+    """Return the schema of each JSON answer, by the name of the command or of the use of a command."""
     found = {**_of_trains(), **_of_spheres(), **_of_pairs()}
     for name in filter(has_wing, WINGS):
         found |= {question: shape_of(kind) for question, kind in wing(f"{name}.answers").answers().items()}
@@ -102,7 +101,7 @@ def _of_spheres() -> dict[str, Schema]:
 
 
 def _of_any_form(kind: type) -> Schema:
-    """Return the schema of a result on a pair with any tooth form, with the figures of each form."""
+    """Return the schema of a result on a pair of any tooth form: one alternative for each form's figures."""
     from geartrain.teeth.any_tooth_form import tooth_forms
 
     pair = shape_of(kind)
@@ -135,8 +134,8 @@ def answer_schema() -> Schema:
     Returns
     -------
     dict
-        Keys and kinds of values follow from the classes of the results, descriptions from the docstrings of their
-        fields. A question is a command, or a use of a command whose answer has another shape.
+        Keys and kinds of values are those of the result classes, and descriptions are the docstrings of their
+        fields. QUESTION is a command, or a use of a command whose answer has another shape.
 
     Examples
     --------
@@ -153,7 +152,7 @@ def answer_schema() -> Schema:
 
 
 def describe_answer(question: str) -> Document:
-    """Return the keys of one question's JSON answer as a table: key, kind of value, meaning.
+    """Return a table of the keys of one JSON answer: key, kind of value, and meaning.
 
     `states[]` are the entries of a list, `outputs.*` the values of an object with arbitrary keys.
 
@@ -213,7 +212,12 @@ _PLAIN: dict[Any, Schema] = {
 
 
 def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
-    """Return the schema of values of a kind as plain data; `to` and `keys` as in `Key`."""
+    """Return the JSON Schema of values with a type annotation.
+
+    kind   annotation of the values
+    to     function that converts a value to plain data
+    keys   keys to include, by default those of the class
+    """
     origin, parts = get_origin(kind), get_args(kind)
     if origin is Annotated and isinstance(parts[1], WingResult):
         result = parts[1].kind()
@@ -236,7 +240,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
 
 
 def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, ...]) -> Schema:
-    """Return the schema of a kind that is not a mapping, list or None."""
+    """Return the schema of a single value, as opposed to a union, mapping or list."""
     if to is not None:
         return shape_of(to) if isinstance(to, type) or to in _PLAIN else shape_of(_returned(to))
     if keys:
@@ -247,6 +251,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
         return _PLAIN[kind]
     if is_typeddict(kind):
         return _typed_dict(kind)
+    # a pydantic model
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
     if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # a class with its own `to_dict`
@@ -255,7 +260,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
 
 
 def _typed_dict(kind: Any) -> Schema:
-    """Return the schema of a dictionary with known keys, some of which may be optional."""
+    """Return the schema of a `TypedDict`, some of whose keys may be optional."""
     kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
     needed = {Required: True, NotRequired: False}
     required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
@@ -263,14 +268,15 @@ def _typed_dict(kind: Any) -> Schema:
 
 
 def _one_of(shapes: list[Schema]) -> Schema:
-    """Return the schema of a union without duplicates; a single schema is returned as it is."""
+    """Return the schema of a union without duplicate alternatives; a single alternative is returned unchanged."""
+    # nested unions become one list of alternatives
     flat = [each for shape in shapes for each in shape.get("anyOf", [shape])]
     different = [each for at, each in enumerate(flat) if each not in flat[:at]]
     return different[0] if len(different) == 1 else {"anyOf": different}
 
 
 def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
-    """Return the schema of a result: its keys, and the keys of the parts that are merged into it."""
+    """Return the schema of a result class: its own keys, and the keys of the parts that are merged into it."""
     properties: dict[str, Schema] = {}
     required = []
     for key in keys:
@@ -290,7 +296,7 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """Return the docstring of a field or property, `part.attribute` for one of a part; "" without docstring."""
+    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; "" without docstring."""
     first, _, rest = path.partition(".")
     if rest:
         parts = (part for part in _parts(attribute_kind(kind, first)) if part is not NoneType)
@@ -299,12 +305,11 @@ def meaning_of(kind: Any, path: str) -> str:
 
 
 def _parts(kind: Any) -> list[Any]:
-    """Return the members of a union, or a kind that is not a union as the only entry."""
+    """Return the members of a union; for any other annotation, a list with only itself."""
     return list(get_args(kind)) if get_origin(kind) in (Union, UnionType) else [kind]
 
 
 def _fields(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
-    """Return the schema of an object whose keys are the fields of a class."""
     meanings = field_docs(kind)
     described = {name: _described(each, meanings.get(name, "")) for name, each in properties.items()}
     return _object(described, required, kind)
@@ -320,7 +325,7 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 
 def _summary(what: Any) -> str:
-    """Return the first paragraph of a docstring on one line; "" for an object without a docstring of its own."""
+    """Return the first paragraph of a docstring as one line; "" for an object without a docstring of geartrain."""
     maker = getattr(what, "func", what)  # the function of a cached property
     own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
     text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
@@ -331,7 +336,9 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """Return the annotation of a field or property, `part.attribute` for one of a part. Raise `AttributeError`."""
+    """Return the annotation of a field or property, given as `attribute` or `part.attribute`. Raise
+    `AttributeError`.
+    """
     for name in path.split("."):
         kind = _own_kind(kind, name)
     return kind
@@ -354,11 +361,12 @@ def _returned(function: Any) -> Any:
 def _evaluated(annotation: Any, module: ModuleType) -> Any:
     if isinstance(annotation, ForwardRef):
         annotation = annotation.__forward_arg__
+    # annotations are strings, because modules import `annotations` from `__future__`
     return eval(annotation, {}, _Names(module)) if isinstance(annotation, str) else annotation
 
 
 class _Names(dict[str, Any]):
-    """Names in a module, including those that it imports only for annotations."""
+    """Names that are defined in a module, including those that it imports only for annotations."""
 
     def __init__(self, module: ModuleType) -> None:
         super().__init__(vars(builtins) | vars(module))
@@ -371,13 +379,13 @@ class _Names(dict[str, Any]):
 
 @cache
 def _imports(module: ModuleType) -> dict[str, str]:
-    """Return the module of origin of each name that a module imports, including imports only for annotations."""
+    """Return the source module of each name that a module imports, including imports only for annotations."""
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
 
 
 class DefaultsAsWritten(GenerateJsonSchema):
-    """Schema generator that writes numbers and quantities as in a declaration, not as pydantic's fields."""
+    """JSON Schema generator that writes default numbers and quantities as in a declaration file."""
 
     def encode_default(self, dft: Any) -> Any:
         """Return a default value as JSON data."""
@@ -408,7 +416,7 @@ _MERGED = (
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON Schema of a declaration for editors."""
+    """Return the JSON Schema of a declaration file, for editors."""
     found = {key: part for key, part in _models().items() if key not in ("title", "required")}
     for name in _MERGED:
         part = found["$defs"][name]
@@ -424,7 +432,7 @@ def _models() -> dict[str, Any]:
 
 
 def _without_sections(schema: Any) -> Any:
-    """Return a schema whose descriptions omit the numpydoc sections of docstrings."""
+    """Return a schema whose descriptions omit the numpydoc sections of the docstrings."""
     if isinstance(schema, list):
         return [_without_sections(part) for part in schema]
     if not isinstance(schema, dict):
@@ -436,7 +444,7 @@ def _without_sections(schema: Any) -> Any:
 
 
 def declaration_reference() -> str:
-    """Return tables of keys for the train and for each of its parts, as Markdown."""
+    """Return tables of the keys of a train and of each of its parts, as Markdown."""
     found = _models()
     parts: dict[str, Any] = found["$defs"]
     lines = [
@@ -480,7 +488,7 @@ def _text(field: Mapping[str, Any]) -> str:
 
 
 def _kind(field: Mapping[str, Any]) -> str:
-    """Return the permitted values of a field in a few words."""
+    """Return the permitted values of a field as text."""
     if "$ref" in field:
         name = field["$ref"].rsplit("/", 1)[-1]
         return f"[{name}](#{name.lower()})"

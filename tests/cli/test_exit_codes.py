@@ -231,7 +231,7 @@ def test_a_journal_of_another_question_is_refused_and_kept(
     text = kept.read_bytes()
     code, out, err = run(*CUT, "--trials", "2", "--seed", "8", "--resume")
     assert (code, out) == (2, "")
-    assert "the journal belongs to another question" in err
+    assert "the journal belongs to another run" in err
     assert "seed is 7 there and 8 here" in err
     assert kept.name in err
     assert kept.read_bytes() == text

@@ -134,7 +134,7 @@ def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path)
         requested | {"geartrain": "0.0.0"},
     ]
     for other in others:
-        with pytest.raises(QuestionError, match="another question"):
+        with pytest.raises(QuestionError, match="another run"):
             Journal(here / "j", other)
     Journal(here / "j", requested).close()
 
@@ -165,14 +165,14 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--trials", "0"), "number of trials is 0"),
-        (("--trials", "-5"), "number of trials is -5"),
+        (("--trials", "0"), "0 is not a valid number of trials"),
+        (("--trials", "-5"), "-5 is not a valid number of trials"),
         (("--cutting", "pitch_deviation=120 %"), "tooth vanishes"),
         (("--cutting", "pitch_deviation=45 %"), "cannot be cut"),
         (("--cutting", "pitch_deviation=20 deg"), "tooth vanishes"),
         (("--cutting", "tip=0.1 mm"), "needs a module"),
-        (("--cutting", "colour=3 %"), "does not set an error"),
-        (("--cutting", "pitch_deviation=3 apples"), "does not set an error"),
+        (("--cutting", "colour=3 %"), "is not a valid setting of an error"),
+        (("--cutting", "pitch_deviation=3 apples"), "is not a valid setting of an error"),
         (("--cutting", "pitch_deviation=-3 %"), "is negative"),
         (("--cutting", "x9.pitch_deviation=3 %"), "wheel 'x9'"),
         (("--cutting", "p.centre=3 %"), "pair 'p'"),

@@ -478,7 +478,7 @@ def test_an_output_that_no_free_wheel_moves_is_remarked_on_and_stops_nothing() -
     data["outputs"]["L0"] = {"expect": 2}
     found = find(data)
     assert found.count == sum(2 * a == b for a in range(12, 41) for b in range(12, 41))
-    assert "no free wheel influences 'L0', which violates its requirement" in found.remarks[0]
+    assert "no varied wheel influences 'L0', which violates its requirement" in found.remarks[0]
 
 
 # -------------------------------------------------------------------------------------------------- without a tolerance

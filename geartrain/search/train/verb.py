@@ -43,8 +43,10 @@ def run(
     ] = None,
     addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels, in modules.")] = None,
     ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings, in modules.")] = None,
-    minimum: Annotated[int | None, typer.Option("--min-teeth", help="Minimum tooth count of a free wheel.")] = None,
-    most_teeth: Annotated[int | None, typer.Option("--max-teeth", help="Maximum tooth count of a free wheel.")] = None,
+    minimum: Annotated[int | None, typer.Option("--min-teeth", help="Minimum tooth count of a varied wheel.")] = None,
+    maximum_teeth: Annotated[
+        int | None, typer.Option("--max-teeth", help="Maximum tooth count of a varied wheel.")
+    ] = None,
     shift: Annotated[
         int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances, in half modules.")
     ] = 0,
@@ -93,7 +95,7 @@ def run(
             addendum=addendum,
             ring_addendum=ring_addendum,
             minimum=minimum,
-            most_teeth=most_teeth,
+            maximum_teeth=maximum_teeth,
             shift=shift,
             coaxial=coaxial,
             hunting=hunting,

@@ -200,7 +200,7 @@ def test_what_is_requested_is_told_before_the_search(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(reconstruction, "find_reconstructions", none)
     result = call("reconstruct", "back-train")
     assert result.exit_code != 0
-    assert "question: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
+    assert "problem: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
     assert "possible paths: 22 to metonic, 4 to saros" in result.stderr
 
 

@@ -127,7 +127,8 @@ def print_schema(
     With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print
     the keys of its JSON as a table.
     """
-    from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
+    from geartrain.report.declaration_schema import declaration_reference, schema
+    from geartrain.report.json_schema import answer_schema, describe_answer
     from geartrain.report.text import to_markdown, to_text
 
     if form not in ("json", "markdown", "answers"):

@@ -457,7 +457,8 @@ class Dimension:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         kinds = ["string", "number"] if self.plain else ["string"]
-        return {"type": kinds, "description": f"A {self.name} with its unit: {units_of(self.name)}"}
+        unit = f"{_with_article(self.name).capitalize()} with its unit: {units_of(self.name)}"
+        return {"type": kinds, "format": self.name, "description": unit}
 
 
 Length = Annotated[Quantity, Dimension("length", plain=True)]

@@ -9,7 +9,8 @@ here: speeds follow from the Willis equation (docs/theory.md, equations 4 and 5)
 
 document             `Document`, sections, tables, and their layout within a width
 text, html_page      a document as Markdown, on a terminal, as an HTML page
-json_schema          JSON Schema of all answers and of the declaration
+json_schema          JSON Schema of all answers
+declaration_schema   JSON Schema of the declaration, and the reference of its keys
 train_data           `TrainReport`, the contents of a report; `train_report` describes it, also as a page to share
 answers              speeds, outputs and targets; `soundness` has the findings of `check`
 formula_report       outputs as formulas in tooth counts

@@ -71,22 +71,20 @@ class Material(Declared):
     ('206 GPa', 1863)
     """
 
-    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(
-        description="Young's modulus, such as 100 GPa"
-    )
+    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(description="Young's modulus")
     poisson: Annotated[Figure, AfterValidator(_check_poisson)] = Field(
         Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5"
     )
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
         None,
         description="Strength: 0.2 % proof stress of metals, tensile strength of materials that do not "
-        "yield, such as 200 MPa; without safety factor",
+        "yield; without safety factor",
     )
     hardness: Annotated[Figure, above_zero("give for example 120, in HV")] | None = Field(
         None, description="Vickers hardness (HV), for wear calculations"
     )
     density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
-        None, description="Density, such as 8.5 g/cm3; the `density` of a wheel takes precedence"
+        None, description="Density; the `density` of a wheel takes precedence"
     )
     spread: Annotated[Figure, AfterValidator(_check_spread)] = Field(
         Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
@@ -193,7 +191,7 @@ class MeasuredTeeth(Declared):
         None, fail_fast=True, description="Deviation of each tip radius; positive if it is too large"
     )
     aperture_deviation: tuple[AngleOff, ...] | None = Field(
-        None, fail_fast=True, description="Deviation of each tooth's aperture; positive if it is too wide"
+        None, fail_fast=True, description="Deviation of the aperture angle of each tooth; positive if it is too wide"
     )
 
     @property
@@ -227,7 +225,7 @@ class WheelManufacture(Declared):
     )
     tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Deviation of each tip radius")
     aperture_deviation: Annotated[AngleError, short_for("value")] | None = Field(
-        None, description="Deviation of each tooth's aperture"
+        None, description="Deviation of the aperture angle of each tooth"
     )
     measured: MeasuredTeeth | None = Field(None, description="Deviations measured on a real wheel, tooth by tooth")
     source: str | None = Field(None, description="Key of the source in `sources`")

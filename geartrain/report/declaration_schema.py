@@ -5,21 +5,15 @@ Both are generated from the models that read declarations, and from the examples
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
 from typing import Any
-
-import yaml
 
 from geartrain.numerics.quantity import UNITS
 from geartrain.report.json_schema import DefaultsAsWritten, Schema
 from geartrain.train import Train
-from geartrain.train.yaml_nodes import on_one_line, parse_yaml
+from geartrain.train.examples import example_data, examples, one_line
 
 _URL = "https://json-schema.org/draft/2020-12/schema"
 _SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
@@ -89,34 +83,15 @@ def _body(part: Schema) -> Schema:
 # ------------------------------------------------------------------------------------------------------------- examples
 
 
-@cache
-def examples() -> Mapping[str, tuple[str, ...]]:
-    """Return the examples as YAML text, by part or by key with several kinds of parts; the first one is printed."""
-    text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
-    return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
-
-
 def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
     """Return an example by part and key: the shortest in the examples of the part itself, else in all examples."""
     found: dict[tuple[str, str], tuple[bool, int, Any]] = {}
-    for source, texts in examples().items():
-        for text in texts:
-            for part, key, value in _values(models, models, _plain(parse_yaml(text, source).plain()), "Train"):
-                rank = (part != source, len(_line(key, value)))
-                if (part, key) not in found or rank < found[part, key][:2]:
-                    found[part, key] = (*rank, value)
+    for source, data in example_data():
+        for part, key, value in _values(models, models, data, "Train"):
+            rank = (part != source, len(one_line(key, value)))
+            if (part, key) not in found or rank < found[part, key][:2]:
+                found[part, key] = (*rank, value)
     return {place: value for place, (_, _, value) in found.items()}
-
-
-def _plain(data: Any) -> Any:
-    """Return the data of a declaration, in which all scalars are text, with numbers and booleans."""
-    if isinstance(data, dict):
-        return {key: _plain(value) for key, value in data.items()}
-    if isinstance(data, list):
-        return [_plain(value) for value in data]
-    with suppress(ValueError, TypeError):
-        return json.loads(data)
-    return data
 
 
 def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tuple[str, str, Any]]:
@@ -288,12 +263,8 @@ def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
         elif not default and isinstance(value := shape.get("default"), str | int) and value != "":
             default = [f"`{str(value).lower() if isinstance(value, bool) else value}`"]
         row = key, _kind(shape, kinds), *(default or [""]), meaning
-        rows[row] = _line(key, shape["examples"][0])
+        rows[row] = one_line(key, shape["examples"][0])
     return rows
-
-
-def _line(key: str, value: Any) -> str:
-    return on_one_line({key: value}).removeprefix("{").removesuffix("}")
 
 
 def _kind(shape: Schema, parts: Mapping[str, str]) -> str:

@@ -104,12 +104,14 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
         return Problem(
             "the line contains a tab", "YAML is indented with spaces only", "replace the tab by spaces", place
         )
-    return Problem(
-        "the YAML cannot be read here",
-        why,
-        "check indentation, brackets, quotes and colons near this line",
-        place,
-    )
+    if "did not find expected key" in why:
+        why = "a key and a colon are expected here, as far to the right as the keys above"
+        fix = "write `key: value`, and indent all keys of a mapping equally"
+    elif "','" in why:
+        why, fix = "a comma or a closing bracket is missing", "close every { with } and every [ with ]"
+    else:
+        fix = "check indentation, brackets, quotes and colons near this line"
+    return Problem("the YAML cannot be read here", why, fix, place)
 
 
 class _Builder:

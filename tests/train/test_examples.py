@@ -12,8 +12,8 @@ from commands import call
 from places import DOCS
 
 from geartrain import load
-from geartrain.report.declaration_schema import examples
 from geartrain.search.reconstruct import read_evidence
+from geartrain.train.examples import examples
 
 TEXTS = [pytest.param(text, id=f"{part} {at}") for part, texts in examples().items() for at, text in enumerate(texts)]
 PAGE = (DOCS / "reference.md").read_text(encoding="utf-8")

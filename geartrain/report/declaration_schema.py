@@ -280,7 +280,7 @@ def _kind(shape: Schema, parts: Mapping[str, str]) -> str:
     types = shape.get("type", [])
     types = [types] if isinstance(types, str) else [each for each in types if each != "null"]
     if types == ["object"]:
-        return f"{{name: {_kind(shape['additionalProperties'], parts)}}}"
+        return f"name: {_kind(shape['additionalProperties'], parts)}"
     if types == ["array"] and "prefixItems" in shape:
         return f"[{', '.join(_kind(item, parts) for item in shape['prefixItems'])}]"
     if types == ["array"]:

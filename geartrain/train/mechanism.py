@@ -464,7 +464,8 @@ class Link(Declared):
         None, description="Mass of a link on a moving carrier; default from its wheels, like `inertia`"
     )
     bearing: DeclaredBearing | None = Field(
-        None, description="Friction torque of its bearing, opposed to the rotation, or {sliding, static}; default none"
+        None,
+        description="Friction torque of its bearing, opposed to rotation, or `{sliding, static}`; default none",
     )
     drag: (
         Annotated[TorsionalDamping, not_below_zero("give its magnitude: drag is always opposed to the rotation")] | None
@@ -564,7 +565,7 @@ class GearPair(Declared):
     tooth_form: DeclaredToothForm | None = Field(None, description="Tooth form; default the train's")
     friction: DeclaredFriction | None = Field(
         None,
-        description="Coefficient of friction between teeth, {sliding, static, deviation}, or a friction law; "
+        description="Coefficient of friction between teeth, `{sliding, static, deviation}`, or a friction law; "
         "default the train's",
     )
     restitution: DeclaredRestitution | None = Field(
@@ -582,8 +583,8 @@ class GearPair(Declared):
     )
     efficiency: DeclaredEfficiency | None = Field(
         None,
-        description="Basic efficiency with the carrier fixed, at most 1: a number, a percentage, or {forward, backward}"
-        "; default from friction and tooth form",
+        description="Basic efficiency with the carrier fixed, at most 1: a number or a percentage, or "
+        "`{forward, backward}`; default from friction and tooth form",
     )
     share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
         None,

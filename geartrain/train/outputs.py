@@ -93,9 +93,9 @@ class Graduation(Declared):
     names: Annotated[
         tuple[Annotated[DialName, short_for("name")], ...],
         AlsoShort({"enum": [*NAMED_SCALES]}),
-    ] = Field((), description="Labels of divisions: a named scale, a list for equal parts, or a list of {name, span}")
+    ] = Field((), description="Labels of divisions: a named scale, a list for equal parts, or a list of `{name, span}`")
     numerals: Annotated[DialNumerals, short_for("style")] | None = Field(
-        None, description="Numerals at the lines: roman, arabic, or {style, every, to}; default counted from 0"
+        None, description="Numerals at the lines: roman, arabic, or `{style, every, to}`; default counted from 0"
     )
     glyphs: Annotated[dict[Whole, str], AfterValidator(FrozenDict)] = Field(
         {}, validate_default=True, description="Engraved texts of single divisions, by their number from 1"

@@ -55,3 +55,4 @@ def test_every_line_of_the_tables_is_yaml_of_one_key() -> None:
     assert len(units) > 10
     for line in lines:
         assert len(yaml.load(line, yaml.BaseLoader)) == 1, line
+    assert not re.findall(r"\} \|", PAGE), "Markdown reads braces at the end of a cell as its attributes"

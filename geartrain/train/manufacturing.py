@@ -11,7 +11,7 @@ import csv
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, Field, GetJsonSchemaHandler, model_validator
 from pydantic_core import PydanticCustomError
@@ -139,6 +139,8 @@ LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 class _DeclaredError(Declared):
     """A fixed error, or one that is drawn for each tooth, wheel or pair. A plain value is fixed."""
 
+    dimension: ClassVar[str]
+
     @model_validator(mode="after")
     def _has_one_key(self) -> _DeclaredError:
         given = [key for key in ("value", "normal", "uniform") if getattr(self, key) is not None]
@@ -160,11 +162,13 @@ class _DeclaredError(Declared):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["number", "string"]}, handler(schema))
+        return also({"type": ["number", "string"], "format": cls.dimension}, handler(schema))
 
 
 class AngleError(_DeclaredError):
-    """Error of an angle, fixed or random."""
+    """Error of an angle, fixed or random. A plain value is fixed; a number is a fraction of the nominal value."""
+
+    dimension = "angle or fraction"
 
     value: AngleOff | None = Field(None, description="Fixed error")
     normal: AngleOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
@@ -172,7 +176,9 @@ class AngleError(_DeclaredError):
 
 
 class LengthError(_DeclaredError):
-    """Error of a length, fixed or random."""
+    """Error of a length, fixed or random. A plain value is fixed; a number is a fraction of the tooth depth."""
+
+    dimension = "length or fraction"
 
     value: LengthOff | None = Field(None, description="Fixed error")
     normal: LengthOff | None = Field(None, description="Standard deviation of a normal distribution about 0")

@@ -128,9 +128,9 @@ _TITLE = "Top-level keys"
 _HEAD = """\
 # The declaration, key by key
 
-Printed by `geartrain inspect schema --as markdown`. Each section has an example that you can load, and a table of its keys with
-a YAML line for each. `geartrain inspect schema` prints the same as a JSON Schema, with which editors complete and check your
-files.
+Printed by `geartrain inspect schema --as markdown`. Each section has an example that you can load, and a table of its
+keys with a YAML line for each. `geartrain inspect schema` prints the same as a JSON Schema, with which editors complete
+and check your files.
 
 ## Values
 

@@ -200,7 +200,7 @@ error: mine.yaml:3: `links.a` is not a mapping of keys to values
         "inputs: {a: 1}\n",
         "",
         """\
-mine: free: 1 degree of freedom and no input: speeds of a, b undetermined; give an input, such as a (mine.yaml:1)
+mine: free: 1 degree of freedom and no input: speeds of a, b are undetermined; prescribe an input, such as a (mine.yaml:1)
   frame                     0  0
   b              undetermined  -  FAILS
 """,
@@ -328,6 +328,6 @@ def test_a_wheel_that_is_in_no_pair_is_reported_by_check() -> None:
     what, *fixes = first.split("; ")
     assert what == "note mine.yaml:4: wheel 'x' 10 is not in mesh"
     assert fixes == [
-        "no pair under `gears` names it",
+        "no pair in `gears` contains it",
         "add its gear pair, give its purpose in its `note`, or remove it [W1]",
     ]

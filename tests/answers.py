@@ -178,10 +178,10 @@ def groups() -> Iterator[Group]:
             path.stem, [_run(f"geartrain {each.format(path.stem)}") for each in requested], together=False, train=True
         )
     yield Group("others", [_run(f"geartrain {each}") for each in OTHERS], together=False)
-    for path in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))):
+    for path in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "docs" / "api" / "index.md"):
         steps = list(_steps(path))
         if any("run" in step for step in steps):
-            yield Group(f"page-{path.stem}", steps, together=True)
+            yield Group(f"page-{'api' if path.parent.name == 'api' else path.stem}", steps, together=True)
 
 
 def _run(command: str) -> dict[str, str]:

@@ -184,8 +184,9 @@ def schema(
 
     Example: `geartrain inspect schema -o geartrain.schema.json`.
     """
-    from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer
-    from geartrain.report.json_schema import schema as declaration_schema
+    from geartrain.report.declaration_schema import declaration_reference
+    from geartrain.report.declaration_schema import schema as declaration_schema
+    from geartrain.report.json_schema import answer_schema, describe_answer
     from geartrain.report.text import to_markdown, to_text
 
     to = sink(out, force)

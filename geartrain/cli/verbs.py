@@ -21,7 +21,6 @@ import typer
 from typer.core import TyperGroup
 
 from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain, tell
-from geartrain.cli.option_values import MOST_COUNT
 from geartrain.errors import GearTrainError, Problem, QuestionError, nearest_names, printable, suggest
 from geartrain.wings import WINGS, has_wing
 
@@ -107,7 +106,7 @@ class Verbs(Mapping[str, Command]):
         for param in command.params:
             if getattr(param, "is_flag", False):
                 param.metavar = ""
-            if getattr(param, "max", None) == MOST_COUNT:
+            if (getattr(param, "max", None) or 0) >= 10**9:
                 param.max = None  # type: ignore[attr-defined]
         return command
 

@@ -369,6 +369,10 @@ class Quantity:
             return raw
         text = str(raw)
         match = _QUANTITY.match(text) if isinstance(raw, str) and len(text) <= _MOST_DIGITS else None
+        if match is None and (number := re.match(r"[\d.]+ +(?=.*[A-Za-z])", text[:_MOST_DIGITS])):
+            known = units_of(dimension)
+            fix = f"write for example '{number[0].strip()} {known.split(', ')[0]}'; units: {known}"
+            raise PydanticCustomError("unit", "'{text}' has an unknown unit", {"text": text, "fix": fix})
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
             if not plain and figure.value:
@@ -431,7 +435,7 @@ def millimetres(length: Quantity) -> Fraction:
 
 
 def _no_unit(text: str, dimension: str) -> PydanticCustomError:
-    first = units_of(dimension).split(", ")[0]
+    first = "mm" if dimension.startswith("length") else units_of(dimension).split(", ")[0]
     return PydanticCustomError(
         "unit",
         "'{text}' has no unit",
@@ -459,7 +463,8 @@ class Dimension:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         kinds = ["string", "number"] if self.plain else ["string"]
-        return {"type": kinds, "description": f"A {self.name} with its unit: {units_of(self.name)}"}
+        unit = f"{_with_article(self.name).capitalize()} with its unit: {units_of(self.name)}"
+        return {"type": kinds, "format": self.name, "description": unit}
 
 
 Length = Annotated[Quantity, Dimension("length", plain=True)]

@@ -9,7 +9,8 @@ computed here: speeds follow from the Willis equation (docs/theory.md, equations
 
 document             `Document`, sections, tables, and their layout within a width
 text, html_page      conversion of a document to Markdown, terminal text and HTML
-json_schema          JSON Schema of all answers and of the declaration
+json_schema          JSON Schema of all answers
+declaration_schema   JSON Schema of the declaration, and the reference of its keys
 train_data           `TrainReport`, the contents of a report; `train_report` describes it, also as a page to share
 answers              speeds, outputs and targets; `soundness` has the findings of `check`
 formula_report       outputs as formulas in tooth counts

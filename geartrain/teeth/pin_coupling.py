@@ -52,7 +52,7 @@ class _Coupling(BaseModel):
     )
     friction: DeclaredCoulombFriction | None = Field(
         None,
-        description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}; default none",
+        description="Coefficient of friction of the pin in its slot, or `{sliding, static, deviation}`; default none",
     )
     restitution: DeclaredRestitution | None = Field(
         None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default the train's"

@@ -200,7 +200,7 @@ def test_what_is_requested_is_told_before_the_search(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(reconstruction, "find_reconstructions", none)
     result = call("reconstruct", "back-train")
     assert result.exit_code != 0
-    assert "question: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
+    assert "problem: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
     assert "possible paths: 22 to metonic, 4 to saros" in result.stderr
 
 
@@ -294,7 +294,7 @@ def test_trains_are_drawn_anew_with_another_seed() -> None:
 def test_trains_that_are_weighed_by_themselves_are_not_drawn() -> None:
     result = call("reconstruct", "back-train-modules", "--sample", 3)
     assert isinstance(result.exception, QuestionError)
-    assert "weighed one by one" in str(result.exception)
+    assert "weighted one by one" in str(result.exception)
 
 
 def test_known_trains_are_ranked() -> None:

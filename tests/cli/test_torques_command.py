@@ -60,7 +60,7 @@ def test_a_train_without_load_is_said_to_give_nothing_out(train_file: Write) -> 
         PIN.replace("b: {}}\nrev", "b: {bearing: 1 N m}}\nrev").replace("loads: {b: -10 N m}", ""), "idle.yaml"
     )
     text = " ".join(call("torques", path, "--turns", "1", *SAMPLES).output.split())
-    assert "nothing is taken out; the maximum power" in text
+    assert "no power is taken out; the maximum power" in text
     assert "No net energy is taken out: all energy put in is lost." in text
     assert "Efficiency, energy" not in text
 

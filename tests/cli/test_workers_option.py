@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from clusters import PATIENCE, alive, small_cluster, until
+from commands import call
 
 Write = Callable[..., Path]
 
@@ -34,7 +35,7 @@ PIN = """
     inputs: {a: 1}
     loads: {b: -10 N m}
 """
-MONTE_CARLO = ("--trials", "400", "--clearance", "1.01:1.03:2", "--sobol", "--json")
+MONTE_CARLO = ("--trials", "400", "--vary", "clearance_factor=1.01:1.03:2", "--sobol", "--json")
 
 
 def command(*words: object) -> list[str]:
@@ -90,8 +91,8 @@ def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(tra
     assert not list(tmp_path.glob("*.partial.jsonl"))
 
 
-def test_both_workers_and_a_cluster_are_refused(train_file: Write) -> None:
-    requested = command("montecarlo", train_file(PAIR), "--workers", 2, "--workers", "tcp://127.0.0.1:1")
-    done = subprocess.run(requested, capture_output=True, text=True, check=False, timeout=PATIENCE)
-    assert done.returncode == 2
-    assert "both workers and a dask scheduler are given" in done.stderr
+@pytest.mark.parametrize("workers", ["0", "x", "2.5"])
+def test_a_number_of_workers_is_a_positive_integer(train_file: Write, workers: str) -> None:
+    done = call("montecarlo", train_file(PAIR), "--workers", workers)
+    assert done.exit_code == 2
+    assert "error: --workers: " in done.stderr

@@ -65,7 +65,7 @@ def efficiencies() -> Finding:
     near = [
         answer(f"mesh 24 36 --friction {friction}{bevel}")["efficiency"]["mean"]
         for friction in DUDLEY
-        for bevel in ("", " --bevel 90deg")
+        for bevel in ("", " --shaft-angle 90deg")
     ]
     crossed = [
         screw_efficiency(radians(90 - lead), radians(lead), friction)

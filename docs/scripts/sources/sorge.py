@@ -99,7 +99,7 @@ def geometry() -> Iterator[Row]:
         "II, Fig. 2",
         "a drawing of approach, matching and recess, z2/z1 = 2, beta = 30 deg",
         "the copy has no pictures; `geartrain mesh 48 96 --form triangular -p clearance_factor=1.01 --at -3deg "
-        "--teeth-plot contact.svg` draws any position",
+        "--plot contact.svg` draws any position",
     )
     yield words("Fig. 2 b", "profiles match where -alpha_2 = alpha_1; tau changes suddenly there", "matched()")
     yield equation("Eq. (1)", "h = R [1 - sin b / sin(b + pi/z)]", "depths()")

@@ -127,7 +127,7 @@ def _no_joints(train: Train) -> Problem:
     return Problem(
         "no turning pair is declared",
         f"every link but '{train.frame}' turns on an axis that another link carries",
-        f"add `revolutes:` with an entry for each axis, such as `{{A: [{train.frame}, {link}]}}`",
+        f"add for example `revolutes: {{A: [{train.frame}, {link}]}}`, with an entry for each axis",
         train.place("revolutes") if "revolutes" in train.model_fields_set else train.place("links"),
     )
 
@@ -136,7 +136,7 @@ def _unconnected(train: Train, link: str) -> Problem:
     return Problem(
         f"link '{link}' is not joined to the frame",
         f"no chain of turning pairs leads from it to '{train.frame}'",
-        f"add a turning pair for '{link}' to `revolutes`",
+        f"add it to an axis of `revolutes`, or an axis of its own: `{link}: [{train.frame}, {link}]`",
         train.place("links", link),
     )
 

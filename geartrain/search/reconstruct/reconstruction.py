@@ -68,7 +68,7 @@ class ReconstructionRequest(Shown):
     """Number of trains to list; None lists all of them."""
     counts_only: bool = False
     """True if trains are counted but not listed."""
-    prior: Literal["solution", "class"] = "solution"
+    prior_of: Literal["solution", "class"] = "solution"
     """Unit of the prior: one weight for every train, or one for every equivalence class of equal ratios."""
     sample: int = 0
     """Number of trains drawn at random, with their posterior probabilities."""
@@ -256,7 +256,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
         0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
     )
     with run.search(problem, expected) as execution:
-        found = find_reconstructions(problem, execution, listing, request.prior)
+        found = find_reconstructions(problem, execution, listing, request.prior_of)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
     listed = () if request.counts_only else found.candidates[: request.best]

@@ -126,7 +126,7 @@ def find_reconstructions(
     problem: ReconstructionProblem,
     execution: Execution | None = None,
     listed: int = 1000,
-    prior: Literal["solution", "class"] = "solution",
+    prior_of: Literal["solution", "class"] = "solution",
 ) -> Reconstructions:
     """Count all explanations with up to the maximum number of added wheels, and list the most probable.
 
@@ -138,7 +138,7 @@ def find_reconstructions(
         Executor of the parts of the search. By default they run one after the other in this process.
     listed : int
         Minimum number of candidates to list; fewer if there are not as many.
-    prior : {"solution", "class"}
+    prior_of : {"solution", "class"}
         Unit of the prior: one weight for every train, or one for every ratio class, which its trains share.
 
     Returns
@@ -160,7 +160,7 @@ def find_reconstructions(
     found: dict[int, list[CountedTopology]] = {added: [] for added in range(problem.additions.wheels + 1)}
     whole: set[int] = set()
     geometry = problem.geometry
-    one_by_one = prior == "class" or bool(geometry.wheels or geometry.arbors)
+    one_by_one = prior_of == "class" or bool(geometry.wheels or geometry.arbors)
     try:
         for part in count_topologies(problem, execution):
             found[part.added] += part.topologies
@@ -170,7 +170,7 @@ def find_reconstructions(
         found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
-        return _weighed_one_by_one(problem, found, complete, prior)
+        return _weighed_one_by_one(problem, found, complete, prior_of)
     counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
     weights = tuple(_weight_classes(problem, found))
@@ -239,7 +239,7 @@ def _written_out(value: object) -> str:
 
 
 def _weighed_one_by_one(
-    problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior: str
+    problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior_of: str
 ) -> Reconstructions:
     """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
     number = sum(each.solutions for some in found.values() for each in some)
@@ -260,7 +260,7 @@ def _weighed_one_by_one(
             ExplanationCount(added, len(own), len({*map(arbor_multiset, arbors)}), len({*map(ratio_class, arbors)}))
         )
         weighed += own
-    if prior == "class":
+    if prior_of == "class":
         classes: dict[object, int] = {}
         for _, _, arbor in weighed:
             classes[ratio_class(arbor)] = classes.get(ratio_class(arbor), 0) + 1

@@ -162,7 +162,7 @@ def run(
         idlers=idlers,
         best=None if every else best,
         counts_only=count,
-        prior=prior,
+        prior_of=prior,
         sample=sample,
         seed=seed,
         assumptions=assumptions,

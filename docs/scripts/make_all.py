@@ -14,7 +14,6 @@ import make_commands
 import make_diagrams
 import make_drawn_teeth
 import make_dynamics_accuracy
-import make_errata
 import make_extremes
 import make_frames
 import make_gallery
@@ -22,7 +21,6 @@ import make_images
 import make_left_out
 import make_lines
 import make_mesh_accuracy
-import make_missing
 import make_motion_accuracy
 import make_outputs
 import make_palette
@@ -59,14 +57,12 @@ def main() -> None:
         make_commands,
         make_diagrams,
         make_drawn_teeth,
-        make_errata,
         make_extremes,
         make_frames,
         make_gallery,
         make_images,
         make_left_out,
         make_lines,
-        make_missing,
         make_palette,
         make_outputs,
         make_ready_to_cut,

@@ -64,7 +64,7 @@ def find_row(stem: str) -> TrainRow:
         return TrainRow(stem, first(train), "declared")
     try:
         return TrainRow(
-            stem, first(geartrain.load(assumed(stem, lines))), "assumed" if FORM in lines else "assumed in part"
+            stem, first(geartrain.load(assumed(stem, lines))), "assumed" if FORM in lines else "partly assumed"
         )
     except GearTrainError:
         drag = bearings(train)
@@ -119,7 +119,10 @@ def table(rows: list[TrainRow]) -> list[str]:
         cells = (row.teeth, worst.name, degrees(worst.total), *causes[:2]) if worst.total else ()
         lines.setdefault(" | ".join(cells), []).append(f"`{row.stem}`")
     exact = lines.pop("", [])
-    head = ("| train | tooth data | pointer | total, deg | largest cause | second cause |", "|---|---|---|---:|---|---|")
+    head = (
+        "| train | tooth data | pointer | total, deg | largest cause | second cause |",
+        "|---|---|---|---:|---|---|",
+    )
     return [
         *head,
         *(f"| {', '.join(names)} | {cells} |" for cells, names in lines.items()),
@@ -180,8 +183,7 @@ declared" and never counted as 0.
 
 ![Causes of the error of each pointer of freeth-2021](images/budget.svg)
 
-*The eight pointers of `freeth-2021` with the largest errors, for the assumed teeth of the example below. Each bar is
-divided into the shares of the causes.*
+*The eight pointers of `freeth-2021` with the largest errors, for assumed teeth.*
 
 ## Run it
 
@@ -198,14 +200,14 @@ $ geartrain budget assumed.yaml --output moon
 ```
 
 `--span` sets the time over which ratios drift, by default one Saros of 6585.3213 days. `--plot budget.svg` draws the
-picture above. In Python, use `geartrain.workshop.find_budget`.
+picture above.
 
 ## Causes
 
 | cause | meaning | degrees printed |
 |---|---|---|
 | ratio | the mean speed differs from the target | drift over the span |
-| theory | the anomaly of the pins differs from the true motion of the Moon or the Sun | peak to peak, at the best phase |
+| theory | the anomaly of the pins differs from the true motion of Moon or Sun | peak to peak, at the best phase |
 | teeth | transmission error of perfect teeth | peak to peak |
 | lost motion | backlash of the teeth when the crank turns back | maximum |
 | cutting | cutting errors of the wheels | central 95 % range of the Monte Carlo trials |
@@ -214,50 +216,49 @@ picture above. In Python, use `geartrain.workshop.find_budget`.
 
 $$ 360^\\circ\\,(|w| - |t|)\\,T, \\tag{1} $$
 
-computed exactly. If a pointer has several targets, an observed period takes precedence over a relation that the makers
-intended.
+computed exactly and compared with the shipped [periods](reference.md). If a pointer has several targets, an observed
+period takes precedence over a relation that the makers intended.
 
-**Theory.** With perfect teeth, the pins give the pointer an anomaly $d(\\varphi)$ at the phase $\\varphi$. The true motion
-has the equation of centre $C(M) = \\nu - M$ at the mean anomaly $M$. The true anomaly $\\nu$ follows from Kepler's equation
-$M = E - e \\sin E$ and $\\tan(\\nu/2) = \\sqrt{(1 + e)/(1 - e)} \\tan(E/2)$, with eccentricities $e$ of 0.0549 for the Moon
-and 0.0167 for the Sun. The error is
+**Theory.** With perfect teeth, the pins give the pointer an anomaly $d(\\varphi)$ at the phase $\\varphi$. The true
+motion has the equation of centre $C(M) = \\nu - M$ at the mean anomaly $M$. The true anomaly $\\nu$ follows from
+Kepler's equation $M = E - e \\sin E$ and $\\tan(\\nu/2) = \\sqrt{(1 + e)/(1 - e)} \\tan(E/2)$, with eccentricities
+$e$ of 0.0549 for the Moon and 0.0167 for the Sun. The error is
 
 $$ d(\\varphi) - C(\\varphi + s) - \\text{mean}, \\tag{2} $$
 
-with the phase $s$ that minimises its mean square. The error of a pointer without pins is all of $C$. If a pointer is read
-against another moving body, both ranges are added. Evection (1.3 degrees) and variation (0.7 degrees) of the Moon are not
-included.
+with the phase $s$ that minimises its mean square. The error of a pointer without pins is all of $C$. If a pointer is
+read against another moving body, both ranges are added. Evection (1.3 degrees) and variation (0.7 degrees) of the
+Moon are not included.
 
-**Teeth and lost motion.** Let $e_f$ be the pointer's error with real teeth and pins on the drive flanks, $e_b$ on the coast
-flanks, and $e_0$ with pins and perfect teeth ([motion](motion.md), equation (3)). Then
+**Teeth and lost motion.** Let $e_f$ be the pointer's error with real teeth and pins on the drive flanks, $e_b$ on the
+coast flanks, and $e_0$ with pins and perfect teeth ([motion](motion.md), equation (3)). Then
 
 $$ \\text{teeth} = e_f - e_0, \\qquad \\text{lost motion} = |e_b - e_f|. \\tag{3} $$
 
 Backlash between a pin and its slot cannot be declared, so it is reported as unknown.
 
-**Cutting.** Each Monte Carlo trial draws wheels with cutting errors ([cut by hand](cut-by-hand.md)). If $e_c$ is the error
-of the trial at a random position, the cause is the range from the 2.5th to the 97.5th percentile of
+**Cutting.** Each Monte Carlo trial draws wheels with cutting errors ([cut by hand](cut-by-hand.md)). If $e_c$ is the
+error of the trial at a random position, the cause is the range from the 2.5th to the 97.5th percentile of
 
 $$ e_c - (e_f - e_0), \\tag{4} $$
 
 with a confidence interval from order statistics. If nearly all trials jam, the pushing flanks are followed as if they
 could pass.
 
-Days are degrees divided by the mean speed of the pointer relative to the body it is read against. The total is the sum of
-the causes, an upper bound.
+Days are degrees divided by the mean speed of the pointer relative to the body it is read against. The total is the
+sum of the causes, an upper bound.
 
 ## Largest error of each train
 
-The table names, for each shipped train in its first state, the pointer with the largest total error and its two largest
-causes in degrees. "Assumed" means that the train declares no teeth: the assumptions are those of the example, with bearing
-friction at every pointer. "None" means that triangular teeth with these counts cannot turn, so that teeth, lost motion and
-cutting are not known.
+The table names, for each shipped train in its first state, the pointer with the largest total error and its two
+largest causes in degrees. "Assumed": the train declares no teeth, and those of the example are assumed, with bearing
+friction at every pointer. "None": triangular teeth with these counts cannot turn.
 """
 
 PUBLISHED = """## Published statements
 
-Several publications judge the accuracy of the mechanism. The figures here are for `freeth-2021` with the assumed teeth
-above. No depth, radius or clearance of a tooth in mesh has survived, so other assumptions give other figures.
+Several publications judge the accuracy of the mechanism. The figures here are for `freeth-2021` with the assumed
+teeth above. No depth, radius or clearance of a tooth in mesh has survived, so other assumptions give other figures.
 """
 
 STATEMENTS = (
@@ -291,11 +292,10 @@ REST = """Lost motion is the largest cause of nearly every pointer, and you avoi
 
 ## Assumptions
 
-- Speeds and drifts are exact fractions, compared with the shipped table of [periods](reference.md).
-- The driven wheels are braked, so that flanks remain in contact while the crank turns in one direction. Teeth and arbors
-  are rigid. Bearings have no backlash unless `fitting` declares it.
-- The eccentricities are modern values (NASA's planetary fact sheets). The Sun's was 0.0176 two thousand years ago, which
-  changes its equation of centre by a twentieth.
+- The driven wheels are braked, so that flanks remain in contact while the crank turns in one direction. Teeth and
+  arbors are rigid. Bearings have no backlash unless `fitting` declares it.
+- The eccentricities are modern values (NASA's planetary fact sheets). The Sun's was 0.0176 two thousand years ago,
+  which changes its equation of centre by a twentieth.
 - The true motion of planets is not modelled.
 
 This page is written by `python docs/scripts/make_budgets.py`.

@@ -54,9 +54,7 @@ def generatrix() -> Finding:
             speed = np.cross([0.0, 0.0, 1.0], point) - np.cross(second, point - base)
             across = max(across, float(np.linalg.norm(np.cross(speed, turning)) / np.linalg.norm(turning)))
         across = max(across, abs(float(foot[0])), abs(float(foot[2])))
-    text = (
-        "one line crosses the common normal of both axes and slides in itself; turned about them it makes both surfaces"
-    )
+    text = "one line crosses the common normal of both axes and slides along itself; its rotation makes both surfaces"
     return Finding(across < 1e-12, text)
 
 

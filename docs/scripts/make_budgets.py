@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from make_outputs import refresh
-from studies.page import paragraphs
+from studies.page import with_numbers
 
 import geartrain
 from geartrain import GearTrain
@@ -51,7 +51,7 @@ def main() -> None:
     PICTURE.write_bytes(render(budget_figure(reference), ".svg"))
     example = assumed(REFERENCE, [FORM, FRICTION, f"links: {{moon: {{bearing: {DRAG}}}}}", CUTTING]).strip()
     head = HEAD.replace("ASSUMED", example)
-    parts = (head, *table(list(rows.values())), paragraphs(PUBLISHED), *published(rows), REST)
+    parts = (head, *table(list(rows.values())), with_numbers(PUBLISHED, {}) + "\n", *published(rows), REST)
     PAGE.write_text("\n".join(parts), encoding="utf-8")
     refresh(PAGE)
 

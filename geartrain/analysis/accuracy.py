@@ -70,7 +70,7 @@ class TrainAccuracy(Tabular, TrainResult):
     find_accuracy : Returns it.
     """
 
-    KEYS = ("state", "positions", "methods", "left_out")
+    KEYS = ("state", "positions", "methods", "neglected")
     ROW = "MethodAccuracy"
     MEANINGS: ClassVar = {
         "error": "Maximum error; empty for the reference method [see `unit`].",
@@ -85,7 +85,7 @@ class TrainAccuracy(Tabular, TrainResult):
     """Number of angles of each pair, and of positions of the input."""
     methods: tuple[MethodAccuracy, ...]
     """Methods in the order of the stages."""
-    left_out: dict[str, str]
+    neglected: dict[str, str]
     """Stage -> reason for which it does not apply to the train."""
 
     def _summary(self) -> str:
@@ -129,16 +129,16 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
         "torques": _measure_torques,
     }
     methods: list[MethodAccuracy] = []
-    left_out: dict[str, str] = {}
+    neglected: dict[str, str] = {}
     for stage, measure in stages.items():
         rows: list[MethodAccuracy] = []
         try:
             rows.extend(measure(train, state, positions))
         except GearTrainError as error:
-            left_out[stage] = error.problems[0].what
+            neglected[stage] = error.problems[0].what
         fastest = min((row.seconds for row in rows), default=0.0)
         methods += [replace(row, ratio=row.seconds / fastest) for row in rows]
-    return TrainAccuracy(state, positions, tuple(methods), left_out, _declaration=train.declaration)
+    return TrainAccuracy(state, positions, tuple(methods), neglected, _declaration=train.declaration)
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:

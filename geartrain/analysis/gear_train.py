@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, final, overload
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
-from geartrain.numerics.results import picture_maker
+from geartrain.numerics.results import imported_function
 from geartrain.train import Train, declare
 from geartrain.wings import wing
 
@@ -221,7 +221,7 @@ class GearTrain:
         >>> [line for line in str(document).splitlines() if line.startswith("| carrier | 2/7")]
         ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
         """
-        return picture_maker("report", "describe_train")(picture_maker("report", "collect_report")(self))
+        return imported_function("report", "describe_train")(imported_function("report", "collect_report")(self))
 
     def draw(
         self,
@@ -246,7 +246,7 @@ class GearTrain:
         outputs : sequence of str
             Outputs whose dials are drawn; by default all.
         """
-        return picture_maker("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
+        return imported_function("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
 
     def view(self, state: str | None = None, height: int = 620) -> Any:
         """Return an animated view of the train for a notebook, a `geartrain.viewer.EmbeddedPage`.
@@ -258,7 +258,7 @@ class GearTrain:
         height : int
             Height of the frame [px].
         """
-        return picture_maker("viewer", "EmbeddedPage")(self, state, height)
+        return imported_function("viewer", "EmbeddedPage")(self, state, height)
 
     # -------------------------------------------------------------------------------------------- what is declared
 

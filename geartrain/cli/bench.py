@@ -32,4 +32,4 @@ def run(
     measured = tuple(find_accuracy(train, name, positions) for name in chosen_states(train, state))
     found = AccuracyReport(train.name, train.declaration.title, measured)
     give(to, json, lambda: found, lambda: [describe_accuracy(found)])
-    raise typer.Exit(VERDICT if any("speeds" in each.left_out for each in measured) else GOOD)
+    raise typer.Exit(VERDICT if any("speeds" in each.neglected for each in measured) else GOOD)

@@ -110,8 +110,8 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     most = {trace.name for trace in ranked[:_OUTPUTS]}
     traces = [trace for trace in found if trace.name in most]
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion._problem.driving_link}")
-    left_out = _left_out(len(erring), len(found) - len(erring))
-    return headed(figure, "; ".join(filter(None, (title, *left_out))))
+    omitted = _omitted(len(erring), len(found) - len(erring))
+    return headed(figure, "; ".join(filter(None, (title, *omitted))))
 
 
 def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> Figure:
@@ -140,7 +140,7 @@ def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> F
     return motion_figure(MotionRun(motion, turns, samples))
 
 
-def _left_out(erring: int, exact: int) -> Iterator[str]:
+def _omitted(erring: int, exact: int) -> Iterator[str]:
     """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
     if not erring:
         yield "every output moves uniformly"

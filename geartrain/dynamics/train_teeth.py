@@ -76,7 +76,7 @@ class TrainTeeth:
     wheels: Mapping[str, WheelTeeth]
     """Teeth by wheel. `problems` has the reasons for the wheels without teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
-    likenesses: Mapping[str, WheelTeeth]
+    approximations: Mapping[str, WheelTeeth]
     """Approximate teeth of wheels without agreed teeth, as the first of their pairs requires them."""
     flat: frozenset[str]
     """Wheels whose teeth are straight and plane."""
@@ -208,7 +208,7 @@ class _Toothing:
         """Return the teeth of all wheels."""
         found: dict[str, WheelTeeth] = {}
         problems: dict[str, tuple[Problem, ...]] = {}
-        likenesses: dict[str, WheelTeeth] = {}
+        approximations: dict[str, WheelTeeth] = {}
         for name in self.pairs:
             try:
                 requested = self._requested(name)
@@ -216,11 +216,11 @@ class _Toothing:
                     found[name] = self._one(name, requested)
                 except GearTrainError as error:
                     problems[name] = error.problems
-                    likenesses[name] = self._cut(name, requested[:1])
+                    approximations[name] = self._cut(name, requested[:1])
             except GearTrainError as error:
                 problems.setdefault(name, error.problems)
         flat = frozenset(name for name in self.pairs if self._is_flat(name))
-        return TrainTeeth(found, problems, likenesses, flat, tuple(self._backlashes(found)))
+        return TrainTeeth(found, problems, approximations, flat, tuple(self._backlashes(found)))
 
     def _requested(self, name: str) -> list[PairRequirement]:
         wheel, place = self._wheel(name), self.places[name]

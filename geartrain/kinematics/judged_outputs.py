@@ -396,7 +396,7 @@ def sensitivity(
         for result in outputs:
             shift = {step: _relative_change(result, relative) for step, relative in changed.items()}
             if any(value != 0 for value in shift.values()):
-                allowed = wheel.doubt.allowed if wheel.doubt else ()
+                allowed = wheel.uncertainty.allowed if wheel.uncertainty else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
 
 

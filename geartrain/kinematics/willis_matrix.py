@@ -59,7 +59,7 @@ class WillisMatrix(Shown):
     """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
     """Links of the columns: all except the frame, or all links if the complete system was requested."""
-    left_out: tuple[str, ...]
+    omitted: tuple[str, ...]
     """Labels of rows that are left out: the row of the frame, and rows that follow from others."""
 
     def _summary(self) -> str:

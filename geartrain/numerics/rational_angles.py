@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from geartrain.numerics.vectors import IntegerVector, dot
 
-_CHANCE = 1e-3  # maximum probability that a random angle is taken for a fraction
+_PROBABILITY = 1e-3  # maximum probability that a random angle is taken for a fraction
 _DENSITY = 3 / math.pi**2  # about this times q squared reduced fractions below 1 have a denominator up to q
 
 
@@ -34,7 +34,7 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
     >>> recognised_angle(0.3333, 1e-4), recognised_angle(0.3679, 1e-4)
     (Fraction(1, 3), None)
     """
-    most = math.sqrt(_CHANCE / (2 * _DENSITY * slack))
+    most = math.sqrt(_PROBABILITY / (2 * _DENSITY * slack))
     before, last = (0, 1), (1, 0)
     rest = turn
     while True:

@@ -76,7 +76,7 @@ class Shown:
         page = _described(self, self.PAGE)
         if page is not None:
             try:
-                html: str = picture_maker("report.html_page", "to_fragment")([page])
+                html: str = imported_function("report.html_page", "to_fragment")([page])
                 return html
             except MissingExtraError:
                 pass
@@ -88,11 +88,11 @@ def _described(result: object, name: str) -> Any:
     if not name:
         return None
     module, _, function = name.partition(":")
-    return picture_maker(module, function)(result)
+    return imported_function(module, function)(result)
 
 
 def _text_of(document: Any) -> str:
-    text: str = picture_maker("report.text", "to_text")([document])
+    text: str = imported_function("report.text", "to_text")([document])
     return printable(text)
 
 
@@ -258,7 +258,7 @@ class Tabular(Shown):
         """Return the text that the command prints for the result, or its first rows as a table if it has no command."""
         found = _described(self, self.TEXT or self.PAGE)
         if found is None:
-            table = picture_maker("report.document", "table_document")(self.columns, _SHOWN)
+            table = imported_function("report.document", "table_document")(self.columns, _SHOWN)
             return f"{self!r}\n{_text_of(table)}"
         return found if isinstance(found, str) else _text_of(found)
 
@@ -300,7 +300,7 @@ def _cell(value: object) -> str:
     return escape(value) if isinstance(value, str) else f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def picture_maker(room: str, name: str) -> Callable[..., Any]:
+def imported_function(room: str, name: str) -> Callable[..., Any]:
     """Import the function that draws or describes a result, by name.
 
     Modules that draw depend on modules that calculate. Results call them only here, by name and when they are
@@ -339,7 +339,7 @@ class Pictured:
         MissingExtraError
             If matplotlib, which the extra `plot` installs, is missing.
         """
-        return picture_maker(self.DRAWN_IN, self.FIGURE)(self, *how)
+        return imported_function(self.DRAWN_IN, self.FIGURE)(self, *how)
 
 
 @dataclass(frozen=True, slots=True)

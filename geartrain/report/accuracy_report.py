@@ -50,8 +50,8 @@ def _sections(found: TrainAccuracy) -> Iterator[Section]:
         yield Section(
             f"{state}{stage}", (), [Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])]
         )
-    if found.left_out:
-        yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.left_out.items()])
+    if found.neglected:
+        yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.neglected.items()])
 
 
 def _cells(row: MethodAccuracy) -> list[str]:

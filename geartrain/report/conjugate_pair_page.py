@@ -118,7 +118,7 @@ def _losses_and_stresses(found: DesignLosses) -> Section:
 
 def _friction(design: PairDesign) -> Section:
     transmission = design.mesh.losses
-    if not design.mesh.rubs:
+    if not design.mesh.has_friction:
         return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     if not design.mesh.tells_losses:
         return Section("Friction", (f"{design.mesh.friction_words}.",))

@@ -15,7 +15,7 @@ from typing import Any
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
+from geartrain.numerics.results import Shown, field_docs, imported_function, summary_line
 
 MOST_ROWS = 120
 """Maximum number of rows shown of a table; the JSON has all rows."""
@@ -243,7 +243,7 @@ class Document:
 
     def __str__(self) -> str:
         """Return the document as Markdown."""
-        text: str = picture_maker("report", "to_markdown")([self])
+        text: str = imported_function("report", "to_markdown")([self])
         return text
 
     def _repr_markdown_(self) -> str:

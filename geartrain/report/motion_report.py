@@ -411,8 +411,8 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
     text = [f"Contribution of each pair to an output: the range of its own {own} times the output's sensitivity to it."]
     if still := [name for name in motion.outputs if name not in moved]:
         text.append(f"No pair affects {', '.join(still)}.")
-    if left_out := moved[len(shown) :]:
-        text.append(f"Not shown: {', '.join(left_out)}; `--wide` or `--output` shows them.")
+    if neglected := moved[len(shown) :]:
+        text.append(f"Not shown: {', '.join(neglected)}; `--wide` or `--output` shows them.")
     blocks = [shown[at : at + _ABREAST] for at in range(0, len(shown), _ABREAST)]
     return Section("Pairs", tuple(text), tuple(_shares(motion, outputs) for outputs in blocks or [[]]))
 

@@ -416,7 +416,7 @@ def _friction_lock(mesh: TriangularMesh) -> tuple[str, str, str]:
 
 def _losses(mesh: TriangularMesh) -> Section:
     transmission = mesh.losses
-    if not mesh.rubs:
+    if not mesh.has_friction:
         return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     if not mesh.tells_losses:
         return Section("Friction", (f"{mesh.friction_words}.",))

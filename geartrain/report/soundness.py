@@ -48,7 +48,7 @@ class Soundness:
             for remark in train.kinematics.remarks:
                 yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
             if self.whole:
-                yield from (f"note {self.file}: {line}" for line in _left_out(train))
+                yield from (f"note {self.file}: {line}" for line in _neglected(train))
                 yield from (f"note {line}" for line in _too_fast(train))
             yield from (f"note {line}" for line in _off_beat(train, self.answers))
         if self and not quiet:
@@ -87,14 +87,14 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
         yield f"{head}:{state} output '{result.name}' is {exact(result.speed)}{_wanted(result)}{tail}"
 
 
-def _left_out(train: GearTrain) -> Iterator[str]:
+def _neglected(train: GearTrain) -> Iterator[str]:
     """Yield the effects that the torques of loaded states neglect; nothing for teeth that cannot turn."""
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:
         if train.declaration.is_loaded(state):
             where = f"state {state}: " if state is not None else ""
-            yield from (f"{where}torques do not include {each}: {each.why}" for each in train.torques(state).left_out)
+            yield from (f"{where}torques do not include {each}: {each.why}" for each in train.torques(state).neglected)
 
 
 def _too_fast(train: GearTrain) -> Iterator[str]:

@@ -44,7 +44,7 @@ class DrivenFigures:
 
     KEYS = (
         *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),
-        Key("left_out", "way.torques.left_out"),
+        Key("neglected", "way.torques.neglected"),
     )
 
     way: DrivenWay
@@ -257,7 +257,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
-    lines += [f"Not included: {each}: {each.why}." for each in found.left_out]
+    lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     lines += _both_directions(figures.drives)
     if not found.verdict:
         yield Section(head, lines)
@@ -328,7 +328,7 @@ def _held(found: Torques) -> Iterator[Table]:
 def uncounted_words(found: Torques) -> str:
     """Return the effects that an efficiency neglects, as a suffix of its figure."""
     uncounted = ", ".join(map(str, found.uncounted))
-    return f" without {uncounted}" if uncounted else ", mean over a turn" if found.left_out else ""
+    return f" without {uncounted}" if uncounted else ", mean over a turn" if found.neglected else ""
 
 
 def _pairs(found: Torques, amounts: _Amounts) -> Table:
@@ -401,7 +401,7 @@ def summary_text(torques: Torques) -> str:
     lost = {"teeth": teeth, "bearings": torques.bearing_loss}
     named = [f"{percent_text(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
     out = percent_text(1 - torques.loss / torques.power_in)
-    uncounted = [f"not included: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
+    uncounted = [f"not included: {', '.join(map(str, torques.neglected))}"] if torques.neglected else []
     return "; ".join([f"efficiency {out}", *named, *uncounted])
 
 
@@ -429,7 +429,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
     """Yield sections on crank torque over a run, energies, and the losses of each pair, pin and bearing."""
     head = "Torque over a turn" if found.state is None else f"State {found.state}: torque over a turn"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
-    lines += [f"Not included: {each}: {each.why}." for each in found.left_out]
+    lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     if found.turns is None:
         yield Section(head, lines)
         return

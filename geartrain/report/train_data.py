@@ -167,7 +167,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     own = train.kinematics
-    doubts = ((answer, change) for answer in answers if answer.verdict for change in own.sensitivity(answer))
+    uncertainties = ((answer, change) for answer in answers if answer.verdict for change in own.sensitivity(answer))
     loaded = tuple(state for state in own.usable_states if whole and declared.is_loaded(state))
     return TrainReport(
         **vars(collect_answers(train, answers)),
@@ -178,7 +178,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
         adjacency=AdjacencyLetters(tuple(declared.links), adjacency_labels(declared)) if small else None,
         build_findings=train.build_findings,
         remarks=own.remarks,
-        sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
+        sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in uncertainties),
         **_teeth_and_motion(train, whole),
         torques=_torques(train, loaded),
         strength=tuple(train.strength(state) for state in loaded if _has_strength(declared, state)),

@@ -271,8 +271,8 @@ def _mark(wheel: Wheel) -> str:
         words.append(f"helical {abs(degrees(wheel.helix)):.6g} deg {wheel.hand or ''}".rstrip())
     if wheel.internal:
         words.append("ring")
-    if wheel.doubt:
-        words.append(f"{min(wheel.doubt.allowed)}-{max(wheel.doubt.allowed)}")
+    if wheel.uncertainty:
+        words.append(f"{min(wheel.uncertainty.allowed)}-{max(wheel.uncertainty.allowed)}")
     if wheel.status in ("reconstructed", "hypothetical"):
         words.append(wheel.status)
     return f" ({', '.join(words)})" if words else ""
@@ -479,11 +479,11 @@ def _wheels_with_sources(declared: Train) -> Iterator[Section]:
     """Yield a table of every wheel with its source, status and note; nothing if only tooth counts are declared."""
     rows = []
     for name, (link, wheel) in declared.wheels.items():
-        doubt = wheel.teeth if not isinstance(wheel.teeth, int) else None
-        source = wheel.source or (doubt.source if doubt else None) or ""
-        counts = doubt.allowed if doubt else ()
+        uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None
+        source = wheel.source or (uncertainty.source if uncertainty else None) or ""
+        counts = uncertainty.allowed if uncertainty else ()
         allowed = "" if not counts else f"{min(counts)}-{max(counts)}"
-        note = "; ".join(filter(None, (wheel.note, doubt.note if doubt else None)))
+        note = "; ".join(filter(None, (wheel.note, uncertainty.note if uncertainty else None)))
         rows.append((name, link, str(wheel.count), allowed, wheel.status or "", CitedText(source), note))
     header = ("wheel", "link", "teeth", "allowed", "status", "source", "note")
     table = filled_table(header, rows, 3)

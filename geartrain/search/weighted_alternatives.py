@@ -162,22 +162,22 @@ class WeightedAlternatives(Generic[Node]):
                     outside[part] = outside[part] + way.sum_at_part(at, beside, self._inside[part])
         return found
 
-    def draw(self, chance: Random) -> list[Hashable]:
+    def draw(self, probability: Random) -> list[Hashable]:
         """Return the facts of one derivation, drawn with a probability proportional to its weight; not for tables."""
         found: list[Hashable] = []
         waiting = [self.root]
         while waiting:
             node = waiting.pop()
-            chosen = self._ways[node][draw_index(self._below[node], chance)]
+            chosen = self._ways[node][draw_index(self._below[node], probability)]
             found += chosen.tells
             waiting += chosen.parts
         return found
 
 
-def draw_index(weights: list[int], chance: Random) -> int:
+def draw_index(weights: list[int], probability: Random) -> int:
     """Draw an index with a probability proportional to its integer weight, exactly; at least one weight is positive."""
     # integers, because floats would round the probabilities of large weights
-    left = chance.randrange(sum(weights))
+    left = probability.randrange(sum(weights))
     return next(at for at, reached in enumerate(accumulate(weights)) if left < reached)
 
 
@@ -195,12 +195,14 @@ def relative_entropy(after: Iterable[float], before: Iterable[float | Fraction])
     """Return the Kullback-Leibler divergence of the probabilities `after` from the probabilities `before` [bit]."""
     pairs = zip(after, before, strict=False)
     # rounding may make it slightly negative
-    return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
+    return max(0.0, sum(probability * log2(probability / prior) for probability, prior in pairs if probability))
 
 
-def entropy(chances: Iterable[float]) -> float:
+def entropy(probabilities: Iterable[float]) -> float:
     """Return the Shannon entropy of a distribution [bit], the expected information of observing its outcome.
 
     It is the mean relative entropy of the distributions after and before the observation.
     """
-    return sum((chance * relative_entropy((1.0,), (chance,)) for chance in chances if chance), 0.0)
+    return sum(
+        (probability * relative_entropy((1.0,), (probability,)) for probability in probabilities if probability), 0.0
+    )

@@ -403,7 +403,7 @@ class DiscMesh(GearMesh):
         return (second, first) if self.wheels.internal[0] else (first, second)
 
     @property
-    def stands(self) -> float:
+    def tooth_phase(self) -> float:
         """Position of a lobe at angle 0 [pitches past the line of centres], between two pins less half the backlash."""
         return (1 - self.backlash) / 2
 

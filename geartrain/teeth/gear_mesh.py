@@ -54,9 +54,9 @@ class GearMesh(Shown, ABC):
 
     def _summary(self) -> str:
         driver, driven = self.counts
-        rubs = "" if self.friction is None else f", friction {self.friction:g}"
+        has_friction = "" if self.friction is None else f", friction {self.friction:g}"
         wheels = f"{self.driver} ({driver}) drives {self.driven} ({driven})"
-        return f"{self.name}: {self.tooth_form.words} teeth, {wheels}{rubs}"
+        return f"{self.name}: {self.tooth_form.words} teeth, {wheels}{has_friction}"
 
     @property
     def gear(self) -> DeclaredPair:
@@ -344,7 +344,7 @@ class GearMesh(Shown, ABC):
         return self.verdict.backlash / (self.transmission.period * float(self.transmission.ratio))
 
     @property
-    def stands(self) -> float:
+    def tooth_phase(self) -> float:
         """Position of a tooth of the driven wheel at angle 0, in pitches past the line of centres."""
         return 0.0
 
@@ -354,7 +354,7 @@ class GearMesh(Shown, ABC):
         return isinstance(self.transmission, ExactRatio)
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if these teeth have friction losses."""
         return bool(self.friction) or self.wheels.friction_law is not None
 
@@ -394,7 +394,7 @@ class GearMesh(Shown, ABC):
 
         They need a declared coefficient, or a friction law and the pitch-line speed.
         """
-        return self.friction is not None or (self.rubs and self.wheels.pitch_line is not None)
+        return self.friction is not None or (self.has_friction and self.wheels.pitch_line is not None)
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:

@@ -132,7 +132,7 @@ class FrictionInForce:
     """Friction law (coefficient as a function of sliding speed), if one is declared."""
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True for a friction law, and for a coefficient above 0."""
         return self.law is not None or bool(self.sliding) or self.static > 0
 
@@ -518,4 +518,4 @@ class Train(Declared):
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
         """Yield the name and wheel of every tooth count that is declared with a range or choices."""
-        return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.doubt)
+        return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.uncertainty)

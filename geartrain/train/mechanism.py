@@ -271,7 +271,7 @@ class Teeth(Declared):
         return range(self.search[0], self.search[1] + 1) if len(self.search) == 2 else sorted(set(self.search))
 
     @property
-    def chances(self) -> dict[int, Fraction]:
+    def probabilities(self) -> dict[int, Fraction]:
         """Prior probability of each count by `weights`, in ascending order of counts; the sum is 1.
 
         Without weights all counts of `range`, `choices` or `search` are equally probable. Counts of weight 0 are left
@@ -279,7 +279,7 @@ class Teeth(Declared):
 
         Examples
         --------
-        >>> Teeth(value=64, range=(63, 65), weights=(1, 3, 0)).chances
+        >>> Teeth(value=64, range=(63, 65), weights=(1, 3, 0)).probabilities
         {63: Fraction(1, 4), 64: Fraction(3, 4)}
         """
         counts = self.allowed
@@ -289,7 +289,7 @@ class Teeth(Declared):
         whole, found = sum(weights), dict.fromkeys(sorted(counts), Fraction(0))
         for count, weight in zip(counts, weights, strict=True):  # a count may be listed twice
             found[count] += weight / whole
-        return {count: chance for count, chance in found.items() if chance}
+        return {count: probability for count, probability in found.items() if probability}
 
     @property
     def fault_of_weights(self) -> str | None:
@@ -342,7 +342,7 @@ class Wheel(Declared):
     >>> Wheel(teeth=20).count
     20
     >>> doubtful = Wheel(teeth={"value": 64, "range": (64, 66)})
-    >>> doubtful.count, doubtful.doubt.allowed
+    >>> doubtful.count, doubtful.uncertainty.allowed
     (64, (64, 65, 66))
     """
 
@@ -389,7 +389,7 @@ class Wheel(Declared):
         return self.teeth if isinstance(self.teeth, int) else self.teeth.value
 
     @property
-    def doubt(self) -> Teeth | None:
+    def uncertainty(self) -> Teeth | None:
         """Declared range or choices of an uncertain tooth count; None for a certain one."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 

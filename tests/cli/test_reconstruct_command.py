@@ -51,7 +51,7 @@ def test_counts(name: str, counts: list[tuple[int, ...]]) -> None:
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["counts"] == [
-        dict(zip(("added", "mechanisms", "bags", "classes"), row, strict=True)) for row in counts
+        dict(zip(("added", "solutions", "multisets", "classes"), row, strict=True)) for row in counts
     ]
     assert found["complete"] is True
     assert found["best"] == []
@@ -100,7 +100,7 @@ def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["original"] == [1, 8]
-    assert [count["mechanisms"] for count in found["counts"]] == [0, 0, 8]
+    assert [count["solutions"] for count in found["counts"]] == [0, 0, 8]
     assert "ranks 1 to 8" in " ".join(
         call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot").stdout.split()
     )
@@ -116,12 +116,12 @@ def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
 def test_the_family_tree_is_written_beside_the_trains(tmp_path: Path) -> None:
     call("reconstruct", "back-train", "--best", "1", "--write", tmp_path / "one")
     found = json.loads((tmp_path / "one" / "family.json").read_text(encoding="utf-8"))
-    assert [branch["mechanisms"] for branch in found["family"]] == [4, 2, 1, 1, 2, 1, 1]
+    assert [branch["solutions"] for branch in found["family"]] == [4, 2, 1, 1, 2, 1, 1]
     assert [branch["parent"] for branch in found["family"]] == [None, 0, 1, 1, 0, 4, 4]
     assert found["family"][0]["meshes"] == ["b2 > l1"]
     assert found["family"][0]["weight"] == 1
     assert found["family"][2]["trains"] == [{"rank": 1, "weight": 0.25, "counts": {"m_new1": 27, "new_metonic1": 53}}]
-    assert found["counts"][2]["mechanisms"] == 4
+    assert found["counts"][2]["solutions"] == 4
     assert len(found["question"]) == 64
 
 
@@ -139,9 +139,9 @@ def test_what_is_told_beyond_counts() -> None:
     holds("reconstruct", found)
     told = {(one["kind"], one["subject"]): one for one in found["marginals"]}
     yes = {answer["answer"]: answer for answer in told["mesh", "e4 > f1"]["answers"]}["yes"]
-    assert yes == {"answer": "yes", "weight": 0.25, "mechanisms": 1}
-    assert told["needed", "53"]["answers"][0]["mechanisms"] == 2
-    assert told["mesh", "b2 > l1"]["answers"] == [{"answer": "yes", "weight": 1, "mechanisms": 4}]
+    assert yes == {"answer": "yes", "weight": 0.25, "solutions": 1}
+    assert told["needed", "53"]["answers"][0]["solutions"] == 2
+    assert told["mesh", "b2 > l1"]["answers"] == [{"answer": "yes", "weight": 1, "solutions": 4}]
     assert found["next_facts"][0]["bits"] == 1.5
     assert (found["assumptions"], found["missing"], found["listed"]) == ([], None, 4)
     alone = json.loads(call("reconstruct", "metonic-l-m", "--json").stdout)
@@ -156,7 +156,7 @@ def test_what_is_told_beyond_counts() -> None:
 def test_assumptions_are_dropped_where_that_is_requested() -> None:
     found = json.loads(call("reconstruct", "back-train", "--assumptions", "--count", "--json").stdout)
     holds("reconstruct", found)
-    trains = {one["change"]: one["mechanisms"] for one in found["assumptions"]}
+    trains = {one["change"]: one["solutions"] for one in found["assumptions"]}
     assert trains["without the sense of any dial"] == [0, 0, 29]
     assert found["marginals"] == []
     assert "\nwithout the sense of any dial " in call("reconstruct", "back-train", "--assumptions").stdout
@@ -169,7 +169,7 @@ def test_why_nothing_fits(tmp_path: Path) -> None:
     found = json.loads(call("reconstruct", path, "--json").stdout)
     holds("reconstruct", found)
     assert found["missing"]["dials"] == [{"dial": "sun", "fewest": None, "refused": None}]
-    assert [one["change"] for one in found["missing"]["doubts"]] == ["if added wheels may have 10 to 80 teeth"]
+    assert [one["change"] for one in found["missing"]["uncertainties"]] == ["if added wheels may have 10 to 80 teeth"]
     page = call("reconstruct", path).stdout
     assert "fails: no train with 1 added wheel or fewer" in page
     assert "Changes of the evidence that would help" in page
@@ -213,7 +213,7 @@ def test_the_time_is_told_where_it_is_long(monkeypatch: pytest.MonkeyPatch) -> N
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["expected"]["seconds"] == 6000
-    assert found["counts"][3]["mechanisms"] == 60
+    assert found["counts"][3]["solutions"] == 60
 
 
 STOP_AFTER = 3
@@ -272,7 +272,7 @@ def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> 
 
     def grown(problem: ReconstructionProblem, *_: object) -> Reconstructions:
         found = explanations(problem)
-        trees = [(each.counts.added, tree) for each in found for tree in sorted(each.mechanisms)]
+        trees = [(each.counts.added, tree) for each in found for tree in sorted(each.solutions)]
         listed = tuple(Candidate(package_arbor(tree), added, 1 / len(trees), (1, len(trees))) for added, tree in trees)
         return Reconstructions(tuple(ExplanationCount(*each.counts) for each in found), True, listed)
 
@@ -367,7 +367,7 @@ def test_the_report_is_written(tmp_path: Path) -> None:
     call("reconstruct", "metonic-l-m", "-o", tmp_path / "found.html")
     assert "<h1" in (tmp_path / "found.html").read_text("utf-8")
     call("reconstruct", "metonic-l-m", "-o", tmp_path / "found.json")
-    assert json.loads((tmp_path / "found.json").read_text("utf-8"))["counts"][1]["mechanisms"] == 2
+    assert json.loads((tmp_path / "found.json").read_text("utf-8"))["counts"][1]["solutions"] == 2
     assert call("reconstruct", "metonic-l-m", "-o", "-").stdout.startswith("# Trains that explain metonic-l-m")
     same = tmp_path / "one.html"
     result = ended("reconstruct", "metonic-l-m", "-o", same, "--page", same)

@@ -95,7 +95,7 @@ def test_evidence_has_the_trains_that_are_derived_by_hand(name: str, folder: Pat
     found = requested(name)
     assert found.complete
     assert sorted(added(one.arbor) for one in found.candidates) == right
-    assert sum(count.mechanisms for count in found.counts) == len(right)
+    assert sum(count.solutions for count in found.counts) == len(right)
 
 
 def test_all_four_trains_of_the_back_turn_both_pointers_as_the_dials_are_divided(folder: Path) -> None:

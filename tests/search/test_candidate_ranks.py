@@ -21,7 +21,7 @@ from geartrain.search.reconstruct.reconstruction_search import prior, train_key
 @pytest.mark.parametrize("seed", range(60, 100))
 def test_ranks_are_those_among_all_trains(seed: int) -> None:
     problem = random_problem(seed, idlers=True)
-    grown = [package_arbor(tree) for found in explanations(problem) for tree in found.mechanisms]
+    grown = [package_arbor(tree) for found in explanations(problem) for tree in found.solutions]
     weights: dict[object, Fraction] = {train_key(arbor): prior(arbor, problem) for arbor in grown}
     alike = Counter(weights.values())
     for one in find_reconstructions(problem, listed=1).candidates:

@@ -97,7 +97,7 @@ def test_the_sense_is_dropped_as_a_magnitude() -> None:
 def test_what_each_fact_of_the_back_train_carries() -> None:
     """The counts of independent programs: 29 without the senses."""
     problem = evidence_question(read_evidence("back-train")).problem
-    found = {one.change: one.mechanisms for one in changed_counts(without_each_fact(problem))}
+    found = {one.change: one.solutions for one in changed_counts(without_each_fact(problem))}
     assert found["without the sense of any dial"] == (0, 0, 29)
     assert found["without the fact that the arbor of metonic is lost"] == (0, 0, 4)
 
@@ -111,7 +111,7 @@ def test_counts_of_changed_questions_are_those_of_plain_growth(seed: int) -> Non
 
 def test_what_cannot_be_requested_is_said() -> None:
     (one, *_) = changed_counts(without_each_fact(TOY), search=refusing)
-    assert (one.mechanisms, one.refused, one.fewest, one.total) == ((), "not today", None, 0)
+    assert (one.solutions, one.refused, one.fewest, one.total) == ((), "not today", None, 0)
 
 
 NOTHING = ReconstructionProblem(
@@ -127,7 +127,7 @@ NOTHING = ReconstructionProblem(
 def test_why_nothing_fits(search: object) -> None:
     found = explain_missing(NOTHING, **({"search": search} if search else {}))
     assert found.dials == (LoneDial("p", None), LoneDial("q", 1))
-    assert [(one.change, one.mechanisms) for one in found.doubts] == [("if a1 has 30 teeth", (0, 1))]
+    assert [(one.change, one.solutions) for one in found.uncertainties] == [("if a1 has 30 teeth", (0, 1))]
     assert found.refused == ()
     assert found.requested == 9 + 2 + 12  # facts and rules, dials, and two wheels by up to three teeth either way
 
@@ -135,7 +135,7 @@ def test_why_nothing_fits(search: object) -> None:
 def test_the_cheapest_doubt_is_first() -> None:
     """With two wheels to add, p may be on the arbor of 31 by way of an added one: 20 > x, y > 31 with 31 x = 30 y."""
     easy = replace(NOTHING, dials=NOTHING.dials[:1], additions=Additions(2, 10, 15))
-    found = explain_missing(easy).doubts
+    found = explain_missing(easy).uncertainties
     assert [one.fewest for one in found] == sorted(one.fewest or 0 for one in found)
     assert found[0].change == "if a1 has 30 teeth"
 
@@ -149,12 +149,12 @@ def test_a_misread_count_of_the_back_train_is_found() -> None:
         for arbor in problem.arbors
     )
     found = explain_missing(replace(problem, arbors=arbors))
-    assert [(one.change, one.mechanisms) for one in found.doubts] == [("if e3 has 223 teeth", (0, 0, 4))]
+    assert [(one.change, one.solutions) for one in found.uncertainties] == [("if e3 has 223 teeth", (0, 0, 4))]
     assert found.dials == (LoneDial("metonic", 1), LoneDial("saros", 2))
 
 
 def test_a_search_that_refuses_is_told() -> None:
     found = explain_missing(NOTHING, search=refusing)
     assert found.dials == (LoneDial("p", None, "not today"), LoneDial("q", None, "not today"))
-    assert found.doubts == ()
+    assert found.uncertainties == ()
     assert len(found.refused) == found.requested

@@ -35,22 +35,22 @@ def by_sums(problem: ReconstructionProblem) -> Told | None:
     topologies = find_reconstructions(problem, listed=0).topologies
     weighed = ((each.topology, topology_prior(each.topology, problem)) for each in topologies)
     tally = sum_facts(weighed, problem, [dial.name for dial in problem.dials])
-    assert tally.trains == sum(each.mechanisms for each in topologies)
+    assert tally.trains == sum(each.solutions for each in topologies)
     if not tally.trains:
         return None
     found = (tally.marginal(fact) for fact in tally.facts())
-    return {(one.kind, one.subject): {a.answer: (a.share, a.mechanisms) for a in one.answers} for one in found}
+    return {(one.kind, one.subject): {a.answer: (a.share, a.solutions) for a in one.answers} for one in found}
 
 
 def by_trains(problem: ReconstructionProblem) -> Told:
     """Each train with its names; what it says is read off by the program for single candidates."""
-    arbors = [package_arbor(tree) for found in explanations(problem) for tree in found.mechanisms]
+    arbors = [package_arbor(tree) for found in explanations(problem) for tree in found.solutions]
     own = (problem.input, *problem.arbors)
     links, wheels = {arbor.name for arbor in own}, {wheel.name for arbor in own for wheel in arbor.wheels}
     trains = [name_train(arbor, [dial.name for dial in problem.dials], links, wheels) for arbor in arbors]
     facts = ExplainedFacts(WeighedTrains.of(trains, [prior(arbor, problem) for arbor in arbors]), problem)
     found = [*facts.marginals(), *(one.fact for one in facts.next_facts())]
-    return {(one.kind, one.subject): {a.answer: (a.share, a.mechanisms) for a in one.answers} for one in found}
+    return {(one.kind, one.subject): {a.answer: (a.share, a.solutions) for a in one.answers} for one in found}
 
 
 @pytest.mark.parametrize("rings", [False, True])
@@ -74,7 +74,7 @@ def test_sums_are_those_over_concrete_trees(first: int) -> None:
     for seed in range(first, first + 30):
         problem = random_problem(seed, idlers=True)
         found = by_sums(problem)
-        trees = [tree for one in explanations(problem) for tree in one.mechanisms]
+        trees = [tree for one in explanations(problem) for tree in one.solutions]
         if found is None:
             assert not trees
             continue

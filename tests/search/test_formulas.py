@@ -524,9 +524,9 @@ def test_changed_counts_leave_the_train_as_it_was_and_keep_marks_and_doubts(trai
     assert GearTrain(changed).solve()["b"] == Fraction(-1, 2)
     assert GearTrain(train).solve()["b"] == Fraction(-1, 3)
     assert changed.place("gears", 0) == train.place("gears", 0) == f"{path}:6"
-    assert changed.wheels["p"][1].doubt is not None
+    assert changed.wheels["p"][1].uncertainty is not None
     assert changed.wheels["p"][1].module == train.wheels["p"][1].module
-    assert with_counts(train, {"p": 30}).wheels["p"][1].doubt is None, "the evidence does not allow 30"
+    assert with_counts(train, {"p": 30}).wheels["p"][1].uncertainty is None, "the evidence does not allow 30"
     assert type(changed.wheels["w"][1].count) is int
 
 

@@ -16,7 +16,7 @@ def test_halving_is_one_bit() -> None:
 
 
 @pytest.mark.parametrize(
-    ("chances", "bits"), [([1.0], 0), ([0.5, 0.5], 1), ([0.25] * 4, 2), ([0.5, 0.25, 0.25], 1.5), ([0.0, 1.0], 0)]
+    ("probabilities", "bits"), [([1.0], 0), ([0.5, 0.5], 1), ([0.25] * 4, 2), ([0.5, 0.25, 0.25], 1.5), ([0.0, 1.0], 0)]
 )
 def test_what_an_answer_is_expected_to_tell(chances: list[float], bits: float) -> None:
     assert entropy(chances) == bits

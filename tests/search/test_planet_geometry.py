@@ -28,7 +28,7 @@ from geartrain.search.constraints.assembly_constraints import (
     external_terms,
     minimum_teeth,
     ring_terms,
-    tip_rooms,
+    tip_margins,
 )
 from geartrain.search.constraints.count_conditions import cosine, is_positive, sine
 
@@ -304,7 +304,7 @@ def test_planets_nearly_as_large_as_their_ring_collide_as_outlines_of_teeth_do(
         test = InRing("p", ring, TWENTY, Fraction(h1), Fraction(h2))
         held = bool(test(columns(p=ring - less))[0])
         assert held == (less >= minimum)
-        room = float(tip_rooms(ring - less, ring, math.radians(20), float(h1), float(h2)))
+        room = float(tip_margins(ring - less, ring, math.radians(20), float(h1), float(h2)))
         if abs(room) > 5e-4:
             assert (overlap(ring - less, ring, math.radians(20), float(h1), float(h2)) < 5e-6) == held
 
@@ -314,7 +314,7 @@ def test_a_ring_of_fifty_takes_forty_one_teeth_as_they_are_and_forty_two_only_sh
     test = InRing("p", 50, TWENTY, Fraction(1), Fraction(1))
     assert test(columns(p=[41, 42])).tolist() == [True, False]
     # the tips of a ring with fewer than 34 teeth lie within its base circle, where there is no involute
-    assert np.isfinite(tip_rooms([24, 24], [34, 33], math.radians(20), 1, 1)).tolist() == [True, False]
+    assert np.isfinite(tip_margins([24, 24], [34, 33], math.radians(20), 1, 1)).tolist() == [True, False]
 
 
 def test_full_teeth_of_a_ring_cut_into_the_flanks_of_small_planets() -> None:

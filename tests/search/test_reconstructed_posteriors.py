@@ -82,7 +82,7 @@ def _shares(tally: FactTally, fact: Fact) -> dict[str, Fraction]:
 
 
 def _chances(found: ToothCountPosterior, wheel: str) -> dict[str, Fraction | float]:
-    pairs = zip(found[wheel].doubt.counts, found[wheel].chances, strict=True)
+    pairs = zip(found[wheel].uncertainty.counts, found[wheel].probabilities, strict=True)
     return {str(count): chance.value for count, chance in pairs if chance.value}
 
 
@@ -104,7 +104,7 @@ def test_both_commands_give_the_same_fractions(first: int) -> None:
             found = infer_counts(declared(problem, root), method="exact")
             weighed = [(one.topology, topology_prior(one.topology, problem)) for one in topologies]
             tally = sum_facts(weighed, problem, dials)
-            orders = some.mechanisms // some.choices
+            orders = some.solutions // some.choices
             assert (found.method, found.fits) == ("exact", sum(one.choices for one in topologies))
             assert tally.trains == orders * found.fits
             whole = prod(sum(weight for _, weight in wheel.counts) for wheel in used)

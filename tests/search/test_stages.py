@@ -69,7 +69,7 @@ def every_solution(
                 continue
             if fit.minimum_total is not None and sum(both) < fit.minimum_total:
                 continue
-            if fit.most_total is not None and sum(both) > fit.most_total:
+            if fit.maximum_total is not None and sum(both) > fit.maximum_total:
                 continue
             if fit.largest is not None and max(both) > fit.largest:
                 continue

@@ -178,7 +178,7 @@ def test_a_range_is_inclusive_and_lists_its_counts() -> None:
     )
     ((name, wheel),) = train.declaration.uncertain_wheels()
     assert name == "w"
-    assert wheel.doubt.allowed == (59, 60, 61)
+    assert wheel.uncertainty.allowed == (59, 60, 61)
     assert wheel.status == "surviving"
 
 

@@ -281,7 +281,7 @@ class ExtremeSearch:
         self.reversing_drivers = self._whole.reversing_drivers
 
     @property
-    def doubt(self) -> Floats:
+    def uncertainty(self) -> Floats:
         """Bound on how far a value of the run may exceed the maxima found, (outputs, 4)."""
         beyond = self._dropped - self.values
         return np.where(beyond > 2 * self._whole.tolerance, beyond, 0.0)

@@ -24,7 +24,7 @@ from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_spe
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.kernels import is_fast
-from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, picture_maker
+from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, imported_function
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -539,7 +539,7 @@ class Motion(Shown):
         >>> geartrain.load("moon-triangular").motion().run(turns=1, samples=2001)
         <MotionRun moon-triangular: 1 turn, transmission error p-p sun 0.02904 deg, moon 5.895 deg>
         """
-        run = picture_maker("dynamics.motion.motion_run", "MotionRun")(self, turns, samples)
+        run = imported_function("dynamics.motion.motion_run", "MotionRun")(self, turns, samples)
         run.run()
         return run
 
@@ -589,4 +589,4 @@ class Motion(Shown):
         for name in outputs:
             check_choice("output", name, list(self.outputs))
         shown = self._of(outputs or tuple(self.outputs))
-        return picture_maker("drawing", "outputs_figure")(shown, turns, samples)
+        return imported_function("drawing", "outputs_figure")(shown, turns, samples)

@@ -172,14 +172,14 @@ class PairErrors:
                 teeth = round(2 * pi / transmission.period)
                 pitches = (
                     float(mesh.transmission.angle(start)) / transmission.period
-                    + mesh.stands
+                    + mesh.tooth_phase
                     - (teeth / 2 if opposite else 0)
                 )
                 return (pitches % 1) * transmission.period
         phase = self.train.phases.get(circuit.id, 0.0)
         if driven == 1 or circuit.kind != "gear":
             return phase * transmission.period
-        phase -= self.train.meshes[circuit.id].stands
+        phase -= self.train.meshes[circuit.id].tooth_phase
         wanted = phase * float(transmission.ratio) * transmission.period
         low, high = (phase - 2) * transmission.period, (phase + 2) * transmission.period
         # bisection: the driven angle increases with the driver's, and kinks would disturb faster methods

@@ -205,9 +205,11 @@ def count_extremes(
     """
     low, high = sorted((0.0, turns))
     search.over(low, high)
-    if search.doubt.any():
+    if search.uncertainty.any():
         search.around(peaks.turns.reshape(len(tallies), -1), abs(step), low, high)
-    for tally, (most, minimum, fast, slow), doubt in zip(tallies, search.values.tolist(), search.doubt, strict=True):
+    for tally, (most, minimum, fast, slow), uncertainty in zip(
+        tallies, search.values.tolist(), search.uncertainty, strict=True
+    ):
         tally.reach(np.array([most, -minimum]), np.array([fast, -slow]))
-        within = float(doubt[:2].max()), float(doubt[2:].max())
+        within = float(uncertainty[:2].max()), float(uncertainty[2:].max())
         tally.error_within, tally.speed_within = (each if isfinite(each) else None for each in within)

@@ -193,10 +193,10 @@ class LoadCase:
         free = any(value for column, value in form.items() if column != PRESCRIBED)
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
-    def rubs(self, part: GearPair | Coupling) -> bool:
+    def has_friction(self, part: GearPair | Coupling) -> bool:
         """Return whether the friction of a pair or coupling is above 0 or depends on speed."""
         friction = self.train.friction_of(part)
-        return friction is not None and friction.rubs
+        return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
         """Return the link that carries the axis of a link, regardless of how its coaxial joints are declared."""

@@ -46,7 +46,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
         return MeanEfficiencies(declared, declared)
     if (screw := _of_screw(setting, circuit)) is not None:
         return screw
-    if not setting.rubs(gear) or circuit.id not in setting.meshes:
+    if not setting.has_friction(gear) or circuit.id not in setting.meshes:
         return MeanEfficiencies()
     tooth = setting.meshes[circuit.id]
     if tooth.wheels.friction_law is not None:

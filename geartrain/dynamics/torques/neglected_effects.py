@@ -272,18 +272,22 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Yield friction of pins that is not a fraction of the transmitted power."""
     couplings = setting.couplings
-    rubbing = [circuit for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
-    if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
+    bearing_friction = [
+        circuit for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
+    ]
+    if swinging := tuple(circuit.id for circuit in bearing_friction if not circuit.b):
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
-    yield from _pins_without_dimensions(setting, [circuit for circuit in rubbing if circuit.b])
+    yield from _pins_without_dimensions(setting, [circuit for circuit in bearing_friction if circuit.b])
 
 
 def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Yield friction declared on pins without dimensions."""
     couplings = setting.couplings
-    rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
-    if bare := tuple(name for name in rubbing if name not in setting.joints):
+    bearing_friction = [
+        circuit.id for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
+    ]
+    if bare := tuple(name for name in bearing_friction if name not in setting.joints):
         why = "it depends on `pin_radius` and `offset`, which are not declared"
         yield NeglectedEffect("friction of pins", bare, why)
 
@@ -297,8 +301,8 @@ def _teeth(
         gear = setting.gears.get(circuit.id)
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
-        rubs = setting.rubs(gear) and means[circuit.id] == MeanEfficiencies()
-        if rubs and setting.relative(circuit.i, circuit.carrier) != 0:
+        has_friction = setting.has_friction(gear) and means[circuit.id] == MeanEfficiencies()
+        if has_friction and setting.relative(circuit.i, circuit.carrier) != 0:
             bare[_NO_HELIX if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
     for why, names in bare.items():
         if names:
@@ -333,23 +337,23 @@ def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
     return tooth is not None and not declared and tooth.wheels.friction_law is not None
 
 
-def _rubbing(setting: LoadCase) -> list[str]:
+def _bearing_friction(setting: LoadCase) -> list[str]:
     return [link for link in setting.train.links if setting.bearing(link)]
 
 
 def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    if rubbing := _rubbing(setting):
+    if bearing_friction := _bearing_friction(setting):
         why = "it does not depend on the load, so it is not part of an efficiency"
-        yield NeglectedEffect("friction of bearings", tuple(rubbing), why)
+        yield NeglectedEffect("friction of bearings", tuple(bearing_friction), why)
 
 
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
     """Yield bearings whose sense of rotation is undetermined or changes within a turn."""
-    rubbing = _rubbing(setting)
-    free = tuple(link for link in rubbing if setting.relative(link, setting.tree.parent[link][0]) is None)
+    bearing_friction = _bearing_friction(setting)
+    free = tuple(link for link in bearing_friction if setting.relative(link, setting.tree.parent[link][0]) is None)
     if free:
         yield NeglectedEffect("friction of bearings", free, "their sense of rotation is not determined")
-    known = [link for link in rubbing if link not in free]
+    known = [link for link in bearing_friction if link not in free]
     back = find_reversing_bearings(setting, known)
     if back is None:
         why = "it is computed at the mean speeds; the train has too many nonuniform pairs to find reversing bearings"
@@ -381,7 +385,7 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
         declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
-        if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.rubs and not declared))):
+        if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.has_friction and not declared))):
             found.append(circuit.id)
     if found:
         yield NeglectedEffect("variation within a turn", tuple(found), f"{_MEAN}, about which they vary with position")

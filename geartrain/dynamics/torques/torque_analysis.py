@@ -28,7 +28,7 @@ class LoadedBalance:
     balance: TorqueBalance
     speeds: Mapping[str, Fraction]
     loads: Mapping[str, Fraction]
-    rubbing: Mapping[str, Fraction]
+    bearing_friction: Mapping[str, Fraction]
     enough: bool = True
     """True if as many torques are unknown as the train has degrees of freedom.
 
@@ -53,9 +53,9 @@ class LoadedBalance:
         return self._power(self.loads)
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if both a load and friction of bearings act."""
-        return any(self.loads.values()) and any(self.rubbing.values())
+        return any(self.loads.values()) and any(self.bearing_friction.values())
 
     def power(self, flow: FlowPattern) -> Fraction:
         """Return the power input of the unknown torques."""
@@ -67,7 +67,7 @@ class LoadedBalance:
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
         """Return the flows under a load so large that constant friction is negligible."""
-        known = dict(self.rubbing)
+        known = dict(self.bearing_friction)
         for link, torque in self.loads.items():
             known[link] = known.get(link, Fraction(0)) + _GREAT * torque
         return find_flow_patterns(replace(self.balance, known=known))[0]
@@ -100,12 +100,12 @@ def _some(links: Sequence[str]) -> str:
 
 
 def find_torque_verdict(
-    question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, left_out: Sequence[NeglectedEffect] = ()
+    question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, neglected: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
     """Return the verdict on flows, sorted by undetermined torques and losses. The first flow is the one given."""
     if not flows:
         return _unbalanced(question, complete)
-    but = _neglected_note(left_out)
+    but = _neglected_note(neglected)
     if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
         verdict = _indeterminate(flows, question)
         return replace(verdict, text=verdict.text + but)
@@ -116,21 +116,21 @@ def find_torque_verdict(
     source = "the loads" if question.loads else question.load
     free = f"; {_some(question.open)} turn freely: torques do not depend on their speeds" if question.open else ""
     return TorqueVerdict(
-        "incomplete" if left_out else "determined",
+        "incomplete" if neglected else "determined",
         f"every torque follows from {source}{but}{_driving_note(question, flows[0])}{free}{sure}",
     )
 
 
-def _neglected_note(left_out: Sequence[NeglectedEffect]) -> str:
+def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
     """Summarise the neglected effects in a few words."""
     uncounted: dict[str, list[str]] = {}
-    for each in left_out:
+    for each in neglected:
         if each.counts:
             uncounted.setdefault(each.what, []).extend(each.where)
     if uncounted:
         named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
         return f"; not included: {', '.join(named)}"
-    return " (mean over a turn)" if left_out else ""
+    return " (mean over a turn)" if neglected else ""
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
@@ -146,14 +146,14 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
                 f"the declared shares of {', '.join(pairs)} contradict the balance, which has a solution without them"
             )
             return TorqueVerdict("contradictory", text)
-    if question.rubs and question.heavily_loaded():
+    if question.has_friction and question.heavily_loaded():
         text = (
             f"the load is too small to overcome the friction of the bearings, and no torque on {names} compensates for "
             "it while the train turns this way; the teeth do not lock: a larger load turns the train"
         )
         return TorqueVerdict("stalled", text)
     sure = "" if complete else " (not every pattern of power flow was tried)"
-    great = ", however large: the teeth lock, not the bearings" if question.rubs else ""
+    great = ", however large: the teeth lock, not the bearings" if question.has_friction else ""
     text = f"no torque on {names} balances {question.load} while the train turns this way{great}{sure}"
     return TorqueVerdict("self-locking", text)
 
@@ -162,7 +162,7 @@ def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
     """Describe a load that puts power in but cannot drive the train alone."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
-    heavy = question.heavily_loaded() if question.rubs else ()
+    heavy = question.heavily_loaded() if question.has_friction else ()
     if any(question.power(each) <= 0 for each in heavy):
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
@@ -305,7 +305,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return ()
-    known = _acting(question.loads, _rubbing(setting))
+    known = _acting(question.loads, _bearing_friction(setting))
     return idle_pairs(generic_balance(build_balance(setting, known, question.requested.links)))
 
 
@@ -411,8 +411,8 @@ def _balanced(
     bearings: bool = True,
     flows_only: bool = False,
 ) -> Torques:
-    rubbing = _rubbing(setting) if bearings else {}
-    known = _acting(loads, rubbing)
+    bearing_friction = _bearing_friction(setting) if bearings else {}
+    known = _acting(loads, bearing_friction)
     state = setting.case.state
     if not requested.enough and (lacking := find_imbalance(setting, known, requested.links)) is not None:
         return Torques(state, _with_reason(requested, lacking), requested.links)
@@ -422,22 +422,22 @@ def _balanced(
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
-    question = LoadedBalance(balance, setting.speeds, loads, rubbing, requested.enough, setting.open)
+    question = LoadedBalance(balance, setting.speeds, loads, bearing_friction, requested.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
-    left_out: tuple[NeglectedEffect, ...] = ()
+    neglected: tuple[NeglectedEffect, ...] = ()
     if not flows_only:
         from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 
         missed = [name for name in idle if name not in loose]
-        left_out = find_neglected_effects(setting, means, neither, missed, bearings)
-    verdict = find_torque_verdict(question, flows, complete, left_out)
+        neglected = find_neglected_effects(setting, means, neither, missed, bearings)
+    verdict = find_torque_verdict(question, flows, complete, neglected)
     if not flows:
         verdict = _with_reason(requested, verdict)
-        return Torques(state, verdict, requested.links, left_out=left_out)
-    return _torques(setting, balance, flows[0], rubbing, verdict, left_out)
+        return Torques(state, verdict, requested.links, neglected=neglected)
+    return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
 
 
 def _with_reason(requested: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
@@ -502,12 +502,15 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
     return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
 
 
-def _acting(loads: Mapping[str, Fraction], rubbing: Mapping[str, Fraction]) -> dict[str, Fraction]:
+def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fraction]) -> dict[str, Fraction]:
     """Return the known torque on each link."""
-    return {link: loads.get(link, Fraction(0)) + rubbing.get(link, Fraction(0)) for link in {**loads, **rubbing}}
+    return {
+        link: loads.get(link, Fraction(0)) + bearing_friction.get(link, Fraction(0))
+        for link in {**loads, **bearing_friction}
+    }
 
 
-def _rubbing(setting: LoadCase) -> dict[str, Fraction]:
+def _bearing_friction(setting: LoadCase) -> dict[str, Fraction]:
     """Return the total friction torque of bearings on each link, whether it turns in a bearing or carries one."""
     found: dict[str, Fraction] = {}
     for bearing in setting.bearings:
@@ -521,9 +524,9 @@ def _torques(
     setting: LoadCase,
     balance: TorqueBalance,
     flow: FlowPattern,
-    rubbing: Mapping[str, Fraction],
+    bearing_friction: Mapping[str, Fraction],
     verdict: TorqueVerdict,
-    left_out: tuple[NeglectedEffect, ...],
+    neglected: tuple[NeglectedEffect, ...],
 ) -> Torques:
     solved = flow.solved
     external = dict(balance.known)
@@ -531,7 +534,7 @@ def _torques(
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
     # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
-    for link, torque in rubbing.items():
+    for link, torque in bearing_friction.items():
         external[link] -= torque
     return Torques(
         setting.case.state,
@@ -543,9 +546,9 @@ def _torques(
             mesh.id: _pair(setting, mesh, circuit, flow)
             for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
         },
-        setting.bearings if rubbing else (),
+        setting.bearings if bearing_friction else (),
         _held(setting, flow),
-        left_out,
+        neglected,
     )
 
 

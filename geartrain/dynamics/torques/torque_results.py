@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Literal, NamedTuple
 
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, picture_maker
+from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, imported_function
 
 
 @dataclass(frozen=True)
@@ -182,7 +182,7 @@ class TorqueVerdict(Result):
     Kinds:
 
     - `determined`: torques follow, and no declared effect is neglected.
-    - `incomplete`: torques follow, but `Torques.left_out` lists neglected effects.
+    - `incomplete`: torques follow, but `Torques.neglected` lists neglected effects.
     - `self-locking`: no torques balance the load, however large, while the train turns this way.
     - `stalled`: no torques balance this load, which is too small to overcome the friction of bearings.
     - `ambiguous`: several patterns of power flow balance; the one with minimum loss is given.
@@ -298,13 +298,13 @@ class Torques(FrozenFields, Tabular, TrainResult):
         "pairs",
         Key("power_in", "known_power_in", as_float),
         Key("loss", "known_loss", as_float),
-        "left_out",
+        "neglected",
     )
 
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on whether the torques follow from the loads. If they do not, only this and `left_out` are given."""
+    """Verdict on whether the torques follow from the loads. If they do not, only this and `neglected` are given."""
     requested: tuple[str, ...] = ()
     """Links whose torque was computed."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
@@ -317,7 +317,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     """Friction of bearings; empty if it was not requested."""
     held: tuple[HoldingTorque, ...] = ()
     """Brakes and locks with the torques they exert."""
-    left_out: tuple[NeglectedEffect, ...] = ()
+    neglected: tuple[NeglectedEffect, ...] = ()
     """Neglected effects."""
 
     def _meaning(self, column: str) -> str:
@@ -366,7 +366,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     def plot(self) -> Any:
         """Return the power flow under these torques as a figure for notebooks: `geartrain.drawing.power_figure`."""
-        return picture_maker("drawing", "power_figure")(self, self.state or "")
+        return imported_function("drawing", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:
@@ -376,7 +376,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     @property
     def uncounted(self) -> tuple[NeglectedEffect, ...]:
         """Neglected effects that change powers and efficiency. Variation within a turn does not change their means."""
-        return tuple(each for each in self.left_out if each.counts)
+        return tuple(each for each in self.neglected if each.counts)
 
     @property
     def power_in(self) -> Fraction:

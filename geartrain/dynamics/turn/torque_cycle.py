@@ -184,7 +184,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         Key("starting_at", "starting_place"),
         *("efficiency", "energy", "parts", "flank_changes", "loses_most", "recirculating"),
         *("locked_share", "locked", "held_share", "ambiguous_share"),
-        *(Key("turns", "span"), "period", "complete", "left_out"),
+        *(Key("turns", "span"), "period", "complete", "neglected"),
     )
 
     state: str | None
@@ -247,7 +247,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     """Start and end of each stretch in which nothing balances."""
     complete: bool = True
     """False if there were too many patterns of power flow to try them all."""
-    left_out: tuple[NeglectedEffect, ...] = ()
+    neglected: tuple[NeglectedEffect, ...] = ()
     """Neglected effects."""
 
     def __post_init__(self) -> None:

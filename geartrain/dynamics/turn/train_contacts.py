@@ -66,7 +66,7 @@ class ContactLosses(ABC):
     """Effect of friction on the torques of a contact."""
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if the contact has losses."""
         return True
 
@@ -95,7 +95,7 @@ class NoLosses(ContactLosses):
     """Contact without losses."""
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """Always False."""
         return False
 
@@ -176,7 +176,7 @@ class PinFriction(ContactLosses):
     static: float
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if either coefficient of friction is not 0."""
         return bool(self.sliding or self.static)
 
@@ -199,7 +199,7 @@ class PinFriction(ContactLosses):
 
     def kinks(self, at: DriverState) -> Floats | None:
         """Return sin S: it is 0 with the pin on the line through both axes, where the sliding velocity reverses."""
-        return np.sin(at.S) if self.rubs else None
+        return np.sin(at.S) if self.has_friction else None
 
 
 @dataclass(frozen=True)
@@ -240,7 +240,7 @@ class PairContact:
     @property
     def two_sided(self) -> bool:
         """True if its flanks differ, or if friction depends on the driving side."""
-        return self.losses.rubs or self.has_flanks
+        return self.losses.has_friction or self.has_flanks
 
     @property
     def has_flanks(self) -> bool:
@@ -300,7 +300,7 @@ def mean_friction_pairs(
 
 def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:
     gear = setting.gears[mesh.name]
-    return gear.efficiency is None and setting.rubs(gear)
+    return gear.efficiency is None and setting.has_friction(gear)
 
 
 def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None, mesh: GearMesh | None) -> PairContact:
@@ -316,7 +316,7 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
 
 def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     joint, friction = setting.joints.get(circuit.id), setting.train.friction_of(setting.couplings[circuit.id])
-    if joint is None or friction is None or not friction.rubs:
+    if joint is None or friction is None or not friction.has_friction:
         return NoLosses()
     return PinFriction(joint.transmission, joint.transmission.friction, friction.static)
 

@@ -207,13 +207,13 @@ class _RunResults:
         link = train.requested[own.row]
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         maximum = None if locked else self._extreme(own, 1, False)
-        torque, left_out, period = own.torque(found), self._left_out(), train.motion.period
+        torque, neglected, period = own.torque(found), self._neglected(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
         labels = [repr(each) for each in self.run.cells.turns.tolist()]
         return TorqueCycle(
             train.setting.case.state,
-            self._verdict(locked, ambiguous, left_out),
+            self._verdict(locked, ambiguous, neglected),
             link,
             has_torque_units(train.setting.train, train.setting.case.state),
             self.run.span,
@@ -236,10 +236,10 @@ class _RunResults:
             ambiguous,
             self._stretches(),
             train.complete,
-            left_out,
+            neglected,
         )
 
-    def _left_out(self) -> tuple[NeglectedEffect, ...]:
+    def _neglected(self) -> tuple[NeglectedEffect, ...]:
         train = self.run.train
         teeth = {mesh.name: mesh for mesh in train.motion.motion._problem.teeth}
         found = neglected_over_turn(
@@ -260,7 +260,7 @@ class _RunResults:
             found += (NeglectedEffect("rest within the backlash", train.flanked, why),)
         return found
 
-    def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
+    def _verdict(self, locked: float, ambiguous: float, neglected: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
         requested = ", ".join(self.run.train.requested)
         if locked:
             text = f"no torque on {requested} balances the loads over {locked:.4%} of the run: the train locks there"
@@ -274,8 +274,8 @@ class _RunResults:
         if ambiguous:
             text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
             return TorqueVerdict("ambiguous", f"{text}; the one with minimum loss is given")
-        if left_out:
-            what = ", ".join(map(str, left_out))
+        if neglected:
+            what = ", ".join(map(str, neglected))
             return TorqueVerdict("incomplete", f"the torque at every position is determined; not included: {what}")
         return TorqueVerdict("determined", "the torque at every position is determined")
 

@@ -32,7 +32,7 @@ PRESSURE = radians(20)
 
 
 @lru_cache(maxsize=4096)
-def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     """Return the angle by which a planet's tooth tip clears a ring's (rad, about the ring's axis).
 
     z1, z2     teeth of the planet and the ring; z2 > z1
@@ -65,10 +65,10 @@ def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
 
 
 @lru_cache(maxsize=4096)
-def radial_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
     """Return the angle by which a planet's teeth clear the ring's in radial assembly (rad, about the planet's axis).
 
-    Arguments as for `tip_room`. Negative if tips collide during assembly (trimming interference, SDP/SI equations 5-9
+    Arguments as for `tip_margin`. Negative if tips collide during assembly (trimming interference, SDP/SI equations 5-9
     to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, one of 80 or 100 teeth 16.
     """
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
@@ -87,7 +87,7 @@ def minimum_ring(planet: int) -> int:
     """Return the tooth count of the smallest ring without trochoid interference with a planet of standard teeth."""
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
-    return next(z for z in count(first) if tip_room(planet, z, PRESSURE, 1.0, 1.0) > 0)
+    return next(z for z in count(first) if tip_margin(planet, z, PRESSURE, 1.0, 1.0) > 0)
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
@@ -112,7 +112,7 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
                 f"{minimum_ring(planet)} teeth"
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
-        elif judged and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
+        elif judged and ring > 33 and radial_margin(planet, ring, PRESSURE, 1.0, 1.0) < 0:
             what = f"pair '{pair.name}': '{mate}' {planet} can only be inserted axially into the ring '{name}' {ring}"
             why = "in radial assembly the tips of standard teeth collide (trimming interference)"
             fix = f"leave space for axial assembly, or use a ring of at least {_radial_ring(planet)} teeth"
@@ -121,7 +121,7 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
 
 def _radial_ring(planet: int) -> int:
     """Return the tooth count of the smallest ring into which a planet with standard teeth can be inserted radially."""
-    return next(z for z in count(max(minimum_ring(planet), 34)) if radial_room(planet, z, PRESSURE, 1.0, 1.0) >= 0)
+    return next(z for z in count(max(minimum_ring(planet), 34)) if radial_margin(planet, z, PRESSURE, 1.0, 1.0) >= 0)
 
 
 SLACK = Fraction(1, 50)

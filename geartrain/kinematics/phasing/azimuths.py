@@ -55,7 +55,7 @@ class PitchPoints:
     """Fraction of a turn from the first contact of the family."""
     guessed: frozenset[int] = frozenset()
     """Families with a fraction that was recognised from rounded positions."""
-    left_out: tuple[UnplacedPair, ...] = ()
+    omitted: tuple[UnplacedPair, ...] = ()
     """Pairs and couplings with unknown position."""
 
     @cached_property
@@ -71,11 +71,11 @@ class PitchPoints:
         return whole
 
     @cached_property
-    def doubt(self) -> Floats:
+    def uncertainty(self) -> Floats:
         """Maximum error of `constant` (pitches)."""
         # a pitch is 1/z turn, so the error of an azimuth counts z times
-        doubt: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
-        return doubt
+        uncertainty: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
+        return uncertainty
 
     @cached_property
     def scale(self) -> int:
@@ -145,15 +145,15 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
     senses: list[tuple[IntegerVector, IntegerVector]] = []
     rounded: list[float] = []
     blurred: list[float] = []
-    left_out: list[UnplacedPair] = []
+    omitted: list[UnplacedPair] = []
     for circuit in circuits:
         if circuit.kind != "gear":
-            left_out.append(UnplacedPair(circuit.id, "a pin in a slot has no teeth"))
+            omitted.append(UnplacedPair(circuit.id, "a pin in a slot has no teeth"))
             continue
         first, second = (axes.get(tree.axis_seen_from(circuit.carrier, link), plain) for link in (circuit.i, circuit.j))
         found = _contact(train, circuit, first, second)
         if isinstance(found, str):
-            left_out.append(UnplacedPair(circuit.id, found))
+            omitted.append(UnplacedPair(circuit.id, found))
             continue
         placed.append(mount_frame_wheels(circuit, train.frame))
         ways.append(found[:2])
@@ -163,7 +163,7 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
     azimuth = _azimuths(ways, senses)
     slack = np.add(rounded, blurred)[:, None] * np.ones(2)
     family, part, guessed = _families(placed, ways, azimuth, rounded, blurred)
-    return PitchPoints(tuple(placed), azimuth, slack, family, part, guessed, tuple(left_out))
+    return PitchPoints(tuple(placed), azimuth, slack, family, part, guessed, tuple(omitted))
 
 
 def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:

@@ -393,7 +393,7 @@ class MeshPhasing(Result):
         "spread",
         "fits",
         "unjudged",
-        "left_out",
+        "omitted",
         "rigid",
         Key("complete", "problem.complete"),
     )
@@ -451,9 +451,9 @@ class MeshPhasing(Result):
         return len(self.problem.parts.breaking)
 
     @property
-    def left_out(self) -> tuple[UnplacedPair, ...]:
+    def omitted(self) -> tuple[UnplacedPair, ...]:
         """Pairs and couplings with unknown position."""
-        return self.problem.contacts.left_out
+        return self.problem.contacts.omitted
 
     @cached_property
     def worst(self) -> Fraction | float:
@@ -564,7 +564,7 @@ class MeshPhasing(Result):
         if self.unjudged:
             passes = "loop passes" if self.unjudged == 1 else "loops pass"
             yield f"  {self.unjudged} {passes} through pairs with unknown position, not checked:"
-            yield from (f"    {one.name}: {one.why}" for one in self.left_out[:_SHOWN])
+            yield from (f"    {one.name}: {one.why}" for one in self.omitted[:_SHOWN])
         if self.rigid:
             yield f"  {self.rigid} loop{'s' if self.rigid > 1 else ''} cannot turn, without phase condition"
         if not self.problem.complete:
@@ -665,7 +665,7 @@ def find_phasing(
     contacts = place_pitch_points(train, tree, circuits)
     parts = find_components(_links(train, contacts.circuits), train.frame, contacts.circuits)
     unjudged = 0
-    if contacts.left_out:
+    if contacts.omitted:
         every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
         whole = find_components(_links(train, every), train.frame, every)
         unjudged = max(len(whole.closing) - len(parts.closing), 0)

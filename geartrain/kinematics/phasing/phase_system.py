@@ -396,7 +396,7 @@ class PhaseSystem:
         families = self._families(cycle, row)
         slack = 0.0
         for mesh, weight in row.items():
-            slack += abs(weight) * self._doubt[mesh]
+            slack += abs(weight) * self._uncertainty[mesh]
         if families is None:
             # fsum rounds once, so the result does not depend on the order of the meshes
             total = math.fsum(self._weighted(weight, self._constant[mesh]) for mesh, weight in row.items())
@@ -413,8 +413,8 @@ class PhaseSystem:
         return values
 
     @cached_property
-    def _doubt(self) -> list[float]:
-        values: list[float] = self.contacts.doubt.tolist()
+    def _uncertainty(self) -> list[float]:
+        values: list[float] = self.contacts.uncertainty.tolist()
         return values
 
     @staticmethod

@@ -19,7 +19,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
-from geartrain.kinematics.buildability.pitch_distances import tip_room
+from geartrain.kinematics.buildability.pitch_distances import tip_margin
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing import MeshPhasing, find_phasing
 from geartrain.numerics.graphs import joined_groups
@@ -46,7 +46,7 @@ from geartrain.search.constraints.count_conditions import (
     teeth_of,
     whole,
 )
-from geartrain.search.constraints.planet_constraints import PlanetRoom, equal_planets, reason
+from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -112,9 +112,9 @@ class _ConstraintBuilder:
                     (name,),
                     CountBounds(name, minimum=requested.minimum),
                 )
-            if requested.most_teeth is not None:
-                what = f"'{name}' has at most {requested.most_teeth} teeth"
-                yield Condition(what, (name,), CountBounds(name, most=requested.most_teeth))
+            if requested.maximum_teeth is not None:
+                what = f"'{name}' has at most {requested.maximum_teeth} teeth"
+                yield Condition(what, (name,), CountBounds(name, most=requested.maximum_teeth))
             if requested.largest_radius is not None:
                 plain = "" if requested.largest_radius.unit else " modules"
                 what = f"'{name}' has a radius of at most {requested.largest_radius}{plain}"
@@ -282,7 +282,7 @@ class _ConstraintBuilder:
                 )
             )
         for one, number in numbered:
-            room = PlanetRoom(number, self.requested.addendum, self._ring_addendum, self.requested.clearance)
+            room = PlanetClearance(number, self.requested.addendum, self._ring_addendum, self.requested.clearance)
             yield from room.conditions(one, self.fitting)
 
 
@@ -516,12 +516,12 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 
 
-def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """Return the clearance `tip_room` of each candidate [rad]; tooth counts are arrays that broadcast to one shape."""
+def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
+    """Return the clearance `tip_margin` of each candidate [rad]; tooth counts broadcast to one shape."""
     planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
     # many candidates share the same few pairs of counts
     pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
-    rooms = np.array([tip_room(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
+    rooms = np.array([tip_margin(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
     return np.asarray(rooms[which.ravel()].reshape(planets.shape))
 
 
@@ -561,7 +561,7 @@ class InRing:
         fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
         fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
         angle = float(self.pressure) * 2 * pi
-        return np.asarray(fits & (tip_rooms(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
+        return np.asarray(fits & (tip_margins(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
 
 
 def _square(pressure: Fraction) -> Decimal:

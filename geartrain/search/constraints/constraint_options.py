@@ -54,7 +54,7 @@ class ConstraintOptions:
     """
     minimum: int | None = None
     """Minimum tooth count of every free wheel, inclusive; worms are exempt."""
-    most_teeth: int | None = None
+    maximum_teeth: int | None = None
     """Maximum tooth count of every free wheel, inclusive; worms are exempt."""
     largest_radius: Quantity | None = None
     """Maximum pitch radius of every free wheel: a length, or a plain number of modules; worms are exempt."""

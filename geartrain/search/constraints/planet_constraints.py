@@ -144,7 +144,7 @@ class PassingClearance:
 
 
 @dataclass(frozen=True, slots=True)
-class PositiveRoom:
+class PositiveClearance:
     """Condition that a sum is positive."""
 
     room: WholeSum
@@ -155,7 +155,7 @@ class PositiveRoom:
 
 
 @dataclass(frozen=True, slots=True)
-class PlanetRoom:
+class PlanetClearance:
     """Required clearance between planets: number of planets, addenda of wheels and rings, and minimum clearance
     [modules].
     """
@@ -208,7 +208,7 @@ class PlanetRoom:
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
                 name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
-                yield from _condition(name, PositiveRoom(*whole(self._gap(planet, other, mesh))))
+                yield from _condition(name, PositiveClearance(*whole(self._gap(planet, other, mesh))))
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
         """Return twice the clearance between a planet and the central wheel of another one, minus the required
@@ -251,7 +251,7 @@ def _meshes(found: PlanetSet) -> list[AssemblyMesh]:
     return [mesh for planet in found.planets.walk() for mesh in _wheel_meshes(planet)]
 
 
-def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveRoom) -> Iterator[Condition]:
+def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveClearance) -> Iterator[Condition]:
     sums = [one for one in (getattr(test, field) for field in test.__slots__) if not isinstance(one, int)]
     wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))
     if wheels:

@@ -543,7 +543,7 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
     if kind.bevel:
-        return _bevel_room(columns, planets)
+        return _bevel_clearance(columns, planets)
     distances = [_distance(kind, columns, link).astype(np.float64) for link in kind.planets]
     tips = [np.maximum.reduce([columns[wheel] for wheel in link]) + TIPS for link in kind.planets]
     own: list[Floats] = [d * sin(pi / planets) - tip for d, tip in zip(distances, tips, strict=True)]
@@ -614,7 +614,7 @@ def _planet_cosine(columns: Columns) -> Floats:
     return np.asarray(np.sqrt(np.minimum(1, (a + b) ** 2 / (4 * (p**2 + a * b)))), dtype=np.float64)
 
 
-def _bevel_room(columns: Columns, planets: int) -> Floats:
+def _bevel_clearance(columns: Columns, planets: int) -> Floats:
     """Return the clearance of bevel planets: the angle between neighbouring axes minus their tip cones, times the
     radius.
     """

@@ -121,16 +121,16 @@ def find_join_problem(
     domains: Domains,
     requested: Sequence[IntervalConstraint],
     rules: Sequence[CountConstraint],
-    chances: Mapping[str, float],
+    probabilities: Mapping[str, float],
     weights: Weights | None = None,
 ) -> JoinProblem:
     """Return the join with the minimum expected cost, over combinations of wheels, late rules and orders of items.
 
-    chances   name of a rule or constraint -> approximate share of the assignments that satisfy it
+    probabilities   name of a rule or constraint -> approximate share of the assignments that satisfy it
     weights   weights of `JoinProblem`
     """
     found = [
-        _planned(domains, requested, early, late, recipes, chances)
+        _planned(domains, requested, early, late, recipes, probabilities)
         for early, late in _rule_partitions(rules)
         for recipes in find_recipes(
             find_wheel_monomials(tuple(domains), requested, frozenset(w for rule in early for w in rule.wheels)),
@@ -160,16 +160,16 @@ def _planned(
     early: tuple[CountConstraint, ...],
     late: tuple[CountConstraint, ...],
     recipes: tuple[ItemRecipe, ...],
-    chances: Mapping[str, float],
+    probabilities: Mapping[str, float],
 ) -> JoinProblem:
     polynomials = find_polynomial_constraints(requested, recipes, domains)
-    planner = _Planner(domains, recipes, early, polynomials, chances)
+    planner = _Planner(domains, recipes, early, polynomials, probabilities)
     node, steps = min((planner.plan(*way) for way in planner.ways()), key=lambda found: found[1])
     steps += sum(planner.sizes)
     steps += sum(forecast(side, domains)[1] / 4 for recipe in recipes for side in (recipe.top, recipe.bottom))
     if late:
         left = prod(len(counts) for counts in domains.values())
-        steps += 3 * left * prod(chances.get(one.name, 1.0) for one in (*early, *polynomials))
+        steps += 3 * left * prod(probabilities.get(one.name, 1.0) for one in (*early, *polynomials))
     return JoinProblem(domains, tuple(requested), early, late, recipes, node, steps)
 
 
@@ -181,7 +181,7 @@ class _Planner:
     recipes: Sequence[ItemRecipe]
     rules: Sequence[CountConstraint]
     polynomial_constraints: Sequence[PolynomialConstraint]
-    chances: Mapping[str, float]
+    probabilities: Mapping[str, float]
     sizes: list[int] = field(init=False)
     scopes: list[Items] = field(init=False)
     likely: list[float] = field(init=False)
@@ -191,7 +191,7 @@ class _Planner:
         at = {wheel: item for item, recipe in enumerate(self.recipes) for wheel in recipe.wheels}
         self.scopes = [frozenset(at[wheel] for wheel in rule.wheels) for rule in self.rules]
         self.scopes += [frozenset(one.items) for one in self.polynomial_constraints]
-        self.likely = [self.chances.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
+        self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
 
     def ways(self) -> Iterator[tuple[int, bool]]:
         """Yield pairs (constraint to complete first, True if items in many constraints come before small items)."""

@@ -107,37 +107,39 @@ def _legend(figure: Figure, likely: CountProbabilities) -> None:
 
 def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
     """Draw bars of the probabilities of one wheel, and outlines of its prior."""
-    chances = likely.single[wheel]
+    probabilities = likely.single[wheel]
     wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
-    axes.bar(list(chances), list(chances.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
+    axes.bar(list(probabilities), list(probabilities.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
     before = likely.before.get(wheel, {})
     if before:
         _outline(axes, before)
-    axes.set_ylim(0, 1.08 * max([*chances.values(), *before.values()]))
+    axes.set_ylim(0, 1.08 * max([*probabilities.values(), *before.values()]))
     axes.set_yticks([])
-    axes.set_title(_modes(chances), fontsize=SMALL, color=BLACK, pad=3)
+    axes.set_title(_modes(probabilities), fontsize=SMALL, color=BLACK, pad=3)
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
     if wheel in likely.declared:
         axes.axvline(likely.declared[wheel], color=RED, linewidth=1.2, linestyle=_DASHES)
 
 
-def _outline(axes: Axes, chances: Chances) -> None:
+def _outline(axes: Axes, probabilities: Chances) -> None:
     """Draw the outlines of bars; for many counts only the line along their tops, because the sides would merge."""
-    if len(chances) <= _FEW:
-        axes.bar(list(chances), list(chances.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0)
+    if len(probabilities) <= _FEW:
+        axes.bar(
+            list(probabilities), list(probabilities.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0
+        )
         return
-    counts = np.arange(min(chances), max(chances) + 1)
+    counts = np.arange(min(probabilities), max(probabilities) + 1)
     edges = np.append(counts, counts[-1] + 1) - 0.5
-    axes.stairs([chances.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
+    axes.stairs([probabilities.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
 
 
 def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
     """Draw a square for each pair of counts, darker for higher probability."""
     (a, first), (b, second) = ((wheel, spans[wheel]) for wheel in pair)
     table = np.zeros((second[1] - second[0] + 1, first[1] - first[0] + 1))
-    for (one, other), chance in likely.pairs[pair].items():
-        table[other - second[0], one - first[0]] = chance
+    for (one, other), probability in likely.pairs[pair].items():
+        table[other - second[0], one - first[0]] = probability
     edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
     # the colour scale needs two different ends, even if all probabilities are 0
     mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300))
@@ -165,10 +167,10 @@ def _ticks(axis: Any, span: tuple[int, int]) -> None:
     axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 
-def _modes(chances: Chances) -> str:
+def _modes(probabilities: Chances) -> str:
     """Format the mode and its probability; all modes if several counts are equally probable, "49-52: 10 % each"."""
-    largest = max(chances.values())
-    modes = sorted(count for count, chance in chances.items() if isclose(chance, largest))
+    largest = max(probabilities.values())
+    modes = sorted(count for count, probability in probabilities.items() if isclose(probability, largest))
     percent, span = f"{100 * largest:.3g} %", modes[-1] - modes[0] + 1
     if len(modes) == 1:
         return f"{modes[0]}: {percent}"
@@ -213,19 +215,23 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     'ring'
     """
     wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
-    if not all(found[wheel].chances for wheel in wheels):
+    if not all(found[wheel].probabilities for wheel in wheels):
         what = f"no combination of counts of '{found.name}' fits, so there is nothing to draw"
         why = "a corner plot needs at least one combination that fits"
         raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
     single = {
-        wheel: {count: float(each) for count, each in zip(one.doubt.counts, one.chances, strict=True) if float(each)}
+        wheel: {
+            count: float(each)
+            for count, each in zip(one.uncertainty.counts, one.probabilities, strict=True)
+            if float(each)
+        }
         for wheel, one in ((wheel, found[wheel]) for wheel in wheels)
     }
     before = {
-        wheel: dict(zip(found[wheel].doubt.counts, map(float, found[wheel].doubt.priors), strict=True))
+        wheel: dict(zip(found[wheel].uncertainty.counts, map(float, found[wheel].uncertainty.priors), strict=True))
         for wheel in wheels
     }
-    declared = {wheel: count for wheel in wheels if (count := found[wheel].doubt.declared) is not None}
+    declared = {wheel: count for wheel in wheels if (count := found[wheel].uncertainty.declared) is not None}
     requested = ", ".join(witness.name for witness in found.witnesses)
     return corner_figure(
         CountProbabilities(single, pairs, before, declared), f"{found.name}: counts that give {requested}"

@@ -39,7 +39,7 @@ class InferenceProblem:
 
     name: str
     """Name of the train."""
-    doubts: Mapping[str, ToothCountPrior]
+    uncertainties: Mapping[str, ToothCountPrior]
     """Wheel -> possible counts and their weights, in the order of declaration."""
     witnesses: tuple[ObservedOutput, ...]
     """Observed outputs that depend on an uncertain count."""
@@ -55,33 +55,33 @@ class InferenceProblem:
     @property
     def domains(self) -> Domains:
         """Wheel -> its counts, ascending."""
-        return {wheel: doubt.counts for wheel, doubt in self.doubts.items()}
+        return {wheel: uncertainty.counts for wheel, uncertainty in self.uncertainties.items()}
 
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
         """Priors of the wheels that an observed output or a condition depends on, in the order of declaration."""
         functions = [witness.formula for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
-        return {wheel: doubt for wheel, doubt in self.doubts.items() if wheel in wheels}
+        return {wheel: uncertainty for wheel, uncertainty in self.uncertainties.items() if wheel in wheels}
 
     @property
     def combinations(self) -> int:
         """Number of combinations of counts."""
-        return prod(len(doubt.counts) for doubt in self.doubts.values())
+        return prod(len(uncertainty.counts) for uncertainty in self.uncertainties.values())
 
     @property
     def total(self) -> int:
         """Sum of the integer weights of all combinations."""
-        return prod(doubt.total for doubt in self.doubts.values())
+        return prod(uncertainty.total for uncertainty in self.uncertainties.values())
 
     def weight(self, teeth: Mapping[str, int]) -> int:
         """Return the prior weight of a combination; over `total` it is the prior probability."""
-        return prod(self.doubts[wheel].weight(count) for wheel, count in teeth.items())
+        return prod(self.uncertainties[wheel].weight(count) for wheel, count in teeth.items())
 
 
 def build_inference_problem(
     train: Train,
-    doubts: Sequence[ToothCountPrior],
+    uncertainties: Sequence[ToothCountPrior],
     state: str | None = None,
     *,
     outputs: Sequence[str] = (),
@@ -102,7 +102,7 @@ def build_inference_problem(
     """
     _check(train, state, against, tolerance, scale)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
-    domains = {doubt.wheel: doubt.counts for doubt in doubts}
+    domains = {uncertainty.wheel: uncertainty.counts for uncertainty in uncertainties}
     found = [(one, find_formulas(train, one, domains)) for one in states]
     _check_outputs(train, states, outputs)
     witnesses: list[ObservedOutput] = []
@@ -131,7 +131,7 @@ def build_inference_problem(
                 remarks += _remarks(witness)
         remarks += [f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined]
     _check_known(moved, known, outputs)
-    by_wheel = {doubt.wheel: doubt for doubt in doubts}
+    by_wheel = {uncertainty.wheel: uncertainty for uncertainty in uncertainties}
     return InferenceProblem(train.name, by_wheel, tuple(witnesses), shown, tuple(conditions), tuple(remarks), soft)
 
 
@@ -244,7 +244,7 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
             fix = suggest(name, train.wheels)
             raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
     found = tuple(_priors(train, given))
-    if not any(len(doubt.counts) > 1 for doubt in found):
+    if not any(len(uncertainty.counts) > 1 for uncertainty in found):
         why = "no wheel has `range` or `choices` with more than one count"
         fix = "declare `teeth: {value: 64, range: [63, 66]}`, or free a wheel: --free WHEEL=63:66"
         raise QuestionError(Problem(f"no tooth count of '{train.name}' is uncertain", why, fix))
@@ -262,7 +262,7 @@ def _priors(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothC
             yield _declared(name, teeth, place)
         elif teeth.search is not None:
             _check_width(name, len(teeth.searched), place)
-            counts = tuple(teeth.chances)
+            counts = tuple(teeth.probabilities)
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "search")
 
 
@@ -294,12 +294,12 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
     if why := teeth.fault_of_weights:
         what = f"the weights of wheel '{name}' are not probabilities"
         raise QuestionError(Problem(what, why, "give weights of 0 or more, at least one of them above 0", place))
-    chances = teeth.chances
+    probabilities = teeth.probabilities
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""
     source = f" ({teeth.source})" if teeth.source else ""
     return ToothCountPrior(
-        name, tuple(chances), tuple(whole_multiple(chances.values())), teeth.value, f"{kind}{source}{said}"
+        name, tuple(probabilities), tuple(whole_multiple(probabilities.values())), teeth.value, f"{kind}{source}{said}"
     )
 
 

@@ -35,7 +35,7 @@ def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
             **{f"speed of {name}": as_float(speed) for name, speed in one.speeds.items()},
             **{f"error of {name}": float(value) for name, value in one.errors.items()},
             "misfit": float(one.misfit),
-            "chance": None if one.chance is None else float(one.chance),
+            "probability": None if one.probability is None else float(one.probability),
         }
         for one in found.best
     ]
@@ -124,13 +124,13 @@ def _wheels(found: ToothCountPosterior) -> Section:
 
 
 def _wheel(posterior: WheelPosterior) -> tuple[str, ...]:
-    doubt = posterior.doubt
-    before = f"{_span(doubt.counts)}, {doubt.assumed}"
-    declared = "-" if doubt.declared is None else str(doubt.declared)
-    if posterior.idle or not posterior.chances:
-        return doubt.wheel, declared, before, "-", "-", "-"
-    own = "-" if doubt.declared is None else str(posterior.chance(doubt.declared))
-    return doubt.wheel, declared, before, own, figure(posterior.bits, 3), _most_probable(posterior)
+    uncertainty = posterior.uncertainty
+    before = f"{_span(uncertainty.counts)}, {uncertainty.assumed}"
+    declared = "-" if uncertainty.declared is None else str(uncertainty.declared)
+    if posterior.idle or not posterior.probabilities:
+        return uncertainty.wheel, declared, before, "-", "-", "-"
+    own = "-" if uncertainty.declared is None else str(posterior.probability(uncertainty.declared))
+    return uncertainty.wheel, declared, before, own, figure(posterior.bits, 3), _most_probable(posterior)
 
 
 def _span(counts: Sequence[int]) -> str:
@@ -140,14 +140,14 @@ def _span(counts: Sequence[int]) -> str:
 
 def _most_probable(posterior: WheelPosterior) -> str:
     """Format the most probable counts with their probabilities; counts of probability 0 are omitted."""
-    pairs = zip(posterior.doubt.counts, posterior.chances, strict=True)
+    pairs = zip(posterior.uncertainty.counts, posterior.probabilities, strict=True)
     some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
-    listed = ", ".join(f"{count}: {_short(chance)}" for count, chance in some[:_MOST_PROBABLE])
+    listed = ", ".join(f"{count}: {_short(probability)}" for count, probability in some[:_MOST_PROBABLE])
     return listed + (f" and {len(some) - _MOST_PROBABLE} more" if len(some) > _MOST_PROBABLE else "")
 
 
-def _short(chance: CountProbability) -> str:
-    return figure(float(chance), 3)
+def _short(probability: CountProbability) -> str:
+    return figure(float(probability), 3)
 
 
 def _deciding(shares: Sequence[VarianceShares]) -> Section:
@@ -191,7 +191,7 @@ def _best(found: ToothCountPosterior) -> Section:
 
 def _combination_cells(one: CountCombination) -> tuple[str, str, str]:
     changed = ", ".join(f"{wheel} {one.teeth[wheel]}" for wheel in one.changed) or "nothing"
-    return changed, figure(one.misfit, 4), "-" if one.chance is None else str(one.chance)
+    return changed, figure(one.misfit, 4), "-" if one.probability is None else str(one.probability)
 
 
 def _errors(one: CountCombination, listed: Sequence[str]) -> list[str]:

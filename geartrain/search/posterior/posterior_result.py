@@ -65,11 +65,11 @@ class WheelPosterior(Result):
     infer_counts : gives it, by wheel
     """
 
-    KEYS = (Key("", "doubt"), Key("posterior", "chances"), "likeliest", "bits", "idle")
+    KEYS = (Key("", "uncertainty"), Key("posterior", "probabilities"), "likeliest", "bits", "idle")
 
-    doubt: ToothCountPrior
+    uncertainty: ToothCountPrior
     """Possible counts with their prior probabilities."""
-    chances: tuple[CountProbability, ...]
+    probabilities: tuple[CountProbability, ...]
     """Posterior probability of each count; they sum to 1. Empty if nothing fits."""
     idle: bool
     """True if no known output depends on the wheel, so that its posterior is its prior."""
@@ -77,17 +77,17 @@ class WheelPosterior(Result):
     @property
     def likeliest(self) -> int | None:
         """Most probable count, the smallest if several are equally probable; None if nothing fits."""
-        if not self.chances:
+        if not self.probabilities:
             return None
-        best = max(range(len(self.chances)), key=lambda at: (self.chances[at].value, -at))
-        return self.doubt.counts[best]
+        best = max(range(len(self.probabilities)), key=lambda at: (self.probabilities[at].value, -at))
+        return self.uncertainty.counts[best]
 
     @property
     def bits(self) -> float:
         """Information from the outputs: relative entropy of posterior and prior [bit], 0 for none."""
-        return relative_entropy(map(float, self.chances), self.doubt.priors)
+        return relative_entropy(map(float, self.probabilities), self.uncertainty.priors)
 
-    def chance(self, count: int) -> CountProbability:
+    def probability(self, count: int) -> CountProbability:
         """Return the posterior probability of a count.
 
         Parameters
@@ -95,9 +95,9 @@ class WheelPosterior(Result):
         count : int
             Tooth count. The probability of an impossible count is 0.
         """
-        if count not in self.doubt.counts or not self.chances:
+        if count not in self.uncertainty.counts or not self.probabilities:
             return CountProbability(Fraction(0))
-        return self.chances[self.doubt.counts.index(count)]
+        return self.probabilities[self.uncertainty.counts.index(count)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ class CountCombination(Result):
     infer_counts : lists the best
     """
 
-    KEYS = ("teeth", "outputs", Key("misfit", to=float), "chance", "changed")
+    KEYS = ("teeth", "outputs", Key("misfit", to=float), "probability", "changed")
 
     teeth: Mapping[str, int]
     """Wheel -> count, in the order of declaration."""
@@ -131,7 +131,7 @@ class CountCombination(Result):
     """Output -> relative error against the observation with the largest misfit; the speed itself if 0 is wanted."""
     misfit: Fraction
     """Sum over the observations of (error / tolerance)^2; exact observations add 0."""
-    chance: CountProbability | None
+    probability: CountProbability | None
     """Posterior probability; None if it is unknown, as in a sample."""
     changed: tuple[str, ...]
     """Wheels whose count differs from the declared one."""
@@ -252,7 +252,7 @@ class ToothCountPosterior(Tabular, Result):
 
     def _summary(self) -> str:
         likely = ", ".join(
-            f"{wheel} {found.likeliest}" for wheel, found in islice(self.posteriors.items(), 4) if found.chances
+            f"{wheel} {found.likeliest}" for wheel, found in islice(self.posteriors.items(), 4) if found.probabilities
         )
         more = f", {len(self.posteriors) - 4} more wheels" if len(self.posteriors) > 4 else ""
         searched = f"{self.combinations:,} combinations, {self.method}"
@@ -267,12 +267,16 @@ class ToothCountPosterior(Tabular, Result):
 
         The posterior is None if nothing fits.
         """
-        rows = [(wheel, found, at) for wheel, found in self.posteriors.items() for at in range(len(found.doubt.counts))]
+        rows = [
+            (wheel, found, at)
+            for wheel, found in self.posteriors.items()
+            for at in range(len(found.uncertainty.counts))
+        ]
         return {
             "wheel": [wheel for wheel, _, _ in rows],
-            "teeth": [found.doubt.counts[at] for _, found, at in rows],
-            "prior": [float(found.doubt.priors[at]) for _, found, at in rows],
-            "posterior": [float(found.chances[at]) if found.chances else None for _, found, at in rows],
+            "teeth": [found.uncertainty.counts[at] for _, found, at in rows],
+            "prior": [float(found.uncertainty.priors[at]) for _, found, at in rows],
+            "posterior": [float(found.probabilities[at]) if found.probabilities else None for _, found, at in rows],
         }
 
     @property

@@ -72,8 +72,8 @@ class LikelihoodBatch:
         if every:
             functions += [IntervalConstraint(name, formula, ()) for name, formula in question.outputs.items()]
         moved = {wheel for one in functions for wheel in one.function.wheels}
-        self.wheels = tuple(wheel for wheel in question.doubts if wheel in moved)
-        self.domains = {wheel: question.doubts[wheel].counts for wheel in self.wheels}
+        self.wheels = tuple(wheel for wheel in question.uncertainties if wheel in moved)
+        self.domains = {wheel: question.uncertainties[wheel].counts for wheel in self.wheels}
         self.monomials = find_monomials(functions, self.domains)
         # formulas of few wheels first: they are cheap, and rows that they reject need no further evaluation
         ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
@@ -146,8 +146,10 @@ class PosteriorTally:
         self.sizes: Floats = np.zeros((len(batch.wheels), len(batch.wheels)))
         self.best: list[tuple[float, tuple[int, ...]]] = []
         self.ranked = True
-        doubts = [batch.question.doubts[wheel] for wheel in batch.wheels]
-        self._steps = [np.array(doubt.counts, dtype=np.float64) - origin_of(doubt) for doubt in doubts]
+        uncertainties = [batch.question.uncertainties[wheel] for wheel in batch.wheels]
+        self._steps = [
+            np.array(uncertainty.counts, dtype=np.float64) - origin_of(uncertainty) for uncertainty in uncertainties
+        ]
 
     def add(self, places: Mapping[str, Ints | int], misfit: Floats, weights: Any) -> None:
         """Add rows that fit.
@@ -217,9 +219,9 @@ def plain_number(value: Any) -> int | float:
     return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
-def origin_of(doubt: ToothCountPrior) -> int:
+def origin_of(uncertainty: ToothCountPrior) -> int:
     """Return the most probable count, relative to which sums of products keep their digits."""
-    return doubt.counts[doubt.weights.index(max(doubt.weights))]
+    return uncertainty.counts[uncertainty.weights.index(max(uncertainty.weights))]
 
 
 def packed(question: InferenceProblem, most: int) -> bytes:
@@ -242,8 +244,8 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
     places = {}
     for wheel in batch.wheels:
-        chances = np.array([float(prior) for prior in batch.question.doubts[wheel].priors])
-        places[wheel] = draw.choice(len(chances), size, p=chances / chances.sum())
+        probabilities = np.array([float(prior) for prior in batch.question.uncertainties[wheel].priors])
+        places[wheel] = draw.choice(len(probabilities), size, p=probabilities / probabilities.sum())
     for start in range(0, size, BLOCK):
         here = {wheel: at[start : start + BLOCK] for wheel, at in places.items()}
         rows = batch.columns({wheel: np.array(batch.domains[wheel])[at] for wheel, at in here.items()})

@@ -58,7 +58,7 @@ class StageConstraints(Result):
     """
     minimum_total: int | None = None
     """Minimum sum of all counts."""
-    most_total: int | None = None
+    maximum_total: int | None = None
     """Maximum sum of all counts."""
     largest: int | None = None
     """Maximum tooth count of a wheel."""
@@ -82,12 +82,12 @@ class StageConstraints(Result):
     def totals(self) -> tuple[int, int]:
         """Minimum and maximum sum of all counts."""
         minimum = 0 if self.minimum_total is None else self.minimum_total
-        return minimum, (1 << 62) if self.most_total is None else self.most_total
+        return minimum, (1 << 62) if self.maximum_total is None else self.maximum_total
 
     @property
     def totals_matter(self) -> bool:
         """True if the sum of all counts is bounded."""
-        return self.minimum_total is not None or self.most_total is not None
+        return self.minimum_total is not None or self.maximum_total is not None
 
     @property
     def free(self) -> bool:

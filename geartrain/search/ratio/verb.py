@@ -47,7 +47,7 @@ def run(
     hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
     reverted: Annotated[Flag, typer.Option("--reverted", help="Require equal centre distances of all pairs.")] = False,
     different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
-    most_total: Annotated[
+    maximum_total: Annotated[
         int | None, typer.Option("--most-total", min=2, help="Maximum sum of all tooth counts.")
     ] = None,
     workers: Workers = None,
@@ -74,7 +74,7 @@ def run(
         "hunting": hunting,
         "reverted": reverted,
         "different": different,
-        "most_total": most_total,
+        "maximum_total": maximum_total,
     }
     question = {
         "ratio": str(wanted.value),

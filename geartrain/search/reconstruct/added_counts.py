@@ -480,8 +480,8 @@ class AddedCountSums:
             found.with_any.update({count for own in wheels.values() for count in own})
         return found
 
-    def draw(self, requested: OpenCounts, kind: AddedKind, chance: Random) -> tuple[int, OpenCounts]:
+    def draw(self, requested: OpenCounts, kind: AddedKind, probability: Random) -> tuple[int, OpenCounts]:
         """Sample the tooth count of one wheel of a kind, and return it with the remaining problem."""
         by_count = self.of_kind(requested, kind)
-        count = [*by_count][draw_index([*by_count.values()], chance)]
+        count = [*by_count][draw_index([*by_count.values()], probability)]
         return count, requested.with_one(kind, count)

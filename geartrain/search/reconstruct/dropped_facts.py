@@ -38,11 +38,11 @@ class ChangedQuestion:
 class ChangedCount(Result):
     """Numbers of trains that explain a question with one change."""
 
-    KEYS = ("change", "mechanisms", "complete", "refused")
+    KEYS = ("change", "solutions", "complete", "refused")
 
     change: str
     """Description of the change."""
-    mechanisms: tuple[int, ...]
+    solutions: tuple[int, ...]
     """Numbers of trains with exactly 0, 1, 2, ... added wheels."""
     complete: bool = True
     """True if the search covered all candidates."""
@@ -52,12 +52,12 @@ class ChangedCount(Result):
     @property
     def total(self) -> int:
         """Total number of trains."""
-        return sum(self.mechanisms)
+        return sum(self.solutions)
 
     @property
     def fewest(self) -> int | None:
         """Minimum number of added wheels of a train; None if no train was found."""
-        return next((added for added, count in enumerate(self.mechanisms) if count), None)
+        return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
 def changed_counts(
@@ -69,8 +69,8 @@ def changed_counts(
     level, because it is sent to other processes.
     """
     answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
-    for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True):
-        yield ChangedCount(question.change, tuple(mechanisms), complete, refused)
+    for question, (solutions, complete, refused) in zip(questions, answers, strict=True):
+        yield ChangedCount(question.change, tuple(solutions), complete, refused)
 
 
 def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool, str | None]:
@@ -81,7 +81,7 @@ def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool,
         return [], False, error.problems[0].what
     if not found.complete:  # an interrupted search returns a partial result
         raise KeyboardInterrupt
-    return [count.mechanisms for count in found.counts], True, None
+    return [count.solutions for count in found.counts], True, None
 
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
@@ -195,7 +195,7 @@ class MissingExplanation(Result):
 
     dials: tuple[LoneDial, ...]
     """Results for each dial without the others."""
-    doubts: tuple[ChangedCount, ...]
+    uncertainties: tuple[ChangedCount, ...]
     """Single changes that would leave an explanation, those with the fewest added wheels first."""
     requested: int
     """Number of changes that were tried."""
@@ -227,7 +227,7 @@ def _lone_dial(problem: ReconstructionProblem, at: int, search: Search) -> LoneD
             found = search(replace(lone, additions=replace(problem.additions, wheels=wheels)))
         except QuestionError as error:
             return LoneDial(dial.name, None, error.problems[0].what)
-        if any(count.mechanisms for count in found.counts):
+        if any(count.solutions for count in found.counts):
             return LoneDial(dial.name, wheels)
     return LoneDial(dial.name, None)
 

@@ -307,11 +307,11 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return ((teeth, Fraction(1)),)
-    chances = teeth.chances
-    if not chances:
+    probabilities = teeth.probabilities
+    if not probabilities:
         assert teeth.value is not None
         return ((teeth.value, Fraction(1)),)
-    return tuple(chances.items())
+    return tuple(probabilities.items())
 
 
 # declarations that are not supported

@@ -66,13 +66,13 @@ class Fact(NamedTuple):
 class FactAnswer(Result):
     """One answer to a fact, with its weight."""
 
-    KEYS = ("answer", Key("weight", "share", float), "mechanisms")
+    KEYS = ("answer", Key("weight", "share", float), "solutions")
 
     answer: str
     """Name, tooth count, `yes` or `no`."""
     share: Fraction
     """Share of the weight of the candidates with this answer, 0 to 1."""
-    mechanisms: int
+    solutions: int
     """Number of candidates with this answer."""
 
 
@@ -97,7 +97,7 @@ class FactMarginal(Result):
     @property
     def trains(self) -> int:
         """Number of candidates."""
-        return sum(answer.mechanisms for answer in self.answers)
+        return sum(answer.solutions for answer in self.answers)
 
     def share(self, answer: str) -> Fraction:
         """Return the share of the weight of one answer."""
@@ -164,7 +164,7 @@ class FactTally:
         """Return the marginal distribution of a fact."""
         found = self._found.get(fact, {})
         answers = [FactAnswer(answer, weight / self._whole, number) for answer, (weight, number) in found.items()]
-        left = self.trains - sum(answer.mechanisms for answer in answers)
+        left = self.trains - sum(answer.solutions for answer in answers)
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
             answers.append(FactAnswer(_ELSE.get(fact.kind, NO), rest, left))
@@ -226,7 +226,7 @@ class ExplainedFacts:
         found = frozenset([*parts, *([rest] if rest else [])])
         if len(found) < len(one.answers):  # the listed trains do not show the whole partition
             return fact
-        return found, frozenset((answer.share, answer.mechanisms) for answer in one.answers)
+        return found, frozenset((answer.share, answer.solutions) for answer in one.answers)
 
 
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
@@ -365,7 +365,7 @@ class FamilyTrain(Result):
 class FamilyBranch(Result):
     """Consecutive meshes that all candidates of a branch have in common."""
 
-    KEYS = ("parent", "meshes", Key("weight", "share", float), "mechanisms", "trains")
+    KEYS = ("parent", "meshes", Key("weight", "share", float), "solutions", "trains")
 
     parent: int | None
     """Index of the parent branch; None for the root."""
@@ -373,7 +373,7 @@ class FamilyBranch(Result):
     """Meshes as "driving > driven", with the pointers of the driven arbor in parentheses."""
     share: Fraction
     """Share of the weight of all candidates in the tree, 0 to 1."""
-    mechanisms: int
+    solutions: int
     """Number of candidates in the branch."""
     trains: tuple[FamilyTrain, ...]
     """Candidates that end here, in descending order of weight."""
@@ -395,7 +395,7 @@ class _Node:
     """Node of the trie: a mesh with the subtree of the meshes that follow it."""
 
     weight: int = 0
-    mechanisms: int = 0
+    solutions: int = 0
     below: dict[str, _Node] = field(default_factory=dict)
     ends: list[FamilyTrain] = field(default_factory=list)
 
@@ -409,7 +409,7 @@ class _Node:
 
     def _count(self, weight: int) -> None:
         self.weight += weight
-        self.mechanisms += 1
+        self.solutions += 1
 
 
 def _branches(root: _Node) -> Iterator[FamilyBranch]:
@@ -422,7 +422,7 @@ def _branches(root: _Node) -> Iterator[FamilyBranch]:
             ((mesh, node),) = node.below.items()
             meshes.append(mesh)
         share = Fraction(node.weight, root.weight)
-        yield FamilyBranch(parent, tuple(meshes), share, node.mechanisms, tuple(node.ends))
+        yield FamilyBranch(parent, tuple(meshes), share, node.solutions, tuple(node.ends))
         heaviest_first = sorted(node.below.items(), key=lambda one: -one[1].weight)
         waiting += [(number, [mesh], below) for mesh, below in reversed(heaviest_first)]
         number += 1
@@ -492,7 +492,7 @@ def find_facts(
     trains = (named_candidate(evidence, one.arbor) for one in candidates)
     weighed = WeighedTrains.of(trains, (one.weight for one in candidates))
     tally = None
-    if found.topologies and sum(each.mechanisms for each in found.topologies) <= MOST_SUMMED:
+    if found.topologies and sum(each.solutions for each in found.topologies) <= MOST_SUMMED:
         every = ((each.topology, topology_prior(each.topology, problem)) for each in found.topologies)
         tally = sum_facts(every, problem, tuple(evidence.outputs))
     facts = ExplainedFacts(weighed, problem, tally)
@@ -501,7 +501,7 @@ def find_facts(
     return CandidateFindings(
         len(candidates),
         float(min(1, sum(one.weight for one in candidates))),
-        tally is not None or len(candidates) == sum(count.mechanisms for count in found.counts),
+        tally is not None or len(candidates) == sum(count.solutions for count in found.counts),
         marginals,
         facts.next_facts(),
         grow_family_tree(weighed, [name for name in evidence.wheels if name in differ]),

@@ -60,7 +60,7 @@ class TellingFact(Result):
     """Wheels, arbor or dial of the fact; empty for `MAXIMUM` and `MINIMUM`."""
     answer: str
     """Value of the fact in the train."""
-    mechanisms: int
+    solutions: int
     """Number of trains with this value, including the train itself."""
 
 
@@ -116,7 +116,7 @@ def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], los
         alike = frozenset(_trains_with(said, fact, answer))
         if len(alike) < len(trains):
             left[TellingFact(*fact, answer, len(alike))] = alike
-    facts = sorted(left, key=lambda one: (one.mechanisms, _KINDS.index(one.kind), one.subject))
+    facts = sorted(left, key=lambda one: (one.solutions, _KINDS.index(one.kind), one.subject))
     first: dict[frozenset[int], TellingFact] = {}
     for each in facts:
         first.setdefault(left[each], each)
@@ -193,7 +193,7 @@ class AdmittingQuestion(Result):
     """Number of arbors that the train adds."""
     requested: int
     """Maximum number of added wheels of the search: as many as the train adds, if permitted."""
-    mechanisms: tuple[int, ...]
+    solutions: tuple[int, ...]
     """Numbers of explanations with exactly 0, 1, 2, ... added wheels."""
     place: TrainPlace | None
     """Rank of the train; None if it adds more wheels than were searched."""
@@ -268,14 +268,14 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
     listed.
     """
     added = candidate.added_wheels
-    counts = {count.added: count.mechanisms for count in found.counts}
+    counts = {count.added: count.solutions for count in found.counts}
     if not counts.get(added):
         return None
     if not found.weights:
         return _listed_place(candidate, found)
     weight = prior(candidate, problem)
-    every = [(each.weight, each.mechanisms) for each in found.weights]
-    alike = [(each.weight, each.mechanisms) for each in found.weights if each.added == added]
+    every = [(each.weight, each.solutions) for each in found.weights]
+    alike = [(each.weight, each.solutions) for each in found.weights if each.added == added]
     whole = sum(own * number for own, number in every)
     return TrainPlace(
         weight_ranks(every)[weight],
@@ -323,8 +323,8 @@ def _all_admitted(
         except QuestionError as error:
             yield AdmittingQuestion(*said, (), None, error.problems[0].what)
         else:
-            mechanisms = tuple(count.mechanisms for count in found.counts)
-            yield AdmittingQuestion(*said, mechanisms, find_place(known.arbor, requested, found))
+            solutions = tuple(count.solutions for count in found.counts)
+            yield AdmittingQuestion(*said, solutions, find_place(known.arbor, requested, found))
 
 
 def _changed(

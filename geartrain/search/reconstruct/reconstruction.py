@@ -214,7 +214,7 @@ class ReconstructionAnswer(Result):
     @property
     def total(self) -> int:
         """Total number of explanations."""
-        return sum(count.mechanisms for count in self.counts)
+        return sum(count.solutions for count in self.counts)
 
 
 def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = None) -> ReconstructionAnswer:
@@ -348,7 +348,7 @@ def _findings(
     """
     if counts_only:
         return CandidateFindings(assumptions=dropped)
-    if found.complete and not any(count.mechanisms for count in found.counts):
+    if found.complete and not any(count.solutions for count in found.counts):
         missing = None
         with run.part("reasons why nothing fits") as execution:
             missing = explain_missing(problem, execution)

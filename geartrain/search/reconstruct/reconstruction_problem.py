@@ -31,7 +31,7 @@ NEW = "new"
 """Value of `SearchedDial.place` for a dial whose arbor does not survive."""
 UNMEASURED_SPREADS = 3
 """Maximum difference of the modules of a measured wheel and an unmeasured mate, in spreads of `module`."""
-_MOST_DOUBTS = 3
+_MOST_UNCERTAINTIES = 3
 
 
 @dataclass(frozen=True)
@@ -391,9 +391,9 @@ class RequestedQuestion(Result):
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
     """Return the message for a question that is too large: its size, and ways to reduce it."""
     wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
-    widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_DOUBTS]
-    doubts = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
-    ways = [f"narrow uncertain tooth counts ({doubts})"] if doubts else []
+    widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_UNCERTAINTIES]
+    uncertainties = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
+    ways = [f"narrow uncertain tooth counts ({uncertainties})"] if uncertainties else []
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
     ways.append("leave out arbors, or dials with the arbors that lead only to them")

@@ -48,9 +48,9 @@ class ExplanationCount(Result):
 
     added: int
     """Number of added wheels."""
-    mechanisms: int
+    solutions: int
     """Number of different trains."""
-    bags: int | None
+    multisets: int | None
     """Number of multisets of arbors on paths (equivalence classes up to order); None if too many trains."""
     classes: int | None
     """Number of ratio classes: equal driving and driven wheels on each path; None if too many trains."""
@@ -58,7 +58,7 @@ class ExplanationCount(Result):
 
 def explanations_text(counts: Sequence[ExplanationCount]) -> str:
     """Return how many trains explain the evidence, by number of added wheels, in a line."""
-    found = (f"{each.mechanisms:,} with {plural(each.added, 'added wheel')}" for each in counts if each.mechanisms)
+    found = (f"{each.solutions:,} with {plural(each.added, 'added wheel')}" for each in counts if each.solutions)
     return f"explanations: {', '.join(found) or 'none'}"
 
 
@@ -91,7 +91,7 @@ class WeightClass(Result):
     """Number of added wheels of each explanation."""
     weight: Fraction
     """Prior weight of each explanation, up to a common factor."""
-    mechanisms: int
+    solutions: int
     """Number of explanations."""
 
 
@@ -154,7 +154,7 @@ def find_reconstructions(
     --------
     >>> from geartrain.search.reconstruct import evidence_question, read_evidence
     >>> found = find_reconstructions(evidence_question(read_evidence("metonic-l-m")).problem)
-    >>> [count.mechanisms for count in found.counts], found.candidates[0].weight
+    >>> [count.solutions for count in found.counts], found.candidates[0].weight
     ([0, 2], 0.5)
     """
     found: dict[int, list[CountedTopology]] = {added: [] for added in range(problem.additions.wheels + 1)}
@@ -184,19 +184,19 @@ def _weight_classes(
     for added, topologies in found.items():
         alike = Counter[Fraction]()
         for each in topologies:
-            alike[topology_prior(each.topology, problem)] += each.mechanisms
+            alike[topology_prior(each.topology, problem)] += each.solutions
         yield from (WeightClass(added, weight, alike[weight]) for weight in sorted(alike, reverse=True))
 
 
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
-    mechanisms = sum(each.mechanisms for each in topologies)
+    solutions = sum(each.solutions for each in topologies)
     # the order of arbors changes neither key, unless a ring limits counts in some orders
     maximum = problem.additions.maximum
     marked = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
-    if sum(each.choices if one_order else each.mechanisms for each, one_order in marked) > _MOST_CLASSIFIED:
-        return ExplanationCount(added, mechanisms, None, None)
+    if sum(each.choices if one_order else each.solutions for each, one_order in marked) > _MOST_CLASSIFIED:
+        return ExplanationCount(added, solutions, None, None)
     some = [arbor for each, one_order in marked for arbor in _trains(each, problem, one_order)]
-    return ExplanationCount(added, mechanisms, len({*map(arbor_multiset, some)}), len({*map(ratio_class, some)}))
+    return ExplanationCount(added, solutions, len({*map(arbor_multiset, some)}), len({*map(ratio_class, some)}))
 
 
 def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
@@ -211,8 +211,8 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
     """Yield candidates in descending order of weight, then by the number and teeth of added wheels."""
     weighed = [(topology_prior(each.topology, problem), added, each) for added, some in found.items() for each in some]
-    whole = sum(weight * each.mechanisms for weight, _, each in weighed)
-    ranks = weight_ranks((weight, each.mechanisms) for weight, _, each in weighed)
+    whole = sum(weight * each.solutions for weight, _, each in weighed)
+    ranks = weight_ranks((weight, each.solutions) for weight, _, each in weighed)
     weighed.sort(key=lambda one: (-one[0], one[1]))
     made, most = 0, max(listed, _LISTED)
     for (weight, added), equal in groupby(weighed, key=lambda one: one[:2]):
@@ -242,7 +242,7 @@ def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, per: str
 ) -> Reconstructions:
     """Weigh every candidate by its misfits, or as a part of its class, and drop impossible ones."""
-    number = sum(each.mechanisms for some in found.values() for each in some)
+    number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
         what = f"{number} trains would have to be weighed one by one, more than {_LISTED}"
         why = "weights per class and weights of measured sizes need every train"
@@ -307,22 +307,22 @@ def draw_candidates(
     [1, 1, 1]
     """
     if not found.topologies:
-        if not sum(each.mechanisms for each in found.counts):
+        if not sum(each.solutions for each in found.counts):
             return ()
         what = "trains cannot be drawn if they are weighed one by one"
         fix = "list them instead (--all), or use `--per mechanism` without `geometry`"
         raise QuestionError(Problem(what, "draws need sums over trains of equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
-    shares = [weight * each.mechanisms for weight, each in zip(whole, found.topologies, strict=True)]
-    ranks = weight_ranks((weight, each.mechanisms) for weight, each in zip(weights, found.topologies, strict=True))
-    trains, chance = TopologyTrains(problem, dials), Random(seed)
+    shares = [weight * each.solutions for weight, each in zip(whole, found.topologies, strict=True)]
+    ranks = weight_ranks((weight, each.solutions) for weight, each in zip(weights, found.topologies, strict=True))
+    trains, probability = TopologyTrains(problem, dials), Random(seed)
     drawn = []
     for _ in range(number):
-        at = draw_index(shares, chance)
+        at = draw_index(shares, probability)
         topology, weight = found.topologies[at].topology, weights[at]
         share = float(Fraction(whole[at], sum(shares)))
-        drawn.append(Candidate(trains.draw(topology, chance), topology.added.number, share, ranks[weight]))
+        drawn.append(Candidate(trains.draw(topology, probability), topology.added.number, share, ranks[weight]))
     return tuple(drawn)
 
 
@@ -334,7 +334,7 @@ def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
 
 def is_all_listed(found: Reconstructions) -> bool:
     """Return whether every explanation that is counted is also listed."""
-    return found.complete and len(found.candidates) == sum(count.mechanisms for count in found.counts)
+    return found.complete and len(found.candidates) == sum(count.solutions for count in found.counts)
 
 
 # ---------------------------------------------------------------------------------- prior weights, and ranks by weight

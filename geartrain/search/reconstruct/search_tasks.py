@@ -137,11 +137,11 @@ class TopologyTrains:
         most = tokens.most(arbor, self._facts.rings, self._maximum)
         return lambda token: AddedKind(*tokens.owner(token), most.get(token))
 
-    def draw(self, topology: Topology, chance: Random) -> Arbor:
+    def draw(self, topology: Topology, probability: Random) -> Arbor:
         """Draw one of the trains of a topology with equal probability."""
         parts = self.parts(topology)
-        part = parts[draw_index([part.choices * part.orders.total for part in parts], chance)]
-        drawn, tokens = part.orders.draw(chance), CountTokens(topology.added)
+        part = parts[draw_index([part.choices * part.orders.total for part in parts], probability)]
+        drawn, tokens = part.orders.draw(probability), CountTokens(topology.added)
         arbor = next((one for one in drawn if isinstance(one, Arbor)), None)
         if arbor is None:
             steps = sorted((one for one in drawn if isinstance(one, ChainStep)), key=lambda one: one.place)
@@ -151,7 +151,7 @@ class TopologyTrains:
             arbor = in_order(topology, orders, tokens.counts, tokens.idle)
         kinds, requested, counts = self._kinds(tokens, arbor), part.open, dict[int, int]()
         for token in _tokens(arbor):
-            counts[token], requested = self.counts.draw(requested, kinds(token), chance)
+            counts[token], requested = self.counts.draw(requested, kinds(token), probability)
         return _with_counts(arbor, counts)
 
 
@@ -234,7 +234,7 @@ class CountedTopology:
 
     topology: Topology
     choices: int
-    mechanisms: int
+    solutions: int
 
 
 class TopologyTask(NamedTuple):

@@ -361,10 +361,10 @@ class PartSearch:
         found = [requirement.requested(share, strict) for requirement in self.part.requirements]
         return (*self.part.conditions, *(one for one in found if one is not None))
 
-    def chances(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
+    def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
         """Estimate the share of assignments that satisfies each constraint and requirement."""
-        chances = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
-        return chances | {one.name: self.sample.of_demand(one) for one in requested}
+        probabilities = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
+        return probabilities | {one.name: self.sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
         """Run one pass: count all solutions, and list the best if there are at most `most`.
@@ -375,7 +375,7 @@ class PartSearch:
         if not size_of(self.domains):
             return PassResult(share, 1.0, PassTally(0, (), (), True, False, False))
         requested = self.requested(share, strict)
-        question = find_join_problem(self.domains, requested, self.rules, self.chances(requested))
+        question = find_join_problem(self.domains, requested, self.rules, self.probabilities(requested))
         tasks, searched = cut(question, self.limit)
         # `most` may be infinite
         work = PassWork(question, self.order, int(min(most, 1 << 62)))

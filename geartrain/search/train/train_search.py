@@ -109,7 +109,7 @@ def _initial_tolerance(search: PartSearch) -> Fraction:
     """Estimate the tolerance that includes about the requested number of assignments."""
     trial = Fraction(1, 1000)
     # the number of hits is proportional to the tolerance to the power of the number of outputs with errors
-    hits = size_of(search.domains) * prod(search.chances(search.requested(trial)).values())
+    hits = size_of(search.domains) * prod(search.probabilities(search.requested(trial)).values())
     # 1e-300: a forecast may underflow to 0 in float64
     guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_count_inexact(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))

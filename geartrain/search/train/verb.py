@@ -44,7 +44,9 @@ def run(
     addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels [modules].")] = None,
     ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings [modules].")] = None,
     minimum: Annotated[int | None, typer.Option("--minimum", help="Minimum tooth count of a free wheel.")] = None,
-    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Maximum tooth count of a free wheel.")] = None,
+    maximum_teeth: Annotated[
+        int | None, typer.Option("--most-teeth", help="Maximum tooth count of a free wheel.")
+    ] = None,
     shift: Annotated[
         int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
     ] = 0,
@@ -91,7 +93,7 @@ def run(
             addendum=addendum,
             ring_addendum=ring_addendum,
             minimum=minimum,
-            most_teeth=most_teeth,
+            maximum_teeth=maximum_teeth,
             shift=shift,
             coaxial=coaxial,
             hunting=hunting,

@@ -46,7 +46,7 @@ def drive_flank_arms(mesh: GearMesh) -> tuple[TabledFunction, TabledFunction] | 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
     """Return the friction terms on one flank, turning in its driving sense and in the opposite sense."""
-    if not mesh.tells_losses or not mesh.rubs:
+    if not mesh.tells_losses or not mesh.has_friction:
         return None
     losses = mesh.losses
     coefficient: Callable[[Floats], Floats | float] = lambda _: mesh.friction or 0.0  # noqa: E731
@@ -107,7 +107,7 @@ def separate_rubbing(
                 arms = drive_flank_arms(mesh)
         if arms is not None:
             found[mesh.name] = arms[0].__call__, arms[1].__call__
-        elif mesh.rubs:
+        elif mesh.has_friction:
             left.append(mesh.name)
     left += [joint.coupling.name for joint in moving.pins if joint.transmission.friction]
     for gear in gears:

@@ -115,7 +115,7 @@ class TrainModel:
         found = []
         if not self.contacts:
             found.append("backlash and impacts: no pair has real teeth, a pin or losses, so all links turn as one")
-        left = [mesh.name for mesh in self.problem.teeth if mesh.rubs and not mesh.tells_losses]
+        left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.tells_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
         return tuple(found)
@@ -152,7 +152,7 @@ class TrainModel:
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
-            return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.rubs and mesh.tells_losses)
+            return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.has_friction and mesh.tells_losses)
         gear = self._gears.get(circuit.id)
         return gear is not None and gear.efficiency is not None and gear.efficiency.forward.base < 1
 

@@ -192,10 +192,10 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
     if weakest is not None:
         where = _WHERE[weakest.what]
         yield f"Weakest: '{weakest.part}' {where}, safety {figure(weakest.safety, 3)}."
-    for each in found.left_out:
+    for each in found.neglected:
         swings = "torque variation within a turn of " if each.what == "variation within a turn" else ""
         yield f"Not included: {swings}{', '.join(each.where)}: {each.why}."
-    if found.verdict and not found.pairs and not found.points and not found.pins and not found.left_out:
+    if found.verdict and not found.pairs and not found.points and not found.pins and not found.neglected:
         yield "The train has no loaded gear pair."
 
 

@@ -64,7 +64,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     KEYS = (
         *("state", "verdict", "over", "forces", "pairs", "points", "pins", "arbors", "weakest", "turns"),
-        *("wear_coefficients", "left_out"),
+        *("wear_coefficients", "neglected"),
     )
 
     state: str | None
@@ -79,7 +79,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     """Revolutions of the input over which wear accumulates; None if no time is given."""
     wear_coefficients: WearRange = NO_WEAR
     """Minimum and maximum coefficient K of Archard's law."""
-    left_out: tuple[NeglectedEffect, ...] = ()
+    neglected: tuple[NeglectedEffect, ...] = ()
     """Pairs without results, with the reasons."""
     forces: tuple[WheelForce, ...] = ()
     """Forces of all pairs that carry a torque and whose module is known."""

@@ -165,7 +165,7 @@ class StrengthQuestion:
     """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
     maximum: Mapping[str, float] = field(default_factory=dict)
     """Maximum torque on the driven side of each pair in these revolutions [N m]."""
-    left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
+    neglected: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
     def declared(self) -> Train:
@@ -210,7 +210,7 @@ class StrengthQuestion:
         for gear in self.declared.gears:
             mesh = meshes.get(gear.name)
             # discs and crossed wheels are treated separately
-            if gear.name in self.left_out or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
+            if gear.name in self.neglected or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
                 continue
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
@@ -223,23 +223,23 @@ class StrengthQuestion:
             arbors,
             self.turns,
             self.wear,
-            self._all_left_out(),
+            self._all_neglected(),
             wheel_forces,
             points,
             self.over,
             pins,
         )
 
-    def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
+    def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
         """Return omitted pairs in the order of the declaration, then arbors, then varying torques."""
-        swinging = [each for each in self.torques.left_out if each.what == "variation within a turn"]
+        swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
             why = "stresses follow from mean torques; `--over` uses the maximum over some turns"
             for each in swinging:
-                self.left_out[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
+                self.neglected[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
         order = {gear.name: at for at, gear in enumerate(self.declared.gears)}
         return tuple(
-            self.left_out[name] for name in sorted(self.left_out, key=lambda name: order.get(name, len(order)))
+            self.neglected[name] for name in sorted(self.neglected, key=lambda name: order.get(name, len(order)))
         )
 
     def _skew_pairs(self, forces: ToothForces, wheel_forces: Sequence[WheelForce]) -> Iterator[SkewPair]:
@@ -369,7 +369,7 @@ class StrengthQuestion:
         return next((other.name for other in others if other.faults), None)
 
     def _leave_out(self, pair: str, why: str) -> None:
-        self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
+        self.neglected[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
         """Yield what is not known for a pair, or not supported."""
@@ -437,7 +437,7 @@ class StrengthQuestion:
                 why = (
                     f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate wheel"
                 )
-                self.left_out[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
+                self.neglected[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
             load = ArborLoad.of(own, steepest)

@@ -83,7 +83,7 @@ class ConjugateMesh(GearMesh):
         return self.transmission.verdict
 
     @property
-    def stands(self) -> float:
+    def tooth_phase(self) -> float:
         """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)

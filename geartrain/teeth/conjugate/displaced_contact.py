@@ -180,7 +180,7 @@ class DisplacedContact:
     """Shift (rad of the driver) of the end (driver's tip) and of the start (driven tip) for a tip higher by 1."""
     backlash: float
     """Backlash (rad of the driven wheel)."""
-    stands: float
+    tooth_phase: float
     """Position of a driven tooth at driven angle 0 (rad past the line of centres)."""
     even: Floats
     """Lag (rad) of error-free wheels at the same steps, caused by axles that are not at their design distance."""
@@ -237,7 +237,7 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
         leaving=_corner_lag(pair, driver, driver),
         longer=_for_both(gears, lambda gear: _end_shift(path, gear) / own),
         backlash=pair.backlash / other,
-        stands=sum(pair.halves) / other,
+        tooth_phase=sum(pair.halves) / other,
         even=np.zeros(_NODES),
         distance=inf if pitch.bevel else abs(pitch.R1 + pitch.R2),
     )

@@ -150,7 +150,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
         leaving=_corner(search, end, most),
         longer=(longer[0], longer[1]),
         backlash=2 * gears.backlash / second.z,
-        stands=search.offset,
+        tooth_phase=search.offset,
         even=found.lag,
         distance=gears.distance,
     )

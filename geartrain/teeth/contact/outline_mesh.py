@@ -47,7 +47,7 @@ class OutlineMesh(GearMesh):
         return self.transmission.verdict
 
     @property
-    def stands(self) -> float:
+    def tooth_phase(self) -> float:
         """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
         return self.transmission.gears.half_teeth / pi
 

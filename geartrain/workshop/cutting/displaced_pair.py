@@ -287,7 +287,7 @@ class DisplacedPair:
         driver = np.roll(own, j, -1) + self._eccentric_terms(one, u, 0.0, -t1 * sign, -y1)
         turned = ratio * u - sign * even
         driven = np.roll(other, j - back, -1) + self._eccentric_terms(
-            two, turned, at.stands + back * at.backlash, t2 * sign, y2
+            two, turned, at.tooth_phase + back * at.backlash, t2 * sign, y2
         )
         return SideTerms(driver, driven, j)
 
@@ -417,7 +417,7 @@ class DisplacedPair:
         lag = sign * (ratio * place - of_teeth(two.place, rows, j)) + even + apart * shift
         lag = lag - of_teeth(flank1, rows, i) * l1 + of_teeth(flank2, rows, j) * l2
         lag = lag + (of_teeth(low1, rows, i) + of_teeth(low2, rows, j)) * w
-        turned = ratio * S - sign * even + at.stands + back * at.backlash
+        turned = ratio * S - sign * even + at.tooth_phase + back * at.backlash
         for wheel, angle, across, along in ((one, S, -t1, -y1), (two, turned, t2, y2)):
             if np.any(wheel.e):
                 e, towards = (each[rows] if np.ndim(each) else each for each in (wheel.e, wheel.towards))

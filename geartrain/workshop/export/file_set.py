@@ -238,7 +238,7 @@ def export_files(
     for kind, name in named.items():
         if kind in kinds:
             files.append(ExportFile(name, _TITLES[kind], _whole(work, kind, turns)))
-    if parts_wanted(kinds):
+    if parts_requested(kinds):
         files.append(
             ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
         )
@@ -250,13 +250,13 @@ def _listed(work: SolidModel) -> bytes:
 
 
 def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str], proof: TrainProof | None) -> bytes:
-    named, parts = [(each.path, each.title) for each in files], parts_wanted(kinds)
+    named, parts = [(each.path, each.title) for each in files], parts_requested(kinds)
     if proof is None and parts and proof_is_installed():
         proof = prove_train(work)
     return readme(work, named, notices(work, kinds), parts, proof).encode("utf-8")
 
 
-def parts_wanted(kinds: Sequence[str]) -> bool:
+def parts_requested(kinds: Sequence[str]) -> bool:
     """Return whether some of the kinds of files show parts to make."""
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
@@ -316,17 +316,17 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     []
     """
     found: list[Problem] = list(work.layout.notices)
-    if work.frame is not None and parts_wanted(kinds):
+    if work.frame is not None and parts_requested(kinds):
         found += [*work.frame.plan.notices, *work.frame.problems()]
-        found += (problem for cup in work.frame.plan.stack.cups for problem in cup.told())
+        found += (problem for cup in work.frame.plan.stack.cups for problem in cup.notices())
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
     if {"svg", "dxf"} & set(kinds):
         found += work.couplings.notices
     if "step" in kinds:
-        from geartrain.workshop.export.step_file import left_out
+        from geartrain.workshop.export.step_file import omitted
 
-        found += left_out(work)
+        found += omitted(work)
     # the same problem can come from several sources
     once: dict[str, Problem] = {}
     for problem in found:
@@ -370,10 +370,10 @@ def _wheels(work: SolidModel) -> tuple[str, Rows]:
     rows = []
     for name, (link, wheel) in work.train.declaration.wheels.items():
         place = work.layout.wheels[name]
-        doubt = wheel.doubt
+        uncertainty = wheel.uncertainty
         rows.append(
             (
-                *(name, link, wheel.count, " ".join(map(str, doubt.allowed)) if doubt else "", wheel.kind),
+                *(name, link, wheel.count, " ".join(map(str, uncertainty.allowed)) if uncertainty else "", wheel.kind),
                 *("yes" if wheel.internal else "", place.axis, place.layer, f"{place.module / wheel.slant:.9g}"),
                 *(f"{place.radius:.9g}", *(f"{each:.9g}" for each in place.centre), wheel.status, wheel.source),
             )

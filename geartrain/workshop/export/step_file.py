@@ -31,7 +31,7 @@ _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # replaced, so that th
 
 
 def to_step(work: SolidModel) -> bytes:
-    """Encode the assembly in the zero pose, in mm, without the parts in `left_out`; raises `MissingExtraError`."""
+    """Encode the assembly in the zero pose, in mm, without the parts in `omitted`; raises `MissingExtraError`."""
     try:
         import OCP.STEPCAFControl  # noqa: F401
     except ImportError:
@@ -39,7 +39,7 @@ def to_step(work: SolidModel) -> bytes:
     return _write(work.train.name, [part for part in work.parts if _is_exact(part)])
 
 
-def left_out(work: SolidModel) -> tuple[Problem, ...]:
+def omitted(work: SolidModel) -> tuple[Problem, ...]:
     """Return a problem for each part without an exact form."""
     why = "its shape is approximated by triangles, and STEP needs an exact shape"
     return tuple(

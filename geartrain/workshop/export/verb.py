@@ -201,7 +201,7 @@ def _write_folder(
 ) -> None:
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.workshop.export.assembly_guide import unproved
-    from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_wanted
+    from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
 
     if wheel is not None:
         raise GearTrainError(Problem("--wheel applies only to one file", "", "give -o FILE instead of --to", "--wheel"))
@@ -209,7 +209,7 @@ def _write_folder(
     missing: list[Problem] = []
     if kinds is None:
         wanted, missing = installed(wanted)
-    proof = _proof(work) if parts_wanted(wanted) else None
+    proof = _proof(work) if parts_requested(wanted) else None
     files = export_files(work, wanted, turns, proof)
     check_folder(to, [each.path for each in files], force)
     try:
@@ -219,7 +219,7 @@ def _write_folder(
         raise typer.Exit(INTERRUPTED) from None
     _print_notices([*missing, *notices(work, wanted)])
     tell(f"wrote {plural(count, 'file')} to {to}")
-    if parts_wanted(wanted):
+    if parts_requested(wanted):
         tell(unproved().replace("*", "").replace("`", "") if proof is None else proof.verdict)
 
 

@@ -346,7 +346,7 @@ def _no_errors(why: str) -> QuestionError:
 def jam_map_figure(
     clearances: ArrayLike,
     sizes: ArrayLike,
-    chances: ArrayLike,
+    probabilities: ArrayLike,
     bound: ArrayLike | None = None,
     axis_names: tuple[str, str] = ("clearance factor", "pitch deviation (standard deviation, % of the pitch)"),
     title: str = "",
@@ -354,13 +354,13 @@ def jam_map_figure(
     """Draw the probability of a jam as a shaded map, with contour lines at 1, 10 and 50 %.
 
     clearances  ascending clearances, (n,); `sizes`: ascending sizes of the error, (m,)
-    chances     probabilities of a jam, 0 to 1, (n, m); NaN for missing data
+    probabilities     probabilities of a jam, 0 to 1, (n, m); NaN for missing data
     bound       upper bound on the probability, (n, m); its 1 % contour is drawn
     axis_names  labels of clearances and sizes
 
     Raises `QuestionError` if the arrays do not form a map.
     """
-    x, y, table = (np.asarray(each, dtype=float) for each in (clearances, sizes, chances))
+    x, y, table = (np.asarray(each, dtype=float) for each in (clearances, sizes, probabilities))
     limit = None if bound is None else np.asarray(bound, dtype=float)
     _check(x, y, table, limit)
     figure = Figure(figsize=(WIDTH, 6.4), layout="constrained")
@@ -397,8 +397,8 @@ def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
     return Line2D([], [], color=color, linestyle="dashdot", linewidth=2.0, label=f"bound of {_BOUND:.0%}")
 
 
-def _arcsine(chance: Any) -> Any:
-    return np.arcsin(np.sqrt(chance))
+def _arcsine(probability: Any) -> Any:
+    return np.arcsin(np.sqrt(probability))
 
 
 def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
@@ -454,14 +454,14 @@ def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: i
         axes.barh(at, share.own, color=BLUE, height=0.36, gid="own")
         draw_interval(axes, at - 0.08, share.own_within)
     axes.axvline(0.0, color=GREY, linewidth=0.8)
-    name_axes(axes, f"share of the variance{_left_out(rest)}", title=title, parse_math=False)
+    name_axes(axes, f"share of the variance{_omitted(rest)}", title=title, parse_math=False)
     if any(share.whole is not None for _, share in shown):
         handles = [Patch(color=BLUE, label="first order"), Patch(color=SKY, label="total, with interactions")]
         axes.legend(handles=handles, loc="lower right", fontsize=SMALL, frameon=False)
     return figure
 
 
-def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
+def _omitted(rest: list[tuple[str, VarianceShare]]) -> str:
     if not rest:
         return ""
     return f"; {len(rest)} more causes of at most {max(share.rank for _, share in rest):.2g} are not drawn"

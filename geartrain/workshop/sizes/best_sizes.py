@@ -22,7 +22,7 @@ from geartrain.workshop.sizes.size_design import (
     impact_of,
     size_columns,
 )
-from geartrain.workshop.sizes.size_search import ChanceLimit, Range, SizeSearch, best_within, checked_ranges
+from geartrain.workshop.sizes.size_search import ProbabilityLimit, Range, SizeSearch, best_within, checked_ranges
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -118,7 +118,7 @@ def find_tooth_sizes(
     aims: Sequence[str] = ("loss",),
     free: Mapping[str, Range | None] | None = None,
     limits: Sequence[SizeLimit] = (),
-    chance: ChanceLimit | None = None,
+    probability: ProbabilityLimit | None = None,
     on_design: Callable[[], None] = lambda: None,
 ) -> BestToothSizes:
     """Find the radii, clearance and half angle that optimise a pair with triangular teeth.
@@ -134,7 +134,7 @@ def find_tooth_sizes(
         default only the radii are free.
     limits : sequence of SizeLimit
         Limits on the design.
-    chance : ChanceLimit, optional
+    probability : ProbabilityLimit, optional
         Limit on the probability that the pair with cutting errors stops; only with one objective.
     on_design : callable
         Callback after each design that is evaluated.
@@ -167,10 +167,10 @@ def find_tooth_sizes(
     equal, true = (each if each.runs else None for each in rules)
     # the rule-based designs are starts, so that the result is never worse than they are
     best = search.minimum(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
-    if chance is not None and len(aims) == 2:
+    if probability is not None and len(aims) == 2:
         what = "a Pareto front cannot have a limit on the probability of stopping"
         raise QuestionError(Problem(what, "trials of all its designs would take too long", "give one objective"))
-    best, stops = (best, None) if chance is None else best_within(search, aims[0], chance)
+    best, stops = (best, None) if probability is None else best_within(search, aims[0], probability)
     front = search.front(*aims) if len(aims) == 2 else ()
     tried = tuple(each for each in search.designs.values() if search.keeps(each))
     return BestToothSizes(

@@ -163,7 +163,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 
 @dataclass(frozen=True)
-class ChanceLimit:
+class ProbabilityLimit:
     """Limit on the probability that a pair with cutting errors stops. It is too expensive to evaluate for every design.
 
     See Also
@@ -173,7 +173,7 @@ class ChanceLimit:
 
     bound: float
     """Maximum probability, 0 to 1."""
-    chance: Callable[[ToothSizes], float]
+    probability: Callable[[ToothSizes], float]
     """Function that returns the probability for a design, such as `PairTrials.stops`."""
 
 
@@ -227,7 +227,7 @@ class PairTrials:
         return run_trials(find_trial_plan(train, self.errors), self.trials, self.seed).train.events["stops"].value
 
 
-def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[ToothSizes, float]:
+def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[ToothSizes, float]:
     """Return the best design within a probability limit, and its probability.
 
     Designs are evaluated in order of the objective, except near a rejected design.
@@ -239,8 +239,8 @@ def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[Tooth
             break
         if any(distance(at, other, search.bounds) < _NEAR for other in refused):
             continue
-        if (chance := limit.chance(search.design(at))) <= limit.bound:
-            return _bisect_to_limit(search, aim, limit, at, chance, refused)
+        if (probability := limit.probability(search.design(at))) <= limit.bound:
+            return _bisect_to_limit(search, aim, limit, at, probability, refused)
         refused.append(at)
     what = f"all of the {len(refused)} best designs stop with a probability above {limit.bound:g}"
     why = "the cutting errors are too large for such teeth"
@@ -248,18 +248,18 @@ def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[Tooth
 
 
 def _bisect_to_limit(
-    search: SizeSearch, aim: str, limit: ChanceLimit, at: Point, chance: float, refused: Sequence[Point]
+    search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
     """Bisect between an accepted design and the nearest rejected one, to approach the limit."""
     if not refused:
-        return search.design(at), chance
+        return search.design(at), probability
     value = search.value(aim)
     beyond = min(refused, key=lambda other: distance(at, other, search.bounds))
     for _ in range(_HALVINGS):
         middle = tuple((a + b) / 2 for a, b in zip(at, beyond, strict=True))
-        better = value(middle) < value(at) and (found := limit.chance(search.design(middle))) <= limit.bound
-        at, beyond, chance = (middle, beyond, found) if better else (at, middle, chance)
-    return search.design(at), chance
+        better = value(middle) < value(at) and (found := limit.probability(search.design(middle))) <= limit.bound
+        at, beyond, probability = (middle, beyond, found) if better else (at, middle, probability)
+    return search.design(at), probability
 
 
 # ------------------------------------------------------------------------------------------------------- global minimum

@@ -34,7 +34,7 @@ from geartrain.teeth.triangular.triangular_form import Triangular
 
 if TYPE_CHECKING:
     from geartrain.workshop.sizes.size_design import SizeLimit, ToothSizes
-    from geartrain.workshop.sizes.size_search import ChanceLimit
+    from geartrain.workshop.sizes.size_search import ProbabilityLimit
 
 
 _YAML = (".yaml", ".yml")
@@ -139,11 +139,11 @@ class SizeQuestion:
         from geartrain.workshop.sizes.tooth_sizes_report import describe_tooth_sizes
 
         aims = tuple(part.strip() for part in (self.best or "").split(","))
-        free, limits = read_free(self.free), read_limits([text for text in self.within if not _is_chance(text)])
-        chance = self._chance()
+        free, limits = read_free(self.free), read_limits([text for text in self.within if not _is_probability(text)])
+        probability = self._probability()
         work = _DESIGNS.get(len(free), 900) * len(aims)
         with progress("best sizes", work, patience=2) as bar:
-            found = find_tooth_sizes(start, aims, free, limits, chance, bar.advance)
+            found = find_tooth_sizes(start, aims, free, limits, probability, bar.advance)
         give(to, json, lambda: found, lambda: [describe_tooth_sizes(found)])
         if picture.path is not None:
             from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure
@@ -151,11 +151,11 @@ class SizeQuestion:
             draw(tooth_sizes_figure(found), picture)
         raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
 
-    def _chance(self) -> ChanceLimit | None:
+    def _probability(self) -> ProbabilityLimit | None:
         """Return the limit on the probability that a pair with cutting errors stops, if it is given."""
-        from geartrain.workshop.sizes.size_search import ChanceLimit
+        from geartrain.workshop.sizes.size_search import ProbabilityLimit
 
-        given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
+        given = [text.partition("=")[2] for text in self.within if _is_probability(text)]
         if bool(given) != bool(self.errors):
             what = "a limit --within stops=5% needs errors, such as --set 'pitch_deviation=1 %', and vice versa"
             raise typer.BadParameter(what, param_hint="--within" if given else "--set")
@@ -165,10 +165,10 @@ class SizeQuestion:
         from geartrain.workshop.sizes.size_search import PairTrials
 
         bound = min(quantity("--within", text, "fraction", plain=True, minimum="0") for text in given)
-        return ChanceLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
+        return ProbabilityLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
 
 
-def _is_chance(text: str) -> bool:
+def _is_probability(text: str) -> bool:
     """Return whether the limit requires trials."""
     return text.partition("=")[0].strip() == "stops"
 

@@ -158,9 +158,9 @@ def _frame(work: SolidModel) -> Iterator[BuildFinding]:
     if work.frame is None:
         return
     for cup in work.frame.plan.stack.cups:
-        for problem in cup.told():
+        for problem in cup.notices():
             yield BuildFinding("W3", "note", problem)
-    by_hand = set(work.frame.plan.stack.left_out())
+    by_hand = set(work.frame.plan.stack.omitted())
     for problem in dict.fromkeys([*work.frame.plan.notices, *work.frame.problems()]):
         yield BuildFinding("S1", "note" if problem in by_hand else "error", problem)
 

@@ -68,8 +68,7 @@ def section(source: Source) -> Iterator[str]:
         yield from table(("place", "statement", "computed"), [(r.place, r.claim, r.ours) for r in statements])
     outside = [row for row in source.rows if row.verdict == OUTSIDE]
     if outside:
-        yield f"**Not computed**: {not_computed(outside)}."
-        yield ""
+        yield from ("**Not computed**:", "", *not_computed(outside), "")
 
 
 def errata(source: Source) -> list[tuple[str, ...]]:
@@ -126,13 +125,13 @@ def short(row: Row) -> str:
     return row.ours.partition(" = ")[0] if " = " in row.ours else row.ours
 
 
-def not_computed(rows: Iterable[Row]) -> str:
-    """Return the places and reasons of statements that are not computed."""
+def not_computed(rows: Iterable[Row]) -> list[str]:
+    """Return a list of reasons with the places of statements that are not computed."""
     reasons: dict[str, list[str]] = {}
     for row in rows:
         reason = row.why.partition("; ")[0] if row.why.startswith(NOT_COMPUTED) else row.why
         reasons.setdefault(reason, []).append(row.place)
-    return ". ".join(f"{reason}: {'; '.join(places)}" for reason, places in reasons.items())
+    return [f"- {'; '.join(places)}: {reason}" for reason, places in reasons.items()]
 
 
 def table(header: tuple[str, ...], body: Iterable[tuple[str, ...]]) -> Iterator[str]:

@@ -432,7 +432,7 @@ def missing_parts() -> Iterator[Row]:
     yield declared(exact("Footnote 2, months", "synodic months of a saros", "223", "months_of_saros()"))
     yield declared(digits("Footnote 2, days", "its days", "6585.32", "period('saros_223_synodic_modern')"))
     yield words("Footnote 2, years", "18 years and about 11 days", "saros_of_years()")
-    yield words("Fig. 4", "N drives O1, O2 beside it drives X", "fig_4()")
+    yield words("Fig. 4", "N drives O1; O2 on the same arbor drives X", "fig_4()")
     for planet, rows in {"venus": ("32 50 40", "31 52 43", "32 48 41"), "mars": ("30 50 57", "31 48 53"),
                          "jupiter": ("30 48 28", "32 53 29")}.items():  # fmt: skip
         for number, row in enumerate(rows, 1):

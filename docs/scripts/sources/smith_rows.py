@@ -70,8 +70,8 @@ def introduction() -> Iterator[Row]:
     )
     for form in ("involute", "cycloid"):
         yield words(f"Section 6, {form}s", "need no matched pair: any size mates with any", f"same_flank('{form}')")
-    yield words("Section 7, force", "involutes alone transmit a constant force", "steady_force()")
-    yield words("Section 7, spacing", "involutes alone run well at other distances", "spacing()")
+    yield words("Section 7, force", "only involutes transmit a constant force", "steady_force()")
+    yield words("Section 7, spacing", "only involutes run well at other distances", "spacing()")
     yield words("Section 7, contacts", "more than 1.4 contacts on the mean have been made", "contact_number()")
     yield _OF_AXES.outside(
         "Section 7, few teeth",
@@ -381,11 +381,11 @@ def heat_and_optima() -> Iterator[Row]:
     )
     yield words(
         "Theorem 10",
-        "least friction between given ends",
+        "minimum friction between given ends",
         "extremal_is_minimum()",
         why="in closed form: (10) of [Tooth shapes](shapes.md)",
     )
-    names = (("friction", "least friction"), ("stress", "uniform stress"), ("temperature", "uniform temperature"))
+    names = (("friction", "minimum friction"), ("stress", "uniform stress"), ("temperature", "uniform temperature"))
     for kind in BOTH:
         for number, (form, name) in enumerate(names, 1):
             yield words(

@@ -302,7 +302,7 @@ def admissible() -> Finding:
 def real_meshing() -> Iterator[Row]:
     """Section III C."""
     yield words("III C, concavity", "alpha_2(alpha_1) is slightly concave upward but at matching", "concave_upward()")
-    yield words("III C, admissible", "points where no other couple would overlap: below the chord", "admissible()")
+    yield words("III C, admissible", "points where no other tooth pair would overlap: below the chord", "admissible()")
     yield words(
         "III C, one couple",
         "one couple at a time, joined by the next without a break",
@@ -757,13 +757,13 @@ def results() -> Iterator[Row]:
     )
     yield words(
         "V, best conditions",
-        "1:1 at 1.025 has the least energy losses",
+        "1:1 at 1.025 has the minimum energy losses",
         "best_of_all()",
         "friction takes the minimum at 1.0117219, impacts near 1.0193",
     )
     yield words(
         "V, standstill",
-        "where the ideal region is smaller than 360/z1 the driven wheel stands",
+        "if the ideal region is smaller than 360/z1 the driven wheel dwells",
         "dwell()",
         why="of equal wheels; unequal ones stand earlier",
     )

@@ -196,7 +196,7 @@ ASSUMED
 
 <!-- show: Ranked -->
 ```console
-$ geartrain budget assumed.yaml --output moon
+$ geartrain budget assumed.yaml --of moon
 ```
 
 `--span` sets the time over which ratios drift, by default one Saros of 6585.3213 days. `--plot budget.svg` draws the

@@ -309,8 +309,10 @@ def test_the_shipped_pair_runs() -> None:
 
 
 def test_a_pair_is_requested_for_by_its_helix() -> None:
-    told = call("mesh", "involute", "--teeth", "21", "50", "--helix", "18deg")
+    told = call("mesh", "21", "50", "--form", "involute", "--helix", "18deg")
     assert "a transverse module is 1.05146222 normal modules" in " ".join(told.stdout.split())
     assert "Contact ratio 1.5" in told.stdout
-    assert call("mesh", "involute", "--teeth", "21", "50", "--helix", "90deg").exception is not None
-    assert "No such option" in call("mesh", "cycloidal", "--teeth", "21", "50", "--helix", "18deg").stderr
+    assert call("mesh", "21", "50", "--form", "involute", "--helix", "90deg").exception is not None
+    assert "--helix: it does not apply to cycloidal teeth" in str(
+        call("mesh", "21", "50", "--form", "cycloidal", "--helix", "18deg").exception
+    )

@@ -26,7 +26,8 @@ def main() -> None:
     """Run all makers, the command that writes the reference, and mkdocs."""
     reference = DOCS / "reference.md"
     subprocess.run(
-        [sys.executable, "-m", "geartrain", "inspect", "schema", "--as", "markdown", "-o", str(reference), "--force"], check=True
+        [sys.executable, "-m", "geartrain", "inspect", "schema", "--as", "markdown", "-o", str(reference), "--force"],
+        check=True,
     )
     makers = (
         make_accuracy,

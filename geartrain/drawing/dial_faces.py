@@ -160,7 +160,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
             Problem(
                 f"{len(faces)} dial faces do not fit on a page",
                 f"a page has space for {_MOST}",
-                "select outputs with --output",
+                "select outputs with --of",
             )
         )
     return faces

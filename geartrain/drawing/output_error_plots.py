@@ -156,9 +156,9 @@ def _count_remark(outputs: int, which: str) -> Iterator[str]:
     """Yield a remark on the outputs beyond the maximum number that is drawn."""
     less = outputs - _OUTPUTS
     if less == 1:
-        yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --output"
+        yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --of"
     elif less > 1:
-        yield f"{less} outputs{which} are left out: select them with --output"
+        yield f"{less} outputs{which} are left out: select them with --of"
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:

@@ -26,7 +26,7 @@ def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction 
 
 
 def recognised_angle(turn: float, slack: float) -> Fraction | None:
-    """Return the fraction within `slack` of an angle [turn], or None if such a fraction could be a coincidence.
+    """Return the fraction of a turn within `slack` of an angle [turn]; None if such a fraction could be a coincidence.
 
     Fractions with denominators up to q match a random angle with probability 0.6 q^2 slack, which bounds q. At most one
     such fraction exists, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
@@ -49,5 +49,5 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
 
 
 def centred_residue(value: Fraction) -> Fraction:
-    """Reduce a number modulo 1 to the interval above -1/2 up to 1/2."""
+    """Return a number modulo 1 in the interval -1/2 (excluded) to 1/2 (included)."""
     return value - math.ceil(value - Fraction(1, 2))

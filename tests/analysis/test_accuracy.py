@@ -110,7 +110,7 @@ def test_the_balance_of_torques_is_exact_with_losses_of_pairs_and_of_bearings() 
 
 def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: object) -> None:
     path = train_file(LOCKED)  # type: ignore[operator]
-    done = call("bench", path, "--json")
+    done = call("inspect", "bench", path, "--json")
     assert done.exit_code == 1
     (found,) = json.loads(done.stdout)["states"]
     assert found["methods"] == []
@@ -118,14 +118,17 @@ def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: obj
 
 
 def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(train_file: object) -> None:
-    done = call("bench", "moon-triangular", "--positions", 100)
+    done = call("inspect", "bench", "moon-triangular", "--samples", 100)
     assert done.exit_code == 0
     for stage in (SPEEDS, TRANSMISSIONS, MOTION):
         assert f"\n{stage}\n{'-' * len(stage)}\n" in done.stdout
     assert "torques: no loads are declared" in done.stdout
     states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")
     path = train_file(states.replace("{expect: 1/2}", "{}"))  # type: ignore[operator]
-    assert [each["state"] for each in json.loads(call("bench", path, "--json").stdout)["states"]] == ["one", "other"]
+    assert [each["state"] for each in json.loads(call("inspect", "bench", path, "--json").stdout)["states"]] == [
+        "one",
+        "other",
+    ]
 
 
 def test_a_train_without_tooth_forms_brings_no_tooth() -> None:

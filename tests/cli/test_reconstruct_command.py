@@ -59,7 +59,7 @@ def test_counts(name: str, counts: list[tuple[int, ...]]) -> None:
 
 def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
     folder = tmp_path / "found"
-    result = call("reconstruct", "moon-c-e", "--write", folder)
+    result = call("reconstruct", "moon-c-e", "--to", folder)
     assert result.exit_code == 0
     assert "24" in result.stdout
     files = sorted(folder.iterdir())
@@ -68,8 +68,8 @@ def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
         assert load(path).solve()
         assert call("check", path).exit_code == 0
     before = [path.read_bytes() for path in files]
-    assert ended("reconstruct", "moon-c-e", "--write", folder).returncode == 2
-    assert call("reconstruct", "moon-c-e", "--write", folder, "--force").exit_code == 0
+    assert ended("reconstruct", "moon-c-e", "--to", folder).returncode == 2
+    assert call("reconstruct", "moon-c-e", "--to", folder, "--force").exit_code == 0
     assert [path.read_bytes() for path in files] == before
 
 
@@ -87,7 +87,7 @@ def test_nothing_found_is_a_verdict_and_what_cannot_be_requested_is_none(tmp_pat
     assert "No train explains it with 1 added wheel or fewer." in result.stdout
     assert call("reconstruct", path, "-k", "0", "--count").exit_code == 1
     assert ended("reconstruct", "planetary-24-18-60").returncode == 2
-    assert ended("reconstruct", path, "--count", "--write", tmp_path / "out").returncode == 2
+    assert ended("reconstruct", path, "--count", "--to", tmp_path / "out").returncode == 2
     path.write_text(NONE + "locks: [[a, a]]\n", encoding="utf-8")
     assert ended("reconstruct", path).returncode == 2
 
@@ -95,26 +95,24 @@ def test_nothing_found_is_a_verdict_and_what_cannot_be_requested_is_none(tmp_pat
 def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
     """1 to 8: four pairs of counts, and two equal wheels of the arbor before."""
     folder = tmp_path / "found"
-    result = call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot", "--json", "--write", folder)
+    result = call("reconstruct", "isfahan-astrolabe-1221", "--lost", "pivot", "--json", "--to", folder)
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["original"] == [1, 8]
     assert [count["solutions"] for count in found["counts"]] == [0, 0, 8]
-    assert "ranks 1 to 8" in " ".join(
-        call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot").stdout.split()
-    )
+    assert "ranks 1 to 8" in " ".join(call("reconstruct", "isfahan-astrolabe-1221", "--lost", "pivot").stdout.split())
     assert len(list(folder.iterdir())) == 10
     again = json.loads(call("reconstruct", folder / "evidence.yaml", "--json").stdout)
     assert again["counts"] == found["counts"]
     assert again["best"] == found["best"]
     assert again["original"] is None
-    assert ended("reconstruct", "isfahan-astrolabe-1221", "--without", "year").returncode == 2
-    assert ended("reconstruct", "back-train", "--without", "m").returncode == 2
+    assert ended("reconstruct", "isfahan-astrolabe-1221", "--lost", "year").returncode == 2
+    assert ended("reconstruct", "back-train", "--lost", "m").returncode == 2
 
 
 def test_the_family_tree_is_written_beside_the_trains(tmp_path: Path) -> None:
-    call("reconstruct", "back-train", "--best", "1", "--write", tmp_path / "one")
+    call("reconstruct", "back-train", "--best", "1", "--to", tmp_path / "one")
     found = json.loads((tmp_path / "one" / "family.json").read_text(encoding="utf-8"))
     assert [branch["solutions"] for branch in found["family"]] == [4, 2, 1, 1, 2, 1, 1]
     assert [branch["parent"] for branch in found["family"]] == [None, 0, 1, 1, 0, 4, 4]
@@ -202,7 +200,7 @@ def test_what_is_requested_is_told_before_the_search(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(reconstruction, "find_reconstructions", none)
     result = call("reconstruct", "back-train")
     assert result.exit_code != 0
-    assert "question: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
+    assert "problem: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
     assert "possible paths: 22 to metonic, 4 to saros" in result.stderr
 
 
@@ -252,7 +250,7 @@ def test_assumptions_are_the_same_with_workers(tmp_path: Path, monkeypatch: pyte
 
 def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:
     page = tmp_path / "found.html"
-    result = call("reconstruct", "moon-c-e", "--page", page, "--turning", "1")
+    result = call("reconstruct", "moon-c-e", "--page", page, "--animated", "1")
     assert result.exit_code == 0
     text = page.read_text(encoding="utf-8")
     assert "The family tree" in text
@@ -296,7 +294,7 @@ def test_trains_are_drawn_anew_with_another_seed() -> None:
 def test_trains_that_are_weighed_by_themselves_are_not_drawn() -> None:
     result = call("reconstruct", "back-train-modules", "--sample", 3)
     assert isinstance(result.exception, QuestionError)
-    assert "weighed one by one" in str(result.exception)
+    assert "weighted one by one" in str(result.exception)
 
 
 def test_known_trains_are_ranked() -> None:
@@ -331,7 +329,7 @@ def test_the_places_of_known_trains_are_told() -> None:
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        (("--same", "E4=e3"), "it is used only with --rank"),
+        (("--same", "E4=e3"), "give --rank too"),
         (("--rank", "price-1974", "--same", "E4"), "such as E4=e3"),
         (("--rank", "price-1974", "--same", "E44=e3"), "'E44' is not a wheel or an output"),
         (("--rank", "vitruvius-hodometer"), "no wheel of 'b'"),

@@ -78,11 +78,11 @@ def test_solve_check_report_and_json_agree_on_a_held_spider(tmp_path: Path) -> N
     path = tmp_path / "held.yaml"
     path.write_text(DIFFERENTIAL + "fixed: [spider]\ninputs: {left: 1}\n")
     run = CliRunner().invoke
-    solved, checked, reported = (run(app, [verb, str(path)]) for verb in ("solve", "check", "report"))
+    solved, checked, reported = (run(app, [*verb.split(), str(path)]) for verb in ("solve", "check", "report"))
     assert (solved.exit_code, checked.exit_code, reported.exit_code) == (1, 1, 1)
     (verdict, one) = (
         json.loads(run(app, ["solve", "--json", *more, str(path)]).stdout)["states"][0]["verdict"]
-        for more in ([], ["--output", "crown"])
+        for more in ([], ["--of", "crown"])
     )
     text = verdict["text"]
     assert verdict["kind"] == one["kind"] == "locked"
@@ -268,11 +268,13 @@ def test_an_input_without_an_axis_of_its_own_refuses_its_state_alone() -> None:
     assert "no speed about one axis" in train.solve("b").verdict.text
 
 
-@pytest.mark.parametrize("verb", ["check", "solve", "report", "gearbox", "torques", "formula", "equations", "strength"])
+@pytest.mark.parametrize(
+    "verb", ["check", "solve", "report", "gearbox", "torques", "inspect formula", "inspect equations", "strength"]
+)
 def test_every_command_judges_each_state_by_itself(verb: str, tmp_path: Path) -> None:
     path = tmp_path / "states.yaml"
     path.write_text(STATES, encoding="utf-8")
-    done = CliRunner().invoke(app, [verb, str(path)])
+    done = CliRunner().invoke(app, [*verb.split(), str(path)])
     assert done.exit_code in (0, 1), done.output
     assert "makes a linkage" in " ".join(done.output.split()) or verb == "gearbox"
     if verb in ("check", "solve", "report", "gearbox"):

@@ -15,14 +15,14 @@ from geartrain.search.reconstruct import (
     describe_reconstruction,
     find_reconstructions,
 )
-from geartrain.search.reconstruct.reconstruction_search import prior, train_key
+from geartrain.search.reconstruct.reconstruction_search import train_key, train_prior
 
 
 @pytest.mark.parametrize("seed", range(60, 100))
 def test_ranks_are_those_among_all_trains(seed: int) -> None:
     problem = random_problem(seed, idlers=True)
     grown = [package_arbor(tree) for found in explanations(problem) for tree in found.solutions]
-    weights: dict[object, Fraction] = {train_key(arbor): prior(arbor, problem) for arbor in grown}
+    weights: dict[object, Fraction] = {train_key(arbor): train_prior(arbor, problem) for arbor in grown}
     alike = Counter(weights.values())
     for one in find_reconstructions(problem, listed=1).candidates:
         own = weights[train_key(one.arbor)]

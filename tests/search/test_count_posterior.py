@@ -494,7 +494,7 @@ def test_who_does_the_work_changes_nothing(tmp_path: Any) -> None:
     with Journal(tmp_path / "j.jsonl", {"train": "chain"}) as journal:
         assert len(journal) == kept > 1
         assert run(CHAIN, method="sample", samples=60_000, journal=journal) == whole
-    with pytest.raises(QuestionError, match="another question"):
+    with pytest.raises(QuestionError, match="another run"):
         Journal(tmp_path / "j.jsonl", {"train": "planetary"})
 
 
@@ -562,13 +562,13 @@ def test_a_batch_says_what_the_solver_says() -> None:
         ({"outputs": ["moon"]}, "no output 'moon'"),
         ({"state": "night"}, "no state 'night'"),
         ({"against": "figures"}, "no output that depends on uncertain counts"),
-        ({"against": "hopes"}, "unknown kind of claims"),
+        ({"against": "hopes"}, "unknown kind of observations"),
         ({"limit": 0}, "limit is 0"),
         ({"most": 0}, "most is 0"),
         ({"samples": 0}, "samples is 0"),
         ({"method": "guess"}, "unknown method 'guess'"),
-        ({"scale": Fraction(-1)}, "a distance"),
-        ({"tolerance": Fraction(-1)}, "a distance"),
+        ({"scale": Fraction(-1)}, "a magnitude"),
+        ({"tolerance": Fraction(-1)}, "a magnitude"),
         ({"method": "exact", "limit": 1}, "the exact method needs more than 1 steps"),
     ],
 )

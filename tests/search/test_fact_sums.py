@@ -21,7 +21,7 @@ from geartrain.search.reconstruct import (
 )
 from geartrain.search.reconstruct.candidate_names import name_train
 from geartrain.search.reconstruct.explained_facts import ExplainedFacts, WeighedTrains, sum_facts
-from geartrain.search.reconstruct.reconstruction_search import prior, topology_prior
+from geartrain.search.reconstruct.reconstruction_search import topology_prior, train_prior
 
 Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
 
@@ -48,7 +48,7 @@ def by_trains(problem: ReconstructionProblem) -> Told:
     own = (problem.input, *problem.arbors)
     links, wheels = {arbor.name for arbor in own}, {wheel.name for arbor in own for wheel in arbor.wheels}
     trains = [name_train(arbor, [dial.name for dial in problem.dials], links, wheels) for arbor in arbors]
-    facts = ExplainedFacts(WeighedTrains.of(trains, [prior(arbor, problem) for arbor in arbors]), problem)
+    facts = ExplainedFacts(WeighedTrains.of(trains, [train_prior(arbor, problem) for arbor in arbors]), problem)
     found = [*facts.marginals(), *(one.fact for one in facts.next_facts())]
     return {(one.kind, one.subject): {a.answer: (a.share, a.solutions) for a in one.answers} for one in found}
 
@@ -78,7 +78,7 @@ def test_sums_are_those_over_concrete_trees(first: int) -> None:
         if found is None:
             assert not trees
             continue
-        weights = [prior(package_arbor(tree), problem) for tree in trees]
+        weights = [train_prior(package_arbor(tree), problem) for tree in trees]
         direct: dict[tuple[str, str], Fraction] = defaultdict(Fraction)
         for tree, weight in zip(trees, weights, strict=True):
             assert concrete(package_arbor(tree)) == tree

@@ -18,5 +18,5 @@ def test_halving_is_one_bit() -> None:
 @pytest.mark.parametrize(
     ("probabilities", "bits"), [([1.0], 0), ([0.5, 0.5], 1), ([0.25] * 4, 2), ([0.5, 0.25, 0.25], 1.5), ([0.0, 1.0], 0)]
 )
-def test_what_an_answer_is_expected_to_tell(chances: list[float], bits: float) -> None:
-    assert entropy(chances) == bits
+def test_what_an_answer_is_expected_to_tell(probabilities: list[float], bits: float) -> None:
+    assert entropy(probabilities) == bits

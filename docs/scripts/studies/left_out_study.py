@@ -22,7 +22,7 @@ from geartrain import shipped
 from geartrain.errors import GearTrainError
 from geartrain.search.reconstruct import ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.reconstruction_search import is_all_listed, prior, rank_of, train_key
+from geartrain.search.reconstruct.reconstruction_search import is_all_listed, rank_of, train_key, train_prior
 from geartrain.search.reconstruct.spur_tree import (
     SpurTree,
     find_spur_trees,
@@ -220,7 +220,7 @@ def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterat
     """
     evidence, original = lost_evidence(tree, lost), tree.arbor(lost)
     whole = evidence_question(evidence).problem
-    own, weight = whole.additions.wheels, prior(original, whole)
+    own, weight = whole.additions.wheels, train_prior(original, whole)
     mechanisms, weights = list(row.mechanisms[:own]), Counter[Fraction]()
     if any(mechanisms):
         mechanisms = []

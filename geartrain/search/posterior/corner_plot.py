@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 Chances = Mapping[int, float]
 Pair = tuple[str, str]
-MOST = 9
+MOST = 9  # panels of more wheels would be too small to read
 _CELL = 1.35  # side of a panel [inch]
 _TICKS = 3  # maximum number of tick intervals
 _FEW = 20  # maximum number of counts whose bars have separate outlines
@@ -49,19 +49,19 @@ class CountProbabilities:
     """Probabilities of tooth counts, for a corner plot."""
 
     single: Mapping[str, Chances]
-    """Wheel -> count -> probability."""
+    """Posterior probability of each tooth count, by wheel."""
     pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
-    """Pair of wheels, in the order of `single` -> pair of counts -> joint probability."""
+    """Joint probability of each pair of tooth counts, by pair of wheels in the order of `single`."""
     before: Mapping[str, Chances] = field(default_factory=dict)
-    """Wheel -> count -> prior probability; empty if unknown."""
+    """Prior probability of each tooth count, by wheel; empty if unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
-    """Wheel -> declared count."""
+    """Declared tooth count of each wheel that has one."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Draw marginal probabilities on the diagonal and joint probabilities of each pair below it.
+    """Draw a corner plot: marginal probabilities on the diagonal, joint probabilities of each pair below it.
 
-    Darker panels are more probable. Outlines show priors, dashed lines declared counts. Raises `QuestionError` for no
+    Darker squares are more probable. Outlines show priors, dashed lines declared counts. Raise `QuestionError` for no
     wheel, or for more than 9.
     """
     wheels = list(likely.single)
@@ -95,7 +95,6 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
 
 
 def _legend(figure: Figure, likely: CountProbabilities) -> None:
-    """Draw the legend of bars, outlines and dashed lines below the panels."""
     handles: list[Any] = [Patch(color=BLUE, label="posterior")]
     if likely.before:
         handles.append(Patch(fill=False, edgecolor=GREY, label="prior"))
@@ -106,7 +105,7 @@ def _legend(figure: Figure, likely: CountProbabilities) -> None:
 
 
 def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
-    """Draw bars of the probabilities of one wheel, and outlines of its prior."""
+    """Draw the posterior probabilities of one wheel as bars, and its prior as outlines."""
     probabilities = likely.single[wheel]
     wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
     axes.bar(list(probabilities), list(probabilities.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
@@ -123,7 +122,7 @@ def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tu
 
 
 def _outline(axes: Axes, probabilities: Chances) -> None:
-    """Draw the outlines of bars; for many counts only the line along their tops, because the sides would merge."""
+    """Draw the outlines of bars. For many counts draw only the line along their tops, because the sides would merge."""
     if len(probabilities) <= _FEW:
         axes.bar(
             list(probabilities), list(probabilities.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0
@@ -161,14 +160,15 @@ def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
 
 
 def _ticks(axis: Any, span: tuple[int, int]) -> None:
-    """Set ticks at a few integers within the range, at round numbers if the range is long."""
     low, high = span
     found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 3, 4, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
     axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 
 def _modes(probabilities: Chances) -> str:
-    """Format the mode and its probability; all modes if several counts are equally probable, "49-52: 10 % each"."""
+    """Return the most probable count with its probability as text; if several are equally probable, `49-52: 10
+    % each`.
+    """
     largest = max(probabilities.values())
     modes = sorted(count for count, probability in probabilities.items() if isclose(probability, largest))
     percent, span = f"{100 * largest:.3g} %", modes[-1] - modes[0] + 1
@@ -186,14 +186,14 @@ Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair.
+    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair of wheels.
 
     Parameters
     ----------
     found : ToothCountPosterior
         Posterior of the counts.
     pairs : mapping
-        Pair of wheels in the order of declaration -> pair of counts -> probability, from `joint_posterior`.
+        Joint probability of each pair of counts, by pair of wheels in the order of declaration; see `joint_posterior`.
 
     Returns
     -------
@@ -203,7 +203,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     Raises
     ------
     QuestionError
-        If nothing fits, or if the figure would have no wheel or more wheels than fit on a page.
+        If no combination satisfies the observations, or if the number of wheels is not from 1 to 9.
 
     Examples
     --------

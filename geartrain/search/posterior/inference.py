@@ -77,7 +77,7 @@ def infer_counts(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> ToothCountPosterior:
-    """Compute the posterior of uncertain tooth counts, given what is known of the outputs.
+    """Compute the posterior of uncertain tooth counts, given the observed speeds of outputs.
 
     After an interruption (Ctrl-C) the result has `cut` True. It covers the combinations drawn so far. The exact join
     has no partial result; a short sample is drawn instead, and a remark says so.
@@ -95,12 +95,12 @@ def infer_counts(
     tolerance : Fraction, optional
         Relative tolerance of targets without one, at least 0.
     against : {"all", "targets", "figures"}
-        Kinds of claims that are used; figures are `expect` and `published`.
+        Kinds of observations that are used; figures are `expect` and `published`.
     scale : Fraction
         Factor of every tolerance, at least 0.
     soft : bool
-        False if an output is either within its tolerances or not. True for a Gaussian likelihood with the tolerances as
-        standard deviations.
+        False for the likelihood 1 within all tolerances and 0 otherwise. True for a Gaussian likelihood with the
+        tolerances as standard deviations.
     method : {"exact", "sample"}, optional
         By default exact if there are at most `limit` combinations or it takes at most `limit` steps.
     most : int
@@ -127,7 +127,7 @@ def infer_counts(
     Raises
     ------
     QuestionError
-        If no count is uncertain, nothing is known of an output, or weights are not probabilities.
+        If no count is uncertain, no output has an observed speed, or weights are not probabilities.
     RangeError
         If the exact method is requested and exceeds the limit, or a count has too many possible values to list.
 
@@ -195,7 +195,7 @@ def infer_counts(
 
 
 def _sample_remarks(found: PosteriorSummary, method: Method) -> Iterator[str]:
-    """Yield a remark if so few combinations of a sample fit that its figures are unreliable."""
+    """Yield a remark if the effective size of a sample is too small for reliable estimates."""
     if method == "sample" and found.effective < _ENOUGH:
         yield (
             f"the figures are estimated from only {found.effective:.3g} combinations that fit: increase --samples, "
@@ -211,12 +211,12 @@ def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -
     for name, value, minimum in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
         if value < minimum:
             raise QuestionError(
-                Problem(f"{name} is {value}", f"it must be at least {minimum}", f"give {minimum} or more")
+                Problem(f"{name} is {value}", f"it must be at least {minimum}", f"give {name} >= {minimum}")
             )
 
 
 class _Outcome(NamedTuple):
-    """Result and its method; `cut` is True after an interruption."""
+    """Result of the inference with the method that was used; `cut` is True after an interruption."""
 
     method: Method
     found: PosteriorSummary
@@ -233,7 +233,7 @@ def _summarise(
     seed: int,
     means: Execution,
 ) -> _Outcome:
-    """Compute the posterior by the requested method, or by the first that stays within the limit."""
+    """Compute the posterior by the requested method; by default by the exact join, or by sampling beyond the limit."""
     if method != "sample":
         few = prod(len(uncertainty.counts) for uncertainty in question.moved.values()) <= limit
         try:
@@ -247,14 +247,16 @@ def _summarise(
             if method is not None:
                 what = f"the exact method needs more than {limit} steps"
                 fix = "raise the limit, narrow the ranges of counts, or use the method `sample`"
-                raise RangeError(Problem(what, "the limit bounds its work", fix)) from None
+                raise RangeError(
+                    Problem(what, "`limit` bounds the number of partial combinations that it examines", fix)
+                ) from None
     return _Outcome("sample", *_sampled(question, most, samples, seed, means))
 
 
 def _sampled(
     question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
 ) -> tuple[PosteriorSummary, bool]:
-    """Return the summary of a sample, and whether it was interrupted."""
+    """Return the summary of a random sample, and whether the sampling was interrupted."""
     # at most 1000 tasks, which depend only on the number of samples, so that any number of workers draws the same
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
@@ -269,9 +271,10 @@ def _sampled(
 
 
 def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
-    """Return output -> evidence of that output only, from a sample if the exact join would take too long."""
+    """Return the evidence of each output by itself, from a sample if the exact join would take too long."""
     found = {}
     for witness in question.witnesses:
+        # other wheels do not change the evidence of this output
         uncertainties = {wheel: question.uncertainties[wheel] for wheel in witness.formula.wheels}
         one = replace(question, uncertainties=uncertainties, witnesses=(witness,), conditions=())
         try:
@@ -285,7 +288,7 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
-    """Compute the exact posterior. Raises `BudgetSpentError` beyond `limit` steps.
+    """Compute the exact posterior. Raise `BudgetSpentError` beyond `limit` steps.
 
     most   number of combinations to list
     """
@@ -316,7 +319,7 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
 
 def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the share of the prior weight that fits. Raises `BudgetSpentError` beyond `limit` steps."""
+    """Return the evidence: the prior mean of the likelihood. Raise `BudgetSpentError` beyond `limit` steps."""
     uncertainties = question.moved
     if question.soft:
         root, _ = _recorded(question, limit)
@@ -329,14 +332,14 @@ def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
 
 
 def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the share of the prior weight with which the train turns, whatever the speeds of its outputs."""
+    """Return the prior probability that the train turns, regardless of the speeds of its outputs."""
     if not question.conditions:
         return CountProbability(Fraction(1))
     return evidence_of(replace(question, witnesses=(), soft=False), limit)
 
 
 def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
-    """Return the join of the constraints of the observed outputs, followed by the conditions.
+    """Return the join of the constraints of the observed outputs, followed by the conditions for the train to turn.
 
     graded   True if the misfits of the outputs are also required
     """
@@ -354,7 +357,7 @@ def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, i
 
 
 def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountWeights:
-    """Return the prior weights as integers of a type that holds all their sums, or with `soft` the priors as floats."""
+    """Return the prior weights as integers of a type that holds all their sums; with `soft`, the priors as floats."""
     if soft:
         return {
             wheel: np.array([float(prior) for prior in uncertainty.priors])
@@ -365,10 +368,11 @@ def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountW
 
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
-    """Count the combinations that fit: the sum with unit weights, times the numbers of counts of independent wheels."""
+    """Return the number of combinations that satisfy all observations, including the counts of independent wheels."""
     alike = {
         w: replace(uncertainty, weights=(1,) * len(uncertainty.counts)) for w, uncertainty in question.moved.items()
     }
+    # wheels that no observation depends on multiply the number
     idle = [uncertainty for wheel, uncertainty in question.uncertainties.items() if wheel not in alike]
     return int(sums.total(_weights(alike, False))) * prod(len(uncertainty.counts) for uncertainty in idle)
 
@@ -389,7 +393,7 @@ Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
 
 
 def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
-    """Return the wheels of which the outputs give the most information, in the order of declaration.
+    """Return the wheels on which the outputs give the most information [bit], in the order of declaration.
 
     Wheels with one possible count are omitted.
 

@@ -38,11 +38,13 @@ All other counts then have a total probability below 1e-8, and covariances in fl
 """
 
 _NONE = 1e-13
-"""Magnitude of a correlation below which it is a rounding error, and reported as 0."""
+"""Magnitude below which a correlation is a rounding error and is reported as 0."""
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` entries of an ascending list with ties of the last, and False if ties are omitted."""
+    """Return the first `most` entries of an ascending list with all ties of the last; False if ties had to be
+    omitted.
+    """
     found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
@@ -58,7 +60,7 @@ def rank_combinations(
 ) -> tuple[CountCombination, ...]:
     """Sort the candidates exactly by misfit, then by prior weight, then by the number of changed counts.
 
-    evidence   total weight of all that fits; None if it is not known, and then no probabilities are computed
+    evidence   evidence of all observations; None if it is not known, and then no probabilities are computed
     """
     made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
     # exact misfits, then integers: the order does not depend on the method of search
@@ -101,7 +103,7 @@ def _probability(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and best candidates, by either method."""
+    """Evidence, posteriors, correlations and best candidates, computed by either method."""
 
     examined: int
     evidence: CountProbability
@@ -145,7 +147,11 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
 
 
 def _share(weight: float, examined: int, tally: PosteriorTally, soft: bool) -> CountProbability:
-    """Return a share with its 95 % interval: Wilson's for hits, the normal interval for graded agreement."""
+    """Return the evidence estimated from a sample, with its 95 % interval.
+
+    The interval is Wilson's for combinations that satisfy the observations or not, and normal for a Gaussian
+    likelihood.
+    """
     if not examined:
         return CountProbability(0.0, 0.0, 1.0)
     mean = float(weight) / examined
@@ -168,9 +174,9 @@ def wheel_posterior(
 ) -> WheelPosterior:
     """Return the posterior of one wheel.
 
-    weights   total weight of what fits, for each count; None if no known output depends on the wheel
+    weights   posterior weight of each count; None if no observed output depends on the wheel
     total     sum of the weights
-    trials    number of hits, if the weights are from a sample
+    trials    effective number of sampled combinations, if the weights are from a sample
     """
     if not total:
         return WheelPosterior(uncertainty, (), weights is None)
@@ -193,11 +199,12 @@ def wheel_posterior(
 
 
 def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
-    """Return correlations from the sums of products of counts."""
+    """Return the posterior correlations from the weighted sums of products of counts in a sample."""
     if not tally.weight:
         return {}
     wheels = tally.batch.wheels
     means, spreads = _moments(question, dict(zip(wheels, tally.by, strict=True)), tally.weight)
+    # sums of products are relative to these origins
     off = [means[wheel] - origin_of(question.uncertainties[wheel]) for wheel in wheels]
     found = {}
     for i, first in enumerate(wheels):
@@ -212,7 +219,7 @@ def correlations_of(
     total: Any,
     covariances: Mapping[tuple[str, str], float],
 ) -> dict[tuple[str, str], float]:
-    """Return correlations from covariances, only for wheels that an output or a condition connects."""
+    """Return the correlations from covariances, only for wheels that an output or a condition connects."""
     scopes = [
         *(one.formula.wheels for one in question.witnesses),
         *(one.function.wheels for one in question.conditions),
@@ -227,7 +234,9 @@ def correlations_of(
 def _moments(
     question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return posterior mean and standard deviation of each count; the deviation is 0 if the count is almost certain."""
+    """Return the posterior mean and standard deviation of each count; the deviation is 0 if the count is almost
+    certain.
+    """
     means, spreads = {}, {}
     for wheel, weights in by.items():
         counts, whole = question.uncertainties[wheel].counts, Fraction(plain_number(total))
@@ -263,13 +272,13 @@ def _correlated(
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
-"""Pairs of a coefficient and powers of either sign, in parallel to the wheels of a formula."""
+"""Pairs of a coefficient and the powers of the wheels of a formula, which may be negative."""
 
 
 def find_variance_shares(
     name: str, formula: Formula, uncertainties: Mapping[str, ToothCountPrior], seed: int = 0
 ) -> VarianceShares | None:
-    """Return the Sobol indices of an output; None if its speed is undefined for some counts, or constant."""
+    """Return the Sobol indices of an output; None if its speed is constant, or undefined for some counts."""
     own = [uncertainties[wheel] for wheel in formula.wheels]
     if not any(len(uncertainty.counts) > 1 for uncertainty in own):
         return None
@@ -286,7 +295,7 @@ def _monomials(formula: Formula) -> Monomials:
 
 
 class _Means:
-    """Cached means of powers of one count."""
+    """Prior means of powers of one tooth count, cached."""
 
     def __init__(self, uncertainty: ToothCountPrior) -> None:
         self._pairs = list(zip(uncertainty.counts, uncertainty.priors, strict=True))
@@ -301,7 +310,7 @@ class _Means:
 def _exact_indices(
     name: str, wheels: Sequence[str], terms: Monomials, uncertainties: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
-    """Compute the indices of a sum of monomials exactly, from products of means over all pairs of terms."""
+    """Compute the Sobol indices of a sum of monomials exactly, from products of means over all pairs of terms."""
     means = [_Means(uncertainty) for uncertainty in uncertainties]
     mean = sum((c * prod(m(e) for m, e in zip(means, powers, strict=True)) for c, powers in terms), Fraction(0))
     pairs = [(a * b, p, q) for a, p in terms for b, q in terms]
@@ -331,7 +340,7 @@ def _root(value: Fraction) -> Real:
 
 
 def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior]) -> VarianceShares | None:
-    """Compute the indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
+    """Compute the Sobol indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
     shape = tuple(len(uncertainty.counts) for uncertainty in uncertainties)
     columns = {
         uncertainty.wheel: np.array(uncertainty.counts).reshape([-1 if at == axis else 1 for at in range(len(shape))])
@@ -360,7 +369,7 @@ def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCo
 
 
 def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
-    """Return whether the speed is undefined at one of some places that floats cannot decide."""
+    """Return whether the speed is undefined at one of the given combinations, which floats cannot decide."""
     shape = [len(uncertainty.counts) for uncertainty in uncertainties]
     for place in places:
         at = np.unravel_index(int(place), shape)
@@ -374,7 +383,7 @@ def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places
 
 
 def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> Floats:
-    """Return the mean over some axes, which remain with length 1."""
+    """Return the prior mean over some axes, which remain with length 1."""
     found: Floats = values
     for axis in axes:
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]
@@ -385,7 +394,9 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
 def _sampled_indices(
     name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior], seed: int
 ) -> VarianceShares | None:
-    """Estimate the indices from two independent samples A and B, and from A with one column of B for each wheel."""
+    """Estimate the Sobol indices from two independent samples A and B, and from A with one column of B for each
+    wheel.
+    """
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(uncertainties)])))
     first, second = (
         {

@@ -161,7 +161,6 @@ def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
 
 
 def _given(found: ReconstructionAnswer) -> Iterator[Section]:
-    """Yield the sections on surviving arbors, pointers and known meshes."""
     problem = found.problem
     rows = [
         (
@@ -189,7 +188,6 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
 
 
 def _base_text(found: ReconstructionAnswer) -> str:
-    """Return a sentence on the input of the train and the link that carries the arbors."""
     base, source = found.base, found.problem.input.name
     if base is None or not base.is_carrier:
         return f"{source} is the input."
@@ -224,7 +222,6 @@ def _contents(one: RankedTrain) -> tuple[str, str, str]:
 
 
 def _rank(one: RankedTrain) -> str:
-    """Format a rank, with the range of ranks of equal weight."""
     return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
 
 
@@ -274,7 +271,7 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
 
 
 def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
-    """Return table rows that group facts by the number of trains with them."""
+    """Return table rows that group facts by the number of trains for which they are true."""
     rows: dict[int, list[str]] = {}
     for fact in facts:
         rows.setdefault(fact.solutions, []).append(_fact_text(fact))
@@ -314,7 +311,7 @@ def _note_sentences(one: KnownRank) -> Iterator[str]:
 
 
 def _admission_sentences(one: KnownRank) -> Iterator[str]:
-    """Yield a sentence on the rank of a train in each question that admits it."""
+    """Yield a sentence on the rank of a train in each changed problem that admits it."""
     all_that = tuple(dict.fromkeys(each.change for each in one.broken))
     for admitted in one.admitted:
         changes = (
@@ -344,7 +341,7 @@ def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
-    """Yield sections on facts common to all candidates, and on the weights of answers that differ."""
+    """Yield sections on facts common to all candidates, and on the probabilities of answers that differ."""
     if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
@@ -437,7 +434,7 @@ def _equivalent_text(facts: Sequence[Fact]) -> str:
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
-    """Yield the section on numbers of trains without each hard fact; `given` are the numbers with all facts."""
+    """Yield the section on the numbers of trains without each hard fact; `given` are the numbers with all facts."""
     if not changes:
         return
     header = ("assumption", *(f"{added} added" for added in range(len(given))), "trains")
@@ -451,7 +448,7 @@ def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
-    """Yield sections on the reasons why nothing fits; `most` is the maximum number of added wheels."""
+    """Yield sections on the reasons why nothing explains the evidence; `most` is the maximum number of added wheels."""
     if found is None:
         return
     line = "Each dial without the others; surviving arbors that do not lead to it need not be used."
@@ -482,9 +479,10 @@ def _lone_dial_text(dial: LoneDial, most: int) -> str:
 
 
 def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[Section]:
-    """Yield the section on the family tree; the first `turning` trains are animated on the page."""
+    """Yield the section on the family tree. The first `turning` trains are animated on the HTML page."""
     if not tree:
         return
+    # the most probable branches
     shown = set(sorted(range(len(tree)), key=lambda at: -tree[at].share)[:_MOST_BRANCHES])
     below: dict[int, list[int]] = {}
     for at, branch in enumerate(tree):
@@ -535,16 +533,16 @@ def _scene(text: str, rank: int, turning: int) -> str:
 
 
 def share_text(share: float) -> str:
-    """Format a share of the weight in percent with three digits."""
+    """Return a probability as text, in per cent with three digits."""
     return f"{100 * share:.3g} %"
 
 
 def teeth_text(wheels: Mapping[str, int]) -> str:
-    """Format wheels with their counts, such as `m1 96, n1 53`."""
+    """Return wheels with their tooth counts as text, such as `m1 96, n1 53`."""
     return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
 
 
 def ranks_text(ranks: tuple[int, int]) -> str:
-    """Format a rank as `3`, or as `1-4` for trains of equal weight."""
+    """Return a rank as text: `3`, or `1-4` for equally probable trains."""
     first, last = ranks
     return str(first) if first == last else f"{first}-{last}"

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
-"""Kinds of files that `export_files` can write."""
+"""Kinds of files that `export_files` writes."""
 
 SUFFIXES = {
     ".glb": "glb",
@@ -40,10 +40,10 @@ SUFFIXES = {
     ".rexsj": "rexs",
     ".json": "rexs",
 }
-"""Suffixes of single files that contain a whole train, with their kinds."""
+"""Kind of a file with a whole train, by suffix."""
 
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
-"""Suffixes of single files that contain one wheel."""
+"""Suffixes of files with a single wheel."""
 
 _NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}  # kind -> (library, extra that installs it)
 _TITLES = {
@@ -61,7 +61,7 @@ Rows = Sequence[Sequence[object]]
 
 @dataclass(frozen=True, slots=True)
 class ExportFile(Shown):
-    """File to be written.
+    """File of an export, whose content is computed on request.
 
     See Also
     --------
@@ -69,15 +69,17 @@ class ExportFile(Shown):
     """
 
     path: str
-    """Path relative to the folder, with `/`."""
+    """Path relative to the folder, with `/` as separator."""
     title: str
-    """Description of its content."""
+    """Description of the content of the file."""
     make: Callable[[], bytes]
-    """Function that returns its content as bytes, and raises `GearTrainError` if the content cannot be made."""
+    """Function that returns the content as bytes, or raises `GearTrainError` if it cannot be made."""
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
-    """Return the kinds whose libraries are installed, and problems that name what to install for the others."""
+    """Return the kinds whose libraries are installed, and for each other kind a problem with the command that installs
+    it.
+    """
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))
@@ -180,7 +182,13 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     """
     known = work.train.declaration.wheels
     if wheel not in known:
-        raise QuestionError(Problem(f"the train has no wheel '{wheel}'", "", suggest(wheel, known)))
+        raise QuestionError(
+            Problem(
+                f"'{wheel}' is not a wheel of the train",
+                "only a wheel with its own drawing can be exported",
+                suggest(wheel, known),
+            )
+        )
     blank = work.blanks.wheels.get(wheel)
     if blank is None:
         raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
@@ -195,7 +203,7 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 def export_files(
     work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
 ) -> list[ExportFile]:
-    """List all files of some kinds, small ones first, and last a README that lists them.
+    """Return all files of some kinds, small ones first, and last a README that lists them.
 
     Parameters
     ----------
@@ -230,7 +238,12 @@ def export_files(
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         raise QuestionError(
-            Problem(f"'{unknown[0]}' is not a kind of export", "", f"use some of {', '.join(KINDS)}", "--as")
+            Problem(
+                f"'{unknown[0]}' is not a kind of export",
+                "each kind is the name of a format",
+                f"use some of {', '.join(KINDS)}",
+                "--as",
+            )
         )
     files = [*_sheets(work, kinds), *_pictures(work, kinds), *_tables(work, kinds)]
     named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
@@ -257,7 +270,7 @@ def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str],
 
 
 def parts_requested(kinds: Sequence[str]) -> bool:
-    """Return whether some of the kinds of files show parts to make."""
+    """Return True if some of the kinds of files show parts to make."""
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
@@ -294,7 +307,7 @@ def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """Return the problems of parts that the files of some kinds cannot show, each once.
+    """Return the problems of parts that files of these kinds cannot show, without repetition.
 
     Parameters
     ----------
@@ -335,19 +348,26 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
 
 def kind_of(name: str) -> str:
-    """Return the kind of a file with the whole train by its name; raise `GearTrainError` for an unknown suffix."""
+    """Return the kind of a file with a whole train from its name. Raises `GearTrainError` for an unknown suffix."""
     suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
     fix = f"use {', '.join(SUFFIXES)} or .fmu; for wheels, plates and tables, give --to FOLDER"
-    raise GearTrainError(Problem(f"a train cannot be written as '{suffix or name}'", "", fix, "-o"))
+    raise GearTrainError(
+        Problem(
+            f"a train cannot be written as '{suffix or name}'",
+            "the format follows from the suffix of the file",
+            fix,
+            "-o",
+        )
+    )
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
 
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
-    """Return the tables of a train as CSV by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
+    """Return the tables of a train as CSV text by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
     made = {
         "wheels": _wheels,
         "links": _links,
@@ -362,7 +382,7 @@ def to_tables(work: SolidModel) -> Mapping[str, str]:
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as exact text and as decimal text."""
+    """Return a number as exact and as decimal text; two empty texts for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 

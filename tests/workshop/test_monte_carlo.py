@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -136,12 +137,12 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
     del data["links"]["l1"]["wheels"]["p1"]
     plan = planned(GearTrain.declare(data), "pitch_deviation=2 %", "tip=3 %")
     assert [wheel.name for wheel in plan.wheels] == ["p0", "w0", "w1"]
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 30)
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 8)
     first, second = drawn.pair(0), drawn.pair(1)
     assert (first.second.place == second.first.place).all()
     marks, backlash = judge_trial_pairs(drawn)
     for at, pair in enumerate((first, second)):
-        laws = (CutPairLaw.of(pair.sizes, pair.first.trial(n), pair.second.trial(n)).events for n in range(30))
+        laws = (CutPairLaw.of(pair.sizes, pair.first.trial(n), pair.second.trial(n)).events for n in range(8))
         expected = np.array([events.backlash for events in laws])
         assert (((marks[:, at] & JAM) > 0) == (expected < 0)).all()
         assert backlash[:, at] == pytest.approx(expected / pair.sizes.p2, abs=1e-8)
@@ -419,3 +420,79 @@ def test_a_cycle_of_teeth_is_no_longer_than_it_is() -> None:
 
 def test_what_is_not_known_is_told_as_nothing() -> None:
     assert IntervalEstimate(1.0, float("-inf"), 2.0).to_dict() == [1.0, None, 2.0]
+
+
+# ---------------------------------------------------------------------------------------- teeth of any form, and filing
+
+PAIR = """
+name: pair
+links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {w: 37}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, w]}]
+inputs: {a: 1}
+outputs: {b: {}}
+tooth_form: {form: FORM, backlash: 0.2}
+cutting: {pitch_deviation: {normal: 1 %}}
+fitting: {filing: {stroke: 1 %}}
+"""
+
+
+@pytest.mark.parametrize("form", ["involute", "cycloidal"])
+def test_a_train_is_cut_filed_and_composed(form: str) -> None:
+    plan = find_trial_plan(load(PAIR.replace("FORM", form)))
+    found = run_trials(plan, 300)
+    pair, train = found.filings
+    assert pair.filed.count == train.filed.count > 0
+    assert pair.jams.count == found.train.events["jam"].count == 0
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
+    turns = np.linspace(0, 3, 40)
+    errors = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
+    cut = drawn.pair(0)
+    lag, _ = cut.minimum_lag(np.arange(40), np.mod(turns * 2 * pi, cut.count * 2 * pi / 24))
+    # an external pair turns backwards: a lag is a positive error
+    assert errors == pytest.approx(lag, abs=1e-10)
+    # to first order sigma on each wheel, and a mean lag of none: the spread of an error of one couple
+    sigma = 0.01 * 2 * pi / 37 * 2**0.5
+    assert 0.6 * sigma < found.pointers[0].deviation.value < 1.05 * sigma
+
+
+def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting() -> None:
+    text = PAIR.replace("FORM, backlash: 0.2", "cycloidal, backlash: 0.2, centre_distance: 30.55")
+    train = load(text)
+    plan = find_trial_plan(train, read_error_overrides(["pitch_deviation=0.0001 %"]))
+    transmission, pitch, S = train.meshes[0].transmission, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
+    lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).minimum_lag(np.zeros(50, int), S)[0]
+    # to first order in 0.05 modules, the ripple of the outlines' own law
+    assert np.ptp(transmission.error(S)) > 0.001 * pitch
+    assert -lag == pytest.approx(transmission.error(S), abs=1e-3 * pitch)
+    assert abs(run_trials(plan, 200).pointers[0].mean.value) < 1e-4 * pitch
+
+
+def test_triangular_pairs_are_filed_until_they_turn() -> None:
+    # 15 % of such pairs jam, as docs/cut-by-hand.md prints
+    text = PAIR.replace("p: 24", "p: 64").replace("w: 37", "w: 38").replace("normal: 1 %", "normal: 5.16 %")
+    form = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
+    plan = find_trial_plan(load(text.replace("{form: FORM, backlash: 0.2}", form)))
+    bare = replace(plan, pairs=tuple(replace(pair, stroke=0.0) for pair in plan.pairs))
+    before, after = run_trials(bare, 40), run_trials(plan, 40)
+    assert before.train.events["jam"].count == after.filings[-1].filed.count > 0
+    assert after.train.events["jam"].count == 0
+    # wheel by wheel, by the law of one pair
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
+    at = int(np.argmax([work.strokes.sum() for work in drawn.filing.values()]))
+    pair, trial = drawn.pair(at), int(drawn.filing[at].strokes.argmax())
+    transmission = CutPairLaw.of(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
+    assert transmission.events.backlash >= 0
+
+
+def test_settings_and_wheels_of_other_forms() -> None:
+    settings = read_error_overrides(
+        ["pitch_deviation=0.2 %", "eccentricity=1 %", "aperture_deviation=1 %", "tip=1 %", "centre=1 %"]
+    )
+    for name in ("planetary-24-18-60-involute", "lantern-mill", "longcase-clock-cycloidal"):
+        plan = find_trial_plan(load(name), settings)
+        found = run_trials(plan, 16)
+        assert np.isfinite(found.errors).all()
+        assert np.ptp(found.errors) > 0
+    plan = find_trial_plan(load("bevel-differential-involute"), settings, state="straight")
+    assert np.isfinite(run_trials(plan, 16).errors).all()

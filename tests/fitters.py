@@ -52,9 +52,7 @@ def declared(data: Mapping[str, Any]) -> Train:
     return GearTrain.declare(data).declaration
 
 
-def rules_of(
-    train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **requested: Any
-) -> tuple[Any, ...]:
+def rules_of(train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **requested: Any) -> tuple[Any, ...]:
     """The rules with some wheels free, by default all."""
     found = train if isinstance(train, Train) else declared(train)
     wheels = found.wheels if free is None else free

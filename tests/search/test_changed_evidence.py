@@ -15,6 +15,7 @@ from geartrain.search.reconstruct import (
     ReconstructionAnswer,
     ReconstructionProblem,
     ReconstructionRequest,
+    describe_reconstruction,
     dropped_facts,
     find_reconstructions,
     read_evidence,
@@ -162,3 +163,28 @@ def test_a_search_that_refuses_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     assert dials(found) == [("p", None, "not today"), ("q", None, "not today")]
     assert found.doubts == ()
     assert len(found.refused) == found.requested
+
+
+def test_the_page_tells_why_nothing_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+    def tables() -> dict[str, list[tuple[str, ...]]]:
+        page = describe_reconstruction(answered(NOTHING)).sections
+        words = {paragraph for section in page for paragraph in section.paragraphs}
+        rows = {each.title: [tuple(row) for row in each.tables[0].rows] for each in page if each.tables}
+        return rows | {word: [] for word in words}
+
+    found = tables()
+    assert found["Why nothing fits"] == [
+        ("p", "fails: no train with 1 added wheel or fewer"),
+        ("q", "explained with 1 added wheel"),
+    ]
+    assert found["Changes of the evidence that would help"] == [("if a1 has 30 teeth", "1", "1")]
+    assert found["Effect of each assumption"][:2] == [
+        ("all facts", "0", "0", "0"),
+        ("without the sense of p", "0", "0", "0"),
+    ]
+    assert any(text.startswith("23 changes of the evidence tried") for text in found)
+    monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
+    found = tables()
+    assert found["Why nothing fits"] == [("p", "not today"), ("q", "not today")]
+    assert found["Effect of each assumption"][1] == ("without the sense of p", "-", "-", "not today")
+    assert "No single change leaves an explanation." in found

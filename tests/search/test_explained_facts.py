@@ -10,16 +10,20 @@ from math import log2
 import pytest
 from concrete_trees import concrete, declared, meshes, random_problem
 
+from geartrain.report import Document, Section, to_markdown
 from geartrain.search.reconstruct import (
     Additions,
     Arbor,
     Candidate,
+    ExplanationCount,
     PlacedWheel,
+    ReconstructionAnswer,
     ReconstructionProblem,
     Reconstructions,
     SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
+    describe_reconstruction,
     explained_facts,
     find_reconstructions,
 )
@@ -169,6 +173,59 @@ def test_a_stem_is_one_branch_and_no_candidates_have_no_tree() -> None:
     assert [(one.parent, one.meshes) for one in tree] == [(None, ("i > a1", "a2 > c1", "c2 > new_sun1 (sun)"))]
     assert [train.counts for train in tree[0].trains] == [{"new_sun1": 53}, {"new_sun1": 54}]
     assert findings(PROBLEM, (), ()).family == ()
+
+
+def sections_of(found: explained_facts.CandidateFindings) -> dict[str, Section]:
+    answer = ReconstructionAnswer("toy", PROBLEM, (ExplanationCount(2, 4, 4, 4),), True, (), (), findings=found)
+    return {section.title: section for section in describe_reconstruction(answer).sections}
+
+
+def test_the_page_tells_what_is_shared_where_trains_differ_and_what_to_look_for() -> None:
+    page = sections_of(FOUND)
+    assert list(page["What all of them share"].paragraphs) == [
+        "In all of them: the pointer of sun is on an added arbor."
+    ]
+    meshes, answers, needed = (list(table.rows) for table in page["Where they differ"].tables)
+    assert meshes[:4] == [
+        ("a2 > c1", "75 %", "2"),
+        ("c2 > new_sun1", "75 %", "2"),
+        ("i > a1", "75 %", "2"),
+        ("a1 > new_sun1", "12.5 %", "1"),
+    ]
+    assert ("the count of c1", "40: 62.5 % (2), 41: 25 % (1), not used: 12.5 % (1)", "1.3") in answers
+    assert needed == [("53", "87.5 %", "3"), ("50", "12.5 %", "1")]
+    assert list(page["The next fact to look for"].tables[0].rows)[2:4] == [
+        ("whether a1 and i mesh", "0.811", "yes: 75 % (2), no: 25 % (2)", "whether a2 and c1 mesh"),
+        (
+            "whether a1 and c2 mesh",
+            "0.544",
+            "no: 87.5 % (3), yes: 12.5 % (1)",
+            "whether c1 and i mesh; which arbor drives a",
+        ),
+    ]
+    shown = to_markdown([Document("Trains", (), [page["The family tree"]])])
+    assert [line for line in shown.splitlines() if line.lstrip().startswith("- ")] == [
+        "- the input: 100 %, 4 trains",
+        "  - i > a1, a2 > c1, c2 > new_sun1 (sun): 75 %, 2 trains",
+        "    - 50 %, rank 1 with new_sun1 53, c1 40",
+        "    - 25 %, rank 2 with new_sun1 53, c1 41",
+        "  - i > c1, c2 > a1, a2 > new_sun1 (sun): 12.5 %, rank 3 with new_sun1 53, c1 40",
+        "  - i > a2, a1 > new_sun1 (sun): 12.5 %, rank 4 with new_sun1 50",
+    ]
+
+
+def test_what_all_share_is_told_in_sentences() -> None:
+    page = sections_of(findings(PROBLEM, FOUR[:2], [1, 1]))
+    meshes, needed, besides = page["What all of them share"].paragraphs
+    assert meshes == "In all of them: a2 > c1, c2 > new_sun1, i > a1."
+    assert needed == "All of them need a wheel of 53."
+    assert besides == "Besides: the pointer of sun is on an added arbor; new_sun1 is added with 53 teeth."
+
+
+def test_a_wide_family_is_cut_and_says_what_is_left_out() -> None:
+    many = [whole(arbor("a", ("a1", 20), ("a2", 30), sun(teeth))) for teeth in range(10, 19)]
+    (branch,) = sections_of(findings(PROBLEM, many, [1] * 9))["The family tree"].branches
+    assert [each.text for each in branch.below][-1] == "3 more"
 
 
 # ---- random questions, against concrete trees

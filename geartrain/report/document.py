@@ -137,7 +137,12 @@ def _field_text(value: Any, digits: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A line of a tree, with the lines below it."""
+    """A line of a tree, with the lines below it.
+
+    See Also
+    --------
+    Section : its field `branches` is a tree.
+    """
 
     text: str
     """Text of the line."""

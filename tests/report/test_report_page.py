@@ -28,7 +28,6 @@ from geartrain.report import (
     to_html,
     to_markdown,
 )
-from geartrain.report.document import Branch
 from geartrain.report.html_page import inline, is_web
 
 SVG = (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from geartrain.report import Document, Section, to_html, to_markdown, to_text
-from geartrain.report.document import Branch, SceneText
+from geartrain.report import Branch, Document, Section, to_html, to_markdown, to_text
+from geartrain.report.document import SceneText
 
 EVIL = "<script>alert(1)</script>"
 BRANCHES = [Branch("stem", [Branch(EVIL, [Branch(SceneText("end", 2))]), Branch("other")])]

@@ -46,7 +46,8 @@ __getattr__ = lazy_names(
     {
         "Answer": "kinematics.answer",
         **dict.fromkeys(
-            ("DeclarationError", "GearTrainError", "MissingExtraError", "Problem", "QuestionError", "RangeError"), "errors"
+            ("DeclarationError", "GearTrainError", "MissingExtraError", "Problem", "QuestionError", "RangeError"),
+            "errors",
         ),
         "GearTrain": "analysis.gear_train",
         "Verdict": "kinematics.answer",

@@ -22,13 +22,13 @@ Marks = Callable[[Loc], str]
 
 
 _STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""Characters that could control a terminal: control characters except tab and line feed, other line ends, changes of
-the writing direction, lone surrogates.
+"""Characters that could control a terminal: control characters except tab and line feed, other line separators,
+marks that change the writing direction, and lone surrogates.
 """
 
 
 def printable(text: str) -> str:
-    r"""Replace the characters of a text that could control a terminal or hide other text by escapes.
+    r"""Escape the characters of a text that could control a terminal or hide other text.
 
     >>> printable("sun\x1b[2J")
     'sun\\x1b[2J'
@@ -45,9 +45,10 @@ def dotted(loc: Loc) -> str:
 
 
 def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[str]:
-    """Return the known names that are most similar to an unknown one, the most similar first.
+    """Return the known names that are most similar to an unknown name, in order of decreasing similarity.
 
-    wide   True for long names with several parts, such as those of periods and files: one more name, less similarity
+    `wide=True` suits long names with several parts, such as names of periods and files: it returns up to three names
+    and accepts less similarity.
     """
     from difflib import get_close_matches  # slow to import, and most runs have no unknown name
 
@@ -55,7 +56,14 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name: similar known names, else `otherwise`, else all if few."""
+    """Return a suggestion for an unknown name.
+
+    It lists similar known names, otherwise it is `otherwise`, otherwise it lists all known names if there are at
+    most 30.
+
+    It lists similar known names, otherwise it is `otherwise`, otherwise it lists all known names if there are at
+    most 30.
+    """
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
         return f"did you mean {' or '.join(map(repr, close))}?"
@@ -64,7 +72,7 @@ def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = F
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One problem of the input, described in four parts.
+    """One problem of the input: place, description, reason and fix.
 
     Examples
     --------
@@ -103,10 +111,9 @@ MOST_REPORTED = 20
 
 
 def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:
-    """Return the first `MOST_REPORTED` problems, and one more that reports the number of the others (of `count`, if
-    known).
+    """Return the first `MOST_REPORTED` problems, and a last one that reports how many others there are.
 
-    An iterator is consumed only as far as is needed to know that there are more.
+    `count` is the total number if it is known. An iterator is consumed only until it is known that there are more.
     """
     if count is None and isinstance(problems, list | tuple):
         count = len(problems)
@@ -124,7 +131,7 @@ class GearTrainError(Exception):
     Parameters
     ----------
     problems : Problem or iterable of Problem
-        All problems that were found. The first 20 are kept, and the number of the others.
+        All problems that were found. The first 20 are kept, with the number of the others.
 
     Attributes
     ----------
@@ -239,19 +246,19 @@ class MissingExtraError(GearTrainError):
 
 
 def check_choice(kind: str, name: str, known: Iterable[str]) -> None:
-    """Raise `QuestionError` if a name is not one of the known names."""
+    """Raise `QuestionError` with a suggestion if a name is not one of the known names."""
     known = tuple(known)
     if name not in known:
         raise QuestionError(Problem(f"unknown {kind} '{name}'", "names must match exactly", suggest(name, known)))
 
 
 def check_numbers(**given: object) -> None:
-    """Raise `QuestionError` for arguments that are not numbers; None is accepted."""
+    """Raise `QuestionError` for a keyword argument that is not a real number; None is accepted."""
     _check_kind(given, Real, "a number")
 
 
 def check_whole_numbers(**given: object) -> None:
-    """Raise `QuestionError` for arguments that are not integers; None is accepted."""
+    """Raise `QuestionError` for a keyword argument that is not an integer; None is accepted."""
     _check_kind(given, Integral, "a whole number")
 
 

@@ -32,22 +32,22 @@ def wing(name: str) -> Any:
     """
     package = name.partition(".")[0]
     if not has_wing(package):
-        what = f"this needs the package geartrain.{package}"
-        raise GearTrainError(
-            Problem(what, "it is not part of this installation", "install geartrain with all its packages")
-        )
+        what = f"the optional package geartrain.{package} is not installed"
+        raise GearTrainError(Problem(what, "this feature needs it", "install geartrain with all its packages"))
     return import_module(f"geartrain.{name}")
 
 
 @dataclass(frozen=True)
 class WingResult:
-    """Annotation of a field that holds a result of a wing: `Annotated[Any, WingResult("simulation", "TimeRun")]`."""
+    """Annotation of a field that holds the result of an optional package: `Annotated[Any, WingResult("simulation",
+    "TimeRun")]`.
+    """
 
     wing: str
-    """Name of the wing."""
+    """Name of the optional package."""
     name: str
-    """Public name of the class of the result."""
+    """Public name of the result's class."""
 
     def kind(self) -> type | None:
-        """Return the class of the result; None if the wing is not installed."""
+        """Return the class of the result; None if the optional package is not installed."""
         return getattr(wing(self.wing), self.name) if has_wing(self.wing) else None

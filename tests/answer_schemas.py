@@ -38,4 +38,4 @@ def holds(question: str, data: Any) -> None:
 
 
 # of these some parts are told by hand, with keys that are not all named
-OPEN = {"mesh FORM", "mesh compare", "mesh triangular --vary", "graph --as json"}
+OPEN = {"mesh", "mesh --compare", "mesh --form triangular --vary", "inspect graph --as json"}

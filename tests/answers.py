@@ -49,8 +49,14 @@ wherever it stands ("--free": "--in-doubt")."""
 
 EACH = (
     *("solve {} --json", "solve {}", "solve {} --method floats --json", "check {}", "report {} --json", "report {}"),
-    *("equations {}", "equations {} --latex", "torques {} --json", "torques {}", "posterior {} --limit 20000 --json"),
-    *(f"graph {{}} --as {form}" for form in ("labels", "edges", "matrix", "dot", "graphml", "json")),
+    *(
+        "inspect equations {}",
+        "inspect equations {} --latex",
+        "torques {} --json",
+        "torques {}",
+        "posterior {} --limit 20000 --json",
+    ),
+    *(f"inspect graph {{}} --as {form}" for form in ("labels", "edges", "matrix", "dot", "graphml", "json")),
     "view {} -o -",
     "draw {} -o -",
     "export {} --to out --as svg,stl,glb,graphml,dot,rexs,csv",
@@ -59,32 +65,39 @@ EACH = (
 
 RUNS = (
     "motion {} --turns 2 --samples 400 --links --estimates --spectrum --json",
-    "motion {} --turns -1/3 --samples 50 --csv",
+    "motion {} --turns -1/3 --samples 50 -o -.csv",
     "montecarlo {} --trials 4 --json",
     "budget {} --turns 2 --samples 400 --trials 4 --json",
-    'montecarlo {} --trials 4 --set pitch_deviation="0.1 deg" --set tip="0.3 %" --json',
+    'montecarlo {} --trials 4 --cutting pitch_deviation="0.1 deg" --cutting tip="0.3 %" --json',
 )
 """What is asked of every state of every shipped train."""
 
-SEARCHED = ("teeth train {} --by total --best 5 --json", "teeth train {} --csv")
+SEARCHED = ("teeth train {} --sort total --best 5 --json", "teeth train {} -o -.csv")
 """What is asked of trains with wheels to be found."""
 
 OTHERS = (
-    *("list", "periods", "schema", "schema --as markdown", "schema --as answers", "sphere --survey --json"),
-    *(f"mesh involute --teeth 24 36 --friction 0.05 {more} --json" for more in ("", "--bevel 90deg", "--driver 2")),
-    *(f"mesh {form} --teeth 12 45 --friction 0.1 --json" for form in ("cycloidal", "lantern", "least_friction")),
-    *(f"mesh {form} --teeth 24 36 --json" for form in ("uniform_stress", "uniform_temperature", "compare")),
-    *(f"mesh triangular --teeth 48 96 --{by} --friction 0.2 --json" for by in ("clearance 1.01", "window 0.3")),
-    "mesh involute --teeth 36 70 --internal --shift 0.696,0.226 --json",
-    "mesh triangular --teeth 20 31 --clearance-factor 1.012 --backwards --json",
-    "mesh triangular --teeth 48 96 --vary clearance-factor=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
-    "mesh pin --pin-radius 9.6mm --offset 1.1mm --friction 0.1 --json",
+    *(
+        "list",
+        "periods",
+        "inspect schema",
+        "inspect schema --as markdown",
+        "inspect schema --as answers",
+        "sphere --survey --json",
+    ),
+    *(f"mesh 24 36 --friction 0.05 {more} --json" for more in ("", "--shaft-angle 90deg", "--driver 2")),
+    *(f"mesh 12 45 --form {form} --friction 0.1 --json" for form in ("cycloidal", "lantern", "least_friction")),
+    *(f"mesh 24 36 {form} --json" for form in ("--form uniform_stress", "--form uniform_temperature", "--compare")),
+    *(f"mesh 48 96 --form triangular -p {by} --friction 0.2 --json" for by in ("clearance_factor=1.01", "window=0.3")),
+    "mesh 36 70 --internal -p shift=0.696,0.226 --json",
+    "mesh 20 31 --form triangular -p clearance_factor=1.012 --backwards --json",
+    "mesh 48 96 --form triangular --vary clearance_factor=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
+    "pin 9.6mm 1.1mm --friction 0.1 --json",
     *(
         f"teeth set 142 --kind {kind} --planets 3 --range 12:70 --best 5 --json"
         for kind in ("wolfrom", "3k-two-suns", "stepped-rings")
     ),
-    "teeth ratio 235/19 --stages 2 --range 15:90 --tolerance 1e-5 --hunting --by total --json",
-    "teeth ratio 3.14159 --stages 2 --range 12:80 --internal 1 --reverted --tolerance 1e-4 --csv",
+    "teeth ratio 235/19 --stages 2 --range 15:90 --tolerance 1e-5 --hunting --sort total --json",
+    "teeth ratio 3.14159 --stages 2 --range 12:80 --internal 1 --reverted --tolerance 1e-4 -o -.csv",
     "compare price-1974 freeth-2006 freeth-2008 voulgaris-2022 pennestri-2002 --all --json",
     "compare planetary-24-18-60 planetary wolfrom-175 norton-planetary --all --json",
     "compare gosper-2005 clock-10000-years clock-10000-years-exact --all",
@@ -165,10 +178,10 @@ def groups() -> Iterator[Group]:
             path.stem, [_run(f"geartrain {each.format(path.stem)}") for each in requested], together=False, train=True
         )
     yield Group("others", [_run(f"geartrain {each}") for each in OTHERS], together=False)
-    for path in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))):
+    for path in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "docs" / "api" / "index.md"):
         steps = list(_steps(path))
         if any("run" in step for step in steps):
-            yield Group(f"page-{path.stem}", steps, together=True)
+            yield Group(f"page-{'api' if path.parent.name == 'api' else path.stem}", steps, together=True)
 
 
 def _run(command: str) -> dict[str, str]:
@@ -203,7 +216,7 @@ def _requested(line: str, texts: dict[str, str]) -> Iterator[dict[str, str]]:
             command = _TRIALS.sub(_fewer, command)
         if not any(each in command for each in ("--open", "completion")):
             yield _run(command)
-            if words[1] in TELLING and not re.search(r" (--json|--csv|-o|--plot|--profile|--vary|--survey)\b", command):
+            if words[1] in TELLING and not re.search(r" (--json|-o|--plot|--profile|--vary|--survey)\b", command):
                 yield _run(f"{command} --json")
     elif words[0] == "python" and words[1] in texts and _INSIDE.search(texts[words[1]]):
         return

@@ -19,6 +19,7 @@ import typer.main
 from typer.testing import CliRunner, Result
 
 from geartrain.cli import app, main
+from geartrain.errors import GearTrainError
 
 LOCKED = """
 links: {frame: {}, a: {wheels: {x: 20}}, b: {wheels: {y: 30}}, c: {wheels: {z: 40}}}
@@ -57,7 +58,14 @@ main()
 
 
 def call(*arguments: object) -> Result:
-    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+    """The result of a command in this process; errors of the input have the text and code of the console script."""
+    result = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    if isinstance(result.exception, GearTrainError):
+        said = "".join(f"error: {problem}\n" for problem in result.exception.problems).encode()
+        result.exit_code = 2
+        result.stderr_bytes = (result.stderr_bytes or b"") + said
+        result.output_bytes += said
+    return result
 
 
 def ended(*arguments: object) -> subprocess.CompletedProcess[str]:

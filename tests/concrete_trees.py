@@ -41,16 +41,16 @@ class Counts(NamedTuple):
     """What is found with just so many added wheels."""
 
     added: int
-    mechanisms: int
-    bags: int
+    solutions: int
+    multisets: int
     classes: int
 
 
 class Found(NamedTuple):
-    """All mechanisms with just so many added wheels, and their counts."""
+    """All solutions with just so many added wheels, and their counts."""
 
     counts: Counts
-    mechanisms: frozenset[Node]
+    solutions: frozenset[Node]
 
 
 def explanations(problem: ReconstructionProblem) -> tuple[Found, ...]:
@@ -77,7 +77,7 @@ def _by_added(problem: ReconstructionProblem) -> list[frozenset[Node]]:
                     if _turns_in_rings(filled, problem):
                         found[added].update(_with_dials(filled, problem))
         trees = {grown for tree in trees for grown in _grown(tree, problem)}
-    return [frozenset(mechanisms) for mechanisms in found]
+    return [frozenset(solutions) for solutions in found]
 
 
 # growth

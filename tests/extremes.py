@@ -580,7 +580,7 @@ def amplified(turns: float) -> Measured:
 
 # ---------------------------------------------------------------------------------------------------------- every case
 
-RADIANS, SHARE, PITCHES = "rad of the output", "of itself", "driven pitches"
+RADIANS, SHARE, PITCHES = "rad of the output", "relative", "driven pitches"
 
 
 def plain(periods: float) -> float:
@@ -604,7 +604,7 @@ CASES = (
     ),
     Case(
         "ratio of exactly 1 on an arm",
-        "output at rest in the mean, 1e6 turns",
+        "output at rest on average, 1e6 turns",
         RADIANS,
         partial(at_rest, 1e6),
         2 * EPS,
@@ -643,7 +643,7 @@ CASES = (
     ),
     *(
         Case(
-            "pairs in a row, an error in each",
+            "pairs in a row, each with a transmission error",
             f"{pairs:,} pairs",
             SHARE,
             partial(long_chain, pairs, places),
@@ -656,7 +656,7 @@ CASES = (
     *(
         Case(
             "efficiency near friction locking",
-            f"{teeth[0]}/{teeth[1]} teeth, friction 1 - 1e-{digits} of the locking one, constant driver torque",
+            f"{teeth[0]}/{teeth[1]} teeth, friction 1 - 1e-{digits} of the locking friction, constant driver torque",
             SHARE,
             partial(near_friction_locking, teeth, digits, False),
             40 * EPS,
@@ -668,7 +668,7 @@ CASES = (
     *(
         Case(
             "efficiency near friction locking",
-            f"96/72 teeth, friction 1 - 1e-{digits} of the locking one, constant load",
+            f"96/72 teeth, friction 1 - 1e-{digits} of the locking friction, constant load",
             SHARE,
             partial(near_friction_locking, (96, 72), digits, True),
             40 * EPS * 10**digits,
@@ -678,7 +678,7 @@ CASES = (
         for digits in (1, 3, 6)
     ),
     Case(
-        "friction that locks",
+        "friction locking",
         "96/72 teeth",
         SHARE,
         partial(locking, (96, 72)),
@@ -698,8 +698,8 @@ CASES = (
     ),
     *(
         Case(
-            "teeth almost apart",
-            f"48/96 teeth, tips overlap by 1e-{digits} of the most",
+            "tips that hardly overlap",
+            f"48/96 teeth, tips overlap by 1e-{digits} of the maximum",
             PITCHES,
             partial(almost_apart, 1 - 10.0**-digits),
             8 * EPS * 10 ** (digits / 2),
@@ -709,7 +709,7 @@ CASES = (
     ),
     *(
         Case(
-            "power that circulates",
+            "recirculating power",
             f"100 times the throughput, friction {friction:g}",
             SHARE,
             partial(lost_in_circulation, friction),
@@ -721,7 +721,7 @@ CASES = (
     ),
     *(
         Case(
-            "one pair's error enlarged",
+            "transmission error multiplied by the train",
             f"99 times, {power(turns)} turns",
             SHARE,
             partial(amplified, turns),
@@ -732,8 +732,8 @@ CASES = (
     ),
     *(
         Case(
-            "pin near the offset",
-            f"r/e = 1 + {power(more)}, {power(turns)} turns, about the fast place",
+            "pin near the axis of its slot",
+            f"r/e = 1 + {power(more)}, {power(turns)} turns, near its fast position",
             RADIANS,
             partial(pin_near_offset, more, turns),
             16 * EPS,
@@ -744,8 +744,8 @@ CASES = (
     ),
     *(
         Case(
-            "pairs that depend on each other",
-            f"four in a ring, window {window:g}, {last[0]}/{last[1]} teeth at its end, 30 turns: laws missed by",
+            "four pairs in a ring",
+            f"window {window:g}, {last[0]}/{last[1]} teeth at its end, 30 turns, misfit of all pairs",
             "rad",
             partial(hanging, window, last),
             64 * EPS * 2 * pi * 30,

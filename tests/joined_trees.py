@@ -38,7 +38,7 @@ def explanations_with_couplings(problem: ReconstructionProblem, pairs: Pairs) ->
                         found[len(teeth)].update(_shown(filled, problem, first))
         grown = {more for tree in trees for more in _grown(tree, problem, pairs)}
         trees = {tree for tree in grown if len(_ends(_together(tree, first))) <= len(problem.dials)}
-    return [frozenset(mechanisms) for mechanisms in found]
+    return [frozenset(solutions) for solutions in found]
 
 
 def group(name: str, pairs: Pairs) -> set[str]:

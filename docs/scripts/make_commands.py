@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -50,7 +51,7 @@ def section(name: str, command: Any) -> Iterator[str]:
     context = typer.Context(command, info_name=name)
     yield from (f"## {name}", "", str(command.help or "").strip(), "", "```sh")
     usage = " ".join([name, *command.collect_usage_pieces(context)])
-    yield from (usage.replace("{FILE...}...", "FILE...").replace("{FILE}", "FILE"), "```", "")
+    yield from (re.sub(r"\{(.*?)\}", r"\1", usage), "```", "")
     rows = [row for parameter in command.params if (row := _row(parameter))]
     if rows:
         yield from ("| argument or option | what | default |", "|---|---|---|", *rows, "")

@@ -166,7 +166,8 @@ def table_7() -> Iterator[str]:
     found = ", ".join(f"{cell} at column {column}" for column, cell in enumerate(cells, 1) if cell)
     yield from ("## Table 7", "")
     yield f"Row 18 of the matrix holds {found}; the paper prints G19 at column 19, and has"
-    yield f"{len(paper().declaration.gears)} gear pairs. `geartrain graph pennestri-2002` prints the whole matrix."
+    pairs = len(paper().declaration.gears)
+    yield f"{pairs} gear pairs. `geartrain inspect graph pennestri-2002` prints the whole matrix."
     yield ""
 
 

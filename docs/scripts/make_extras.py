@@ -19,7 +19,7 @@ RECORD, PAGE = ROOT / "docs/data/extras.json", ROOT / "docs/extras.md"
 FOR = {
     "report": "`report`, `compare`, `torques` and others with `-o PAGE.html`",
     "plot": "`draw`, and `--plot` of every command",
-    "dask": "`--dask`: long runs on a cluster",
+    "dask": "`--workers`: long runs on a cluster",
     "dxf": "`export` of DXF",
     "proof": "`export`: the proof that what is cut turns",
     "step": "`export` of STEP",

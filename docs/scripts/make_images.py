@@ -97,7 +97,7 @@ def power() -> None:
 
 def shapes() -> None:
     """Tooth forms of one pair side by side, as the command draws them."""
-    command = [sys.executable, "-m", "geartrain", "mesh", "compare", "--teeth", "24", "36", "--force"]
+    command = [sys.executable, "-m", "geartrain", "mesh", "24", "36", "--compare", "--force"]
     subprocess.run([*command, "--plot", str(IMAGES / "shapes.svg")], check=True, stdout=subprocess.DEVNULL)
 
 

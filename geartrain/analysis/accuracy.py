@@ -36,7 +36,7 @@ _NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 @dataclass(frozen=True, slots=True)
 class MethodAccuracy(Shown):
-    """Run time and error of one method of one stage.
+    """Run time and error of one method of one stage of the computation.
 
     See Also
     --------
@@ -50,11 +50,11 @@ class MethodAccuracy(Shown):
     seconds: float
     """Time of one run [s]."""
     error: float | None
-    """Maximum error in `unit`; None for the method that others are compared with."""
+    """Maximum error in `unit`; None for the reference method."""
     unit: Literal["relative", "pitches", "deg"]
     """Unit of the error."""
     reference: str
-    """Values with which the method is compared."""
+    """Method whose values are the reference for the error."""
     prepared: float | None = None
     """Time of the preparation before the run, such as the computation of tables [s]."""
     ratio: float = 1.0
@@ -70,7 +70,7 @@ class TrainAccuracy(Tabular, TrainResult):
     find_accuracy : Returns it.
     """
 
-    KEYS = ("state", "positions", "methods", "left_out")
+    KEYS = ("state", "positions", "methods", "neglected")
     ROW = "MethodAccuracy"
     MEANINGS: ClassVar = {
         "error": "Maximum error; empty for the reference method [see `unit`].",
@@ -80,13 +80,13 @@ class TrainAccuracy(Tabular, TrainResult):
     PAGE = "report.accuracy_report:accuracy_document"
 
     state: str | None
-    """Name of the state."""
+    """Name of the declared state; None if the train has no states."""
     positions: int
-    """Number of angles of each pair, and of positions of the input."""
+    """Number of angles at which each pair is evaluated, and of input positions at which motion is computed."""
     methods: tuple[MethodAccuracy, ...]
-    """Methods in the order of the stages."""
-    left_out: dict[str, str]
-    """Stage -> reason for which it does not apply to the train."""
+    """Measured methods, ordered by stage."""
+    neglected: dict[str, str]
+    """Stage that was not measured -> reason why it does not apply to the train."""
 
     def _summary(self) -> str:
         return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"
@@ -106,14 +106,14 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     train : GearTrain
         The train.
     state : str, optional
-        One of its states.
+        A declared state; None only if the train has no states.
     positions : int
-        Number of angles of each pair, and of positions of the input.
+        Number of angles at which each pair is evaluated, and of input positions at which motion is computed.
 
     Returns
     -------
     TrainAccuracy
-        All methods. The references are exact speeds and composed motion.
+        Run times and errors. The references are exact speeds and composed motion.
 
     Examples
     --------
@@ -129,16 +129,17 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
         "torques": _measure_torques,
     }
     methods: list[MethodAccuracy] = []
-    left_out: dict[str, str] = {}
+    neglected: dict[str, str] = {}
     for stage, measure in stages.items():
         rows: list[MethodAccuracy] = []
         try:
             rows.extend(measure(train, state, positions))
+        # a stage that does not apply to the train is reported with its reason
         except GearTrainError as error:
-            left_out[stage] = error.problems[0].what
+            neglected[stage] = error.problems[0].what
         fastest = min((row.seconds for row in rows), default=0.0)
         methods += [replace(row, ratio=row.seconds / fastest) for row in rows]
-    return TrainAccuracy(state, positions, tuple(methods), left_out, _declaration=train.declaration)
+    return TrainAccuracy(state, positions, tuple(methods), neglected, _declaration=train.declaration)
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
@@ -155,7 +156,10 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for speeds: exact elimination and sparse LU factorisation, each from the declaration on."""
+    """Return the shortest run time of a repeated task [s], and its result.
+
+    The minimum excludes the time that the first run needs to import libraries.
+    """
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -179,7 +183,9 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_functions(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for transmission functions: direct evaluation and interpolation in tables."""
+    """Yield the methods for transmission functions: direct evaluation, and interpolation in tables of two
+    tolerances.
+    """
     transmissions = {mesh.name: mesh.transmission for mesh in train.mechanics.meshes_in(state) if not mesh.rigid}
     transmissions |= {pin.coupling.name: pin.transmission for pin in train.mechanics.pins}
     if not transmissions:
@@ -219,7 +225,7 @@ def _measure_functions(train: GearTrain, state: str | None, positions: int) -> I
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for motion: composition (by numpy, compiled, from tables) and first-order superposition."""
+    """Yield the methods for motion: composition (with numpy, compiled, from tables) and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.pins:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -260,18 +266,20 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the methods for torques: the exact balance with losses, and mean torque over a revolution by samples."""
+    """Yield the methods for torques: exact balance with losses, and mean torque sampled over one revolution."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     seconds, found = _best_of(lambda: GearTrain(train.declaration).torques(state))
     if not found.verdict:
         raise QuestionError(Problem(f"{found.verdict.kind}: {found.verdict.text}"))
     through = max(map(abs, found.powers.values()), default=0)
+    # external power must equal the loss
     missed = abs(sum(found.powers.values()) - found.loss) / through if through else 0
     reference = "power balance"
     yield MethodAccuracy("torques", "balance with losses", seconds, float(missed), "relative", reference)
     used = train.motion(state, tuple(train.declaration.links))._forward.used
     passages = sum(float(each.cycles) for each in used)
+    # a shorter run for long trains limits the number of tooth engagements
     span = min(1.0, _PASSAGES / (len(used) * passages)) if passages else 0.0
     mean = None
     for samples in _SAMPLES if span else ():

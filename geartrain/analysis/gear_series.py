@@ -19,14 +19,14 @@ from geartrain.train import State
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
 
-MOST_COMBINATIONS = 20_000
-_JOINER = "+"
+MOST_COMBINATIONS = 20_000  # sets of closed elements, each of which is solved exactly
+_JOINER = "+"  # between the names of closed elements in the name of a state
 _FIGURES = 12  # decimals to which sums of squares are compared, so that rounding does not decide ties
 
 
 @dataclass(frozen=True)
 class PossibleGear(Result):
-    """Gear that results if some shift elements are closed."""
+    """Gear that results from closing a set of shift elements (clutches and brakes)."""
 
     engaged: tuple[str, ...]
     """Closed shift elements, in the order of declaration."""
@@ -38,7 +38,7 @@ class PossibleGear(Result):
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Series of forward gears, from the lowest."""
+    """Series of forward gears in order of decreasing ratio, with its steps and spread."""
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
@@ -47,29 +47,29 @@ class GearSeries(Result):
 
     @property
     def ratios(self) -> tuple[Fraction, ...]:
-        """Speed of the input over speed of the output, for each gear."""
+        """Transmission ratio of each gear: speed of the input over speed of the output."""
         return tuple(each.ratio for each in self.gears if each.ratio is not None)
 
     @property
     def steps(self) -> tuple[Fraction, ...]:
-        """Ratio of each gear over the ratio of the next."""
+        """Step of each gear: its ratio over the ratio of the next gear."""
         return tuple(a / b for a, b in zip(self.ratios, self.ratios[1:], strict=False))
 
     @property
     def spread(self) -> Fraction:
-        """Ratio of the first gear over the ratio of the last."""
+        """Spread of the series: ratio of the first gear over the ratio of the last."""
         return self.ratios[0] / self.ratios[-1]
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of the logarithms of the steps."""
+        """Standard deviation of the natural logarithms of the steps; 0 for equal steps."""
         logs = [log(step) for step in self.steps]
         mean = sum(logs) / len(logs)
         return sqrt(sum((each - mean) ** 2 for each in logs) / len(logs))
 
     @property
     def double_shifts(self) -> int:
-        """Number of shifts in which more than one element opens or more than one closes."""
+        """Number of shifts in which more than one element opens or more than one element closes."""
         return sum(not _is_single(a, b) for a, b in zip(self.gears, self.gears[1:], strict=False))
 
 
@@ -107,23 +107,21 @@ class GearSearch(Tabular, Result):
     closed: int
     """Number of elements that must be closed so that the inputs determine all speeds."""
     combinations: int
-    """Number of ways to close `closed` elements."""
+    """Number of ways to choose `closed` shift elements."""
     gears: tuple[PossibleGear, ...]
-    """Combinations that determine the speed of the output: forward gears from the lowest, reverse gears, output at
-    rest.
-    """
+    """All gears: forward gears from the lowest, then reverse gears, then gears whose output is at rest."""
     free: tuple[tuple[str, ...], ...] = ()
-    """Combinations of `closed` elements that leave the train free."""
+    """Combinations of `closed` elements that leave some speeds undetermined."""
     locked: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` elements that lock the train."""
     requested: int = 0
     """Number of gears of the requested series; 0 if none was requested."""
     series: int = 0
-    """Number of series whose steps and shifts satisfy the request; 0 if none was requested."""
+    """Number of series whose steps and shifts satisfy the request; 0 if no series was requested."""
     widest: GearSeries | None = None
-    """Series with the maximum spread."""
+    """Series with the maximum spread; None if no series satisfies the request."""
     evenest: GearSeries | None = None
-    """Series with the minimum deviation of the steps."""
+    """Series with the minimum deviation of the steps; None if no series satisfies the request."""
 
     def _summary(self) -> str:
         return (
@@ -150,12 +148,12 @@ def find_gears(
     steps: tuple[float, float] = (1.05, 2.0),
     single: bool = False,
 ) -> GearSearch:
-    """Find every gear that closed elements can produce, declared or not, and series of gears.
+    """Find every gear that a choice of closed shift elements can produce, declared or not, and series of gears.
 
     Parameters
     ----------
     train : GearTrain
-        A train with clutches.
+        Train with clutches.
     output : str, optional
         One of the declared outputs, by default the first that is not the input.
     gears : int
@@ -173,7 +171,7 @@ def find_gears(
     Raises
     ------
     QuestionError
-        In the cases of `GearTrain.gearbox`, and if there are too many combinations.
+        If the train is not a gearbox, has no output, or has too many combinations of closed elements.
 
     Examples
     --------
@@ -192,6 +190,7 @@ def find_gears(
     found = GearSearch(train.name, train.declaration.title, source, link, closed, ways, ordered, free, locked)
     if gears < 2:
         return found
+    # the decimal as written: 1.05 is 21/20, not the nearest float
     low, high = (Fraction(str(step)) for step in steps)
     links = _links(forward, low, high, single)
     widest, evenest = _widest(forward, links, gears), _evenest(forward, links, gears)
@@ -212,7 +211,7 @@ _Choice = tuple[str, ...]
 
 
 class _AllGears(NamedTuple):
-    """Number of elements closed at once, gears, and the combinations that leave the train free or lock it."""
+    """Gears of all choices of `closed` elements, and the choices that leave the train free or lock it."""
 
     closed: int
     gears: list[PossibleGear]
@@ -232,7 +231,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(elements) + 1):
         if comb(len(elements), size) > MOST_COMBINATIONS:
-            what = f"{comb(len(elements), size):,} ways to close {size} of {len(elements)} elements"
+            what = f"there are {comb(len(elements), size):,} ways to close {size} of {len(elements)} shift elements"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
         choices = list(combinations(elements, size))
@@ -246,7 +245,6 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
 
 
 def _solve_choices(train: GearTrain, choices: Sequence[_Choice]) -> list[Answer]:
-    """Solve the speeds of the train with each choice of closed elements."""
     first = next(iter(train.declaration.states.values()))
     states = {_JOINER.join(each) or "none": State(engaged=each, inputs=first.inputs) for each in choices}
     return list(GearTrain(train.declaration.model_copy(update={"states": states})).answers())
@@ -301,6 +299,7 @@ def _widest(gears: Sequence[PossibleGear], links: Links, number: int) -> GearSer
     best: list[tuple[Fraction, tuple[int, ...]] | None] = [(ratio, (at,)) for at, ratio in enumerate(ratios)]
     for _ in range(number - 1):
         best = [
+            # the smallest last ratio gives the largest spread from a given first gear
             min(((end, (at, *way)) for to in links[at] for end, way in filter(None, [best[to]])), default=None)
             for at in range(len(gears))
         ]
@@ -339,6 +338,7 @@ def _evenest_from(
         for at, (sum_, double, way) in reach.items():
             for to in links[at]:
                 more = not _is_single(gears[at], gears[to])
+                # tuples are compared: sum of squares, double shifts, then order of gears
                 new = round(sum_ + (logs[at] - logs[to]) ** 2, _FIGURES), double + more, (*way, to)
                 after[to] = min(after.get(to, new), new)
         reach = after

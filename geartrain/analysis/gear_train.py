@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, final, overload
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.planet_copies import has_copies
 from geartrain.kinematics.train_kinematics import TrainKinematics
-from geartrain.numerics.results import picture_maker
+from geartrain.numerics.results import imported_function
 from geartrain.train import Train, declare
 from geartrain.wings import wing
 
@@ -124,8 +124,9 @@ class GearTrain:
         of: str | None = None,
         on_done: Callable[[int], object] | None = None,
     ) -> Torques | TorqueCycle:
-        """Compute torques on links and pairs, and the power flow, under the loads of one state: mean values, or over a
-        run.
+        """Compute torques on links and pairs, and the power flow, under the loads of one state.
+
+        Values are means, or are computed at each position over a number of revolutions.
 
         Parameters
         ----------
@@ -221,7 +222,7 @@ class GearTrain:
         >>> [line for line in str(document).splitlines() if line.startswith("| carrier | 2/7")]
         ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
         """
-        return picture_maker("report", "describe_train")(picture_maker("report", "collect_report")(self))
+        return imported_function("report", "describe_train")(imported_function("report", "collect_report")(self))
 
     def draw(
         self,
@@ -240,13 +241,13 @@ class GearTrain:
         state : str, optional
             Name of a state; by default the first, for "lever" all states.
         turns : Fraction
-            Revolutions of the input since the pose in which all angles are zero [turn]; used by "plan" and "dials".
+            Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
         labels : bool
             True to add names and numbers.
         outputs : sequence of str
             Outputs whose dials are drawn; by default all.
         """
-        return picture_maker("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
+        return imported_function("drawing", "picture")(self, kind, state, Fraction(turns), labels, outputs)
 
     def view(self, state: str | None = None, height: int = 620) -> Any:
         """Return an animated view of the train for a notebook, a `geartrain.viewer.EmbeddedPage`.
@@ -258,7 +259,7 @@ class GearTrain:
         height : int
             Height of the frame [px].
         """
-        return picture_maker("viewer", "EmbeddedPage")(self, state, height)
+        return imported_function("viewer", "EmbeddedPage")(self, state, height)
 
     # -------------------------------------------------------------------------------------------- what is declared
 
@@ -328,7 +329,8 @@ class GearTrain:
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:
-        """Return the labelled Willis system of one state (docs/theory.md, 6).
+        """Return the Willis equations of one state as a linear system with labelled rows and columns
+        (docs/theory.md, 6).
 
         Parameters
         ----------
@@ -440,15 +442,15 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """Parts of the train that cannot be built or are inadvisable, by its declaration (docs/buildability.md)."""
+        """Findings of the design check: parts that cannot be built or are inadvisable (docs/buildability.md)."""
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Phasing of the teeth of every loop if positions of axes are declared, and the angles at which to mount the
-        wheels.
+        """Phasing of the teeth in every loop of pairs, and angles at which to mount the wheels, from declared axis
+        positions.
         """
         from geartrain.kinematics.phasing import find_phasing
 
@@ -458,12 +460,14 @@ class GearTrain:
     # ------------------------------------------------------------------------------------ loads, and motion in time
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
-        """Compute torques for a unit of output power at one link, driven from another: efficiency, or self-locking.
+        """Compute torques for a unit of output power at one link while another link drives.
+
+        The result has the efficiency of this power transmission, or reports self-locking.
 
         Parameters
         ----------
         load, source : str
-            Links at which the power leaves and enters.
+            Link at which the power leaves the train, and link at which it enters.
         state : str, optional
             A declared state; None only if the train has no states.
         """
@@ -624,7 +628,6 @@ class GearTrain:
         return driven.simulation(step, fast)
 
     def _driven(self, *requested: Any) -> Any:
-        """Return the train driven in time in one state, from the optional package `simulation`."""
         return wing("simulation.time.train_in_time").DrivenTrain(self.mechanics, *requested)
 
     # ----------------------------------------------------------------------------------------------------- other trains
@@ -740,6 +743,7 @@ class GearTrain:
         for pair in pairs:
             check_choice("gear pair", pair, declared)
         teeth = {"form": form, **known[form].with_defaults(parameters)}
+        # forms of single pairs would override the form of the train, so they are deleted
         own = None if not pairs else teeth
         changes: dict[str, Any] = {} if pairs else {"tooth_form": teeth}
         changes["gears"] = [
@@ -762,12 +766,14 @@ class GearTrain:
 
     @cached_property
     def kinematics(self) -> TrainKinematics:
-        """Results that do not depend on teeth: tree, signs of axes, cases, gridlock, speeds in floats, sensitivity."""
+        """Results that do not depend on tooth forms: tree of turning pairs, senses of axes, cases, gridlock, float
+        speeds, sensitivity.
+        """
         return TrainKinematics(self.declaration)
 
     @cached_property
     def mechanics(self) -> TrainMechanics:
-        """Results that depend on teeth and loads: driving side of each pair, tooth errors, pins, torques."""
+        """Results that depend on tooth forms and loads: driving sides, transmission errors, pins, torques."""
         from geartrain.dynamics.train_mechanics import TrainMechanics
 
         return TrainMechanics(self.kinematics)

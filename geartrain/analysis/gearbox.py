@@ -1,4 +1,4 @@
-"""Gearbox analysis: ratios, steps, slip, torques and power flow of all states of a train with clutches."""
+"""Ratios, steps, slip, torques and power flow of a gearbox in all its states."""
 
 from __future__ import annotations
 
@@ -49,29 +49,29 @@ class GearState(Result):
     engaged: tuple[str, ...]
     """Closed shift elements."""
     verdict: Verdict
-    """Verdict of the speeds; a neutral state is free, a park state is locked."""
+    """Verdict on the speeds; a neutral state is free, a park state is locked."""
     ratio: Fraction | None
-    """Speed of the input over speed of the output; None if one of them is at rest or the output is not determined."""
+    """Transmission ratio: speed of the input over speed of the output; None if one is at rest or undetermined."""
     step: Fraction | None
-    """Ratio of this state over the ratio of the next; None if their senses differ or one of them has no ratio."""
+    """Ratio of this state over the ratio of the next state; None if their senses differ or one has no ratio."""
     driven_by: str
-    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first input that turns if that is at
-    rest. Empty if no input turns; speeds are then those declared.
+    """Link whose speed is the unit of `speeds` and `slips`: the input, or the first input that turns if the
+    input is at rest. Empty if no input turns; speeds are then the declared ones.
     """
     speeds: Mapping[str, Fraction]
-    """Determined link -> its speed over the speed of `driven_by`."""
+    """Link with a determined speed -> its speed over the speed of `driven_by`."""
     slips: Mapping[str, Fraction]
-    """Open element -> slip over the speed of `driven_by`: the speed of the link that it fixes, or of the first link
-    that it locks relative to the second.
+    """Open element -> slip speed over the speed of `driven_by`. The slip of a brake is the speed of its link,
+    and the slip of a clutch is the speed of its first link relative to its second.
     """
     torques: Mapping[str, Fraction | None]
-    """Closed element -> torque that it exerts on the link that it fixes, or on the first link that it locks, over the
-    torque of the input; None if it is statically indeterminate.
+    """Closed element -> torque that it exerts on its (first) link, over the torque of the input; None if it is
+    statically indeterminate.
     """
     efficiency: Fraction | float | None
-    """Output power over input power."""
+    """Output power over input power; None if the torques are not determined."""
     recirculating: Fraction | None
-    """Power that recirculates between gear sets, over input power."""
+    """Power that recirculates between gear sets, over input power; None if the torques are not determined."""
     inner: Fraction | None
     """Power that recirculates within gear sets, over input power; it occurs if a carrier turns freely."""
 
@@ -112,11 +112,11 @@ class ShiftElement(Result):
     torque: Fraction | None
     """Torque of maximum magnitude, over the torque of the input."""
     torque_state: str
-    """State in which that torque occurs."""
+    """State in which `torque` occurs."""
     slip: Fraction | None
-    """Slip of maximum magnitude while the element is open, over the speed of the input."""
+    """Slip speed of maximum magnitude while the element is open, over the speed of the input."""
     slip_state: str
-    """State in which that slip occurs."""
+    """State in which `slip` occurs."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +155,7 @@ class Gearbox(Tabular, Result):
     elements: tuple[ShiftElement, ...]
     """Clutches and brakes in the order of declaration."""
     shifts: tuple[Shift, ...]
-    """Shifts from each state with a ratio to the next one with the same sense."""
+    """Shifts between consecutive states that have ratios of the same sense."""
 
     def _summary(self) -> str:
         ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)
@@ -163,7 +163,7 @@ class Gearbox(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each state: closed elements, ratio, step, efficiency, and speeds of links over the input
+        """Table with a row for each state: closed elements, ratio, step, efficiency, and link speeds over the input
         speed.
         """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
@@ -181,7 +181,7 @@ class Gearbox(Tabular, Result):
 
     @property
     def spread(self) -> Fraction | None:
-        """Maximum over minimum ratio of the forward states."""
+        """Maximum over minimum ratio of the forward states; None without forward states."""
         ratios = [each.ratio for each in self.states if each.ratio is not None and each.ratio > 0]
         return max(ratios) / min(ratios) if ratios else None
 
@@ -191,7 +191,7 @@ def _optional_float(value: Fraction | None) -> float | None:
 
 
 def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
-    """Compute the results of all states of a train with clutches; see `GearTrain.gearbox`."""
+    """Compute ratios, slips, torques and power flow of all states of a train with clutches; see `GearTrain.gearbox`."""
     source, link = gearbox_ends(train.declaration, output)
     answers = [train.kinematics.solve(name) for name in train.declaration.states]
     found = [_state(train, answer, source, link) for answer in answers]
@@ -202,7 +202,7 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
-    """Return the links at which power enters and leaves; `QuestionError` if the train is not a gearbox."""
+    """Return the input link and the output link of a gearbox; `QuestionError` if the train is not a gearbox."""
     if not declared.clutches or not declared.states:
         what, why = (
             f"'{declared.name}' is not a gearbox",
@@ -213,11 +213,13 @@ def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
     source = next((link for link, speed in case.inputs.items() if speed), None)
     if source is None:
         what = f"'{declared.name}' has no input that turns"
-        raise QuestionError(Problem(what, "ratios are relative to the speed of an input", "declare `inputs`"))
+        why = "a ratio is the speed of an input over the speed of an output"
+        raise QuestionError(Problem(what, why, "declare a non-zero speed under `inputs`"))
     names = [name for name, each in case.outputs.items() if each.links(name, declared.frame)[0] != source]
     if output is None and not names:
         what = f"'{declared.name}' has no output"
-        raise QuestionError(Problem(what, "ratios are those of an output", "declare `outputs`"))
+        why = "a ratio is the speed of the input over the speed of an output"
+        raise QuestionError(Problem(what, why, "declare the driven link under `outputs`"))
     if output is not None:
         check_choice("output", output, case.outputs)
     name = output or names[0]
@@ -227,6 +229,7 @@ def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
 def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> GearState:
     declared, state = train.declaration, answer.state or ""
     engaged, given = declared.states[state].engaged, declared.case(state).inputs
+    # unit of speed: the input, or another input if the input is at rest
     drive = next((name for name in (source, *given) if answer.speeds.get(name)), "")
     unit = Fraction(answer.speeds[drive]) if drive else 1
     speeds = {name: Fraction(speed) / unit for name, speed in answer.speeds.items()}
@@ -253,7 +256,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Return the relative speed of the two links that an element locks, or the speed of the link that it fixes."""
+    """Return the slip speed of a clutch (first link relative to second) or a brake (its link), in units of `speeds`."""
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -261,7 +264,7 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Compute torques while the input drives and a unit of power leaves at the output."""
+    """Return the torques while the input drives and a unit of power leaves at the output; None if undetermined."""
     found = solve_driven(train, link, source, state)
     return found if found.verdict and found.external.get(source) else None
 
@@ -275,7 +278,7 @@ def _torques(load: Torques, source: str, engaged: Iterable[str]) -> dict[str, Fr
 
 
 def _circulation(load: Torques) -> tuple[Fraction, Fraction] | None:
-    """Return the power that recirculates between gear sets, and within them, over input power."""
+    """Return the power recirculating between gear sets and within gear sets, each over input power."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None

@@ -28,7 +28,6 @@ _GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind",
 
 
 def _refuse(*_: object, **__: object) -> NoReturn:
-    """Raise `QuestionError` for an attempt to change the graph."""
     what, why = "the graph of a train cannot be changed", "its results would not agree with the train"
     fix = "build another train by with_teeth or with_changes, or change a graph.copy()"
     raise QuestionError(Problem(what, why, fix))
@@ -51,11 +50,9 @@ class _Attributes(LazyDict):
         super().__delitem__(key)
 
     def pop(self, key: str, *default: Any) -> Any:
-        """Remove an attribute that does not belong to the train."""
         return _refuse() if key in _GIVEN else super().pop(key, *default)
 
     def update(self, *others: Any, **more: Any) -> None:
-        """Set attributes that do not belong to the train."""
         for key, value in dict(*others, **more).items():
             self[key] = value
 
@@ -100,6 +97,7 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
         data["speed"] = Lazy(partial(found.speed, link))
     for _, _, data in graph.edges(data=True):
         if data["kind"] == "revolute":
+            # edges have the same keys, None for turning pairs
             data.update(dict.fromkeys(_OF_PAIRS), axis=data["label"])
             continue
         name = data["label"]
@@ -114,7 +112,7 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
 
 def _frozen(graph: Graph) -> Graph:
-    """Return the graph with its structure frozen; attributes can be added to nodes and edges."""
+    """Return the graph with frozen nodes, edges and declared attributes; other attributes can be added."""
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
     for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
@@ -131,19 +129,16 @@ class _GraphFacts:
         self._train, self._state = train, state
 
     def reference(self, link: str) -> str | None:
-        """Return the link that carries the axis of another, in whose frame it turns; None for the frame."""
+        """Return the link that carries the axis of `link`, relative to which it turns; None for the frame."""
         return self._train.tree.top.get(link)
 
     def speed(self, link: str) -> SpeedValue | None:
-        """Return the speed of a link in the state; None if it is not determined."""
         return self._answer.speeds.get(link)
 
     def circuit(self, name: str) -> Circuit:
-        """Return the circuit that a pair closes."""
         return self._circuits[name]
 
     def carrier(self, name: str) -> str:
-        """Return the link that carries both axes of a pair."""
         return self._circuits[name].carrier
 
     def ratio(self, name: str) -> Fraction:
@@ -156,11 +151,11 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | PinMesh | None:
-        """Return a pair with real teeth as driven in the state, or a pin with dimensions; None for other pairs."""
+        """Return the gear pair with teeth as driven in this state, or the pin with dimensions; None for other pairs."""
         return self._meshes.get(name)
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
-        """Return the basic efficiencies of a pair with the first link of its circuit driving, and with the second."""
+        """Return the basic efficiencies of a pair: with the first link of its circuit driving, and with the second."""
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
         found = find_mean_efficiencies(self._losses, self._circuits[name])
@@ -181,7 +176,7 @@ class _GraphFacts:
 
     @cached_property
     def _losses(self) -> LoadCase:
-        """Load case for the losses of a pair, with fixed carriers, so that they do not depend on speeds."""
+        """Load case with fixed carriers, in which the losses of a pair do not depend on the speeds of the train."""
         from geartrain.dynamics.torques.load_case import LoadCase
 
         own = self._train

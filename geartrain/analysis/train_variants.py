@@ -1,4 +1,4 @@
-"""Outputs of one train for many combinations of tooth counts at once, by exact formulas."""
+"""Speeds of outputs for many combinations of tooth counts at once, by exact formulas."""
 
 from __future__ import annotations
 
@@ -18,12 +18,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
     from geartrain.train import Train
 
-MOST_VARIANTS = 100_000_000
+MOST_VARIANTS = 100_000_000  # 0.8 GB for each column of float64
 
 
 @dataclass(frozen=True)
 class TrainVariants(Tabular, Result):
-    """Speeds of outputs for combinations of tooth counts. `found["moon"]` is the column of an output or a wheel.
+    """Speeds of outputs for combinations of tooth counts.
+
+    `found["moon"]` returns the column of the output or wheel "moon".
 
     See Also
     --------
@@ -33,19 +35,19 @@ class TrainVariants(Tabular, Result):
     KEYS = ("wheels", "outputs", "counts", "speeds", "errors")
 
     wheels: tuple[str, ...]
-    """Wheels of the columns of `counts`."""
+    """Names of the wheels, in the order of the columns of `counts`."""
     outputs: tuple[str, ...]
-    """Outputs of the columns of `speeds` and `errors`."""
+    """Names of the outputs, in the order of the columns of `speeds` and `errors`."""
     counts: Ints
-    """Tooth counts, one combination per row, (n, wheels); the last wheel varies fastest."""
+    """Tooth counts, one combination per row, shape (n, wheels); the last wheel varies fastest."""
     speeds: Floats
-    """Speeds of the outputs [unit of the train], (n, outputs); nan if a train is locked, free, or does not close a
-    loop.
+    """Speeds of the outputs [unit of the train], shape (n, outputs); nan if the train is locked or free, or if
+    the tooth counts do not satisfy a loop.
     """
     errors: Floats
-    """Bounds of the relative errors of the speeds, (n, outputs); infinite if no digit is certain."""
+    """Bounds of the relative errors of the speeds, shape (n, outputs); infinite if no digit is certain."""
     formulas: Formulas
-    """Exact formulas of the outputs, which `exact` evaluates."""
+    """Exact formulas of the outputs; the method `exact` evaluates them."""
 
     def __len__(self) -> int:
         return len(self.counts)
@@ -57,7 +59,7 @@ class TrainVariants(Tabular, Result):
         return "Tooth count of the wheel." if column in self.wheels else "Speed of the output [unit of the train]."
 
     def __getitem__(self, name: str) -> Any:
-        """Return the column of an output or a wheel; `KeyError` if there is none."""
+        """Return the column of an output or a wheel; `KeyError` for another name."""
         if name in self.outputs:
             return self.speeds[:, self.outputs.index(name)]
         if name in self.wheels:
@@ -65,36 +67,36 @@ class TrainVariants(Tabular, Result):
         raise KeyError(f"no column '{name}'; columns are {', '.join((*self.wheels, *self.outputs))}")
 
     def exact(self, row: int, output: str) -> Fraction | None:
-        """Return the speed of one output in one row as a fraction; None if it is undetermined.
+        """Return the exact speed of one output for one combination; None if it is undetermined.
 
         Parameters
         ----------
         row : int
-            Row of the table.
+            Index of the combination, a row of `counts`.
         output : str
-            One of the outputs.
+            Name of an output.
         """
         counts = dict(zip(self.wheels, self.counts[row].tolist(), strict=True))
         return self.formulas[output].value(counts) if self.formulas.turns(counts) else None
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of the counts, followed by those of the speeds."""
+        """Table with a column of tooth counts for each wheel, and a column of speeds for each output."""
         return {name: self[name] for name in (*self.wheels, *self.outputs)}
 
 
 def find_variants(
     declared: Train, state: str | None, counts: Mapping[str, Iterable[int]], outputs: Sequence[str]
 ) -> TrainVariants:
-    """Compute the outputs of all combinations of some tooth counts; see `GearTrain.variants`."""
+    """Compute the outputs for all combinations of the given tooth counts; see `GearTrain.variants`."""
     case = declared.case(state)
     for name in outputs:
         check_choice("output", name, case.outputs)
     choices = {wheel: tuple(int(count) for count in given) for wheel, given in counts.items()}
     number = prod(map(len, choices.values()))
     if number > MOST_VARIANTS:
-        what = f"{number:,} assignments of counts are too many"
-        raise QuestionError(Problem(what, f"at most {MOST_VARIANTS:,} fit into memory", "request fewer counts"))
+        what = f"{number:,} combinations of tooth counts are too many"
+        raise QuestionError(Problem(what, f"at most {MOST_VARIANTS:,} fit into memory", "pass fewer tooth counts"))
     formulas = find_formulas(declared, state, choices)
     names = tuple(name for name in (outputs or case.outputs) if name in formulas)
     grid = np.meshgrid(*(np.array(each, dtype=np.int64) for each in choices.values()), indexing="ij")

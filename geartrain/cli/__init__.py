@@ -3,11 +3,11 @@
 verbs           groups of commands, imported on request; exit codes
 common          options that commands share, loading of trains, output of results
 option_values   parsers of option values; `long_runs` has progress bars, journals, and options of dynamics
-declarations    `init`, `format`, `list`, `periods`, `schema`
-solve           `solve`, `equations`, `formula`; `check`, `graph`, `gearbox`, `bench` have modules of their own
+declarations    `init`, `format`, `list`, `periods`; `check`, `solve`, `gearbox` have modules of their own
+inspection      a group of commands: `equations`, `formula`, `graph`, `bench`, `schema`
 report          `report`, `compare`; `draw` writes pictures, `view` has `view` and `watch`
 torques, motion, sphere
-mesh            a group of commands for a pair of wheels of any tooth form
+mesh            a pair of wheels of any tooth form, with `pair_options` and `triangular_pair`; `pin` in a slot
 
 Commands of optional parts of the package are in their own folders.
 """
@@ -42,12 +42,11 @@ class VerbGroup(EndingGroup, LazyGroup):
             "draw": "geartrain.cli.draw",
             "compare": "geartrain.cli.report:compare",
             "solve": "geartrain.cli.solve:solve",
-            "formula": "geartrain.cli.solve:formula",
             "gearbox": "geartrain.cli.gearbox",
-            "equations": "geartrain.cli.solve:equations",
-            "graph": "geartrain.cli.graph",
+            "inspect": "geartrain.cli.inspection",
             "sphere": "geartrain.cli.sphere",
             "mesh": "geartrain.cli.mesh",
+            "pin": "geartrain.cli.pin",
             "torques": "geartrain.cli.torques",
             "motion": "geartrain.cli.motion",
             "strength": "geartrain.simulation.strength.verb",
@@ -59,18 +58,15 @@ class VerbGroup(EndingGroup, LazyGroup):
             "export": "geartrain.workshop.export.verb",
             "montecarlo": "geartrain.workshop.monte_carlo.verb",
             "budget": "geartrain.workshop.budget.verb",
-            "schema": "geartrain.cli.declarations:print_schema",
-            "bench": "geartrain.cli.bench",
         },
         entry_points="geartrain.wings",
         panels={
             "Start": ("init", "check", "format", "list", "periods"),
             "Look": ("report", "view", "watch", "draw", "compare"),
-            "Speeds": ("solve", "formula", "gearbox", "equations", "graph", "sphere"),
-            "Teeth, losses and motion": ("mesh", "torques", "motion", "strength", "dynamics", "optimise"),
+            "Speeds": ("solve", "gearbox", "sphere", "inspect"),
+            "Teeth, losses and motion": ("mesh", "pin", "torques", "motion", "strength", "dynamics", "optimise"),
             "Search": ("teeth", "reconstruct", "posterior"),
             "Make": ("export", "montecarlo", "budget"),
-            "Data": ("schema", "bench"),
         },
     )
 

@@ -14,7 +14,10 @@ def run(
     files: Files,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing for trains that pass.")] = False,
 ) -> None:
-    """Validate trains and verify every `expect`, `published` and `tolerance`; the exit code is the worst result."""
+    """Validate trains and verify every `expect`, `published` and `tolerance`; the exit code is the worst result.
+
+    Example: `geartrain check freeth-2021 train.yaml`.
+    """
     worst = GOOD
     for file in files:
         worst = max(worst, _check(file, quiet))

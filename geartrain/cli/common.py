@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.errors import GearTrainError, Problem, printable
+from geartrain.errors import GearTrainError, Problem, QuestionError, printable
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -27,7 +27,9 @@ File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a 
 Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
 Out = Annotated[
     Path | None,
-    typer.Option("--output-file", "-o", metavar="FILE", help="Write to FILE (- = standard output)."),
+    typer.Option(
+        "--output-file", "-o", metavar="FILE", help="Write to FILE by its suffix; - or -.SUFFIX is standard output."
+    ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite existing files.")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
@@ -75,6 +77,11 @@ def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]
     return train.kinematics.usable_states
 
 
+def option_error(place: str, what: str, fix: str, why: str = "") -> QuestionError:
+    """Return the error of an argument or option of the command line."""
+    return QuestionError(Problem(what, why, fix, place))
+
+
 def tell(text: str) -> None:
     """Print a line on standard error, such as a note or the name of a written file."""
     typer.echo(printable(text), err=True)
@@ -96,13 +103,15 @@ class Sink:
     """Overwrite an existing file."""
     plain: bool = False
     """Standard output was requested as `-`, and receives the content of a file."""
+    form: str = ""
+    """Suffix of the content of standard output, as in `-.csv`."""
     theme: ThemeName = "light"
     """Colours of a picture."""
 
     @property
     def suffix(self) -> str:
-        """Suffix of the file in lower case; "" without one."""
-        return self.path.suffix.lower() if self.path is not None else ""
+        """Suffix of the file or of standard output in lower case; "" without one."""
+        return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
         """Write a finished result atomically; report its name, followed by `said`, on standard error."""
@@ -118,7 +127,12 @@ class Sink:
         tell(f"wrote {self.path}{said}")
 
 
-STANDARD, STANDARD_NAME = Sink(), Path("-")
+STANDARD = Sink()
+
+
+def is_standard(out: Path) -> bool:
+    """Return True for the names of standard output: `-`, and `-.csv` or another suffix."""
+    return out.parent == Path() and out.stem == "-"
 
 
 def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: str = "-o") -> Sink:
@@ -127,11 +141,13 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
     allowed   allowed suffixes; empty for all
     Raises `GearTrainError` for a file that cannot be written, and for an HTML page without the required packages.
     """
-    if out is None or out == STANDARD_NAME:
-        if out is not None and option != "-o":
+    if out is None:
+        return STANDARD
+    if is_standard(out):
+        if option != "-o":
             why = "standard output receives the result"
             raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
-        return Sink(plain=out is not None)
+        return Sink(plain=True, form=suffix_of(out, allowed, option))
     from geartrain.numerics.files import destination
 
     # checked before the computation, which may take long
@@ -210,9 +226,7 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
     """Return the suffix of an output file, "" without one; reject suffixes that are not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
-        raise typer.BadParameter(
-            f"'{suffix}' is not an output format of this command; use {', '.join(allowed)}", param_hint=option
-        )
+        raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")
     return suffix
 
 
@@ -232,7 +246,9 @@ def read_share(text: str, option: str) -> Fraction:
     try:
         found = Quantity.parse(text, "fraction", plain=True)
     except PydanticCustomError as error:
-        raise typer.BadParameter(error.message(), param_hint=option) from None
+        context = error.context or {}
+        fix = str(context.get("fix", "give a number, a percentage or ppm, such as 0.01, 1 % or 20 ppm"))
+        raise option_error(option, error.message(), fix, str(context.get("why", ""))) from None
     return found.base
 
 

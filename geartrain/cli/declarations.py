@@ -1,7 +1,6 @@
-"""Commands on files: `geartrain init`, `format`, `list`, `periods` and `schema`.
+"""Commands on files: `geartrain init`, `format`, `list` and `periods`.
 
-They write a template, convert declarations to short or long form, list the shipped trains and the table of periods,
-and print the schema of declarations and results.
+They write a template, convert declarations to short or long form, and list the shipped trains and the table of periods.
 """
 
 from __future__ import annotations
@@ -11,7 +10,19 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Force, Out, Sink, as_json, complain, emit, sink, tell
+from geartrain.cli.common import (
+    GOOD,
+    NOT_USABLE,
+    VERDICT,
+    Force,
+    Out,
+    Sink,
+    complain,
+    emit,
+    option_error,
+    sink,
+    tell,
+)
 from geartrain.errors import GearTrainError, check_choice
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
@@ -25,7 +36,10 @@ def write_template(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o."""
+    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o.
+
+    Example: `geartrain init planetary -o first.yaml`.
+    """
     kinds = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
     check_choice("template", kind, kinds)
     path = Path(f"{kind}.yaml") if out is None else out
@@ -49,9 +63,11 @@ def write_style(
 
     The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
     changed.
+
+    Example: `geartrain format --check train.yaml`.
     """
     if out is not None and (len(files) > 1 or check):
-        raise typer.BadParameter("-o needs exactly one FILE, and excludes --check", param_hint="-o")
+        raise option_error("-o", "one file is written", "give one FILE, and omit --check")
     to = None if out is None else sink(out, force)
     worst = GOOD
     for file in files:
@@ -84,7 +100,10 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
 def list_trains(
     evidence: Annotated[bool, typer.Option("--evidence", help="List the shipped evidence for `reconstruct`.")] = False,
 ) -> None:
-    """List the shipped trains with their titles."""
+    """List the shipped trains with their titles.
+
+    Example: `geartrain list --evidence`.
+    """
     from geartrain.train.declaration_files import read_declaration, read_evidence, shipped, shipped_evidence
 
     files, read = (shipped_evidence(), read_evidence) if evidence else (shipped(), read_declaration)
@@ -93,9 +112,12 @@ def list_trains(
 
 
 def list_periods(
-    word: Annotated[str, typer.Argument(help="List only names that contain this word.", metavar="[WORD]")] = "",
+    word: Annotated[str, typer.Argument(help="List only names that contain this word.", metavar="WORD")] = "",
 ) -> None:
-    """List the shipped table of astronomical periods, speeds and counts."""
+    """List the shipped table of astronomical periods, speeds and counts.
+
+    Example: `geartrain periods saros`.
+    """
     from geartrain.errors import Problem, QuestionError
     from geartrain.train.periods import period_table, suggested_period
 
@@ -109,35 +131,3 @@ def list_periods(
         )
     width = max(len(row.name) for row in rows)
     emit("\n".join(f"{row.name:<{width}}  {float(row.value):.12g} {units[row.kind]}  ({row.source})" for row in rows))
-
-
-def print_schema(
-    question: Annotated[
-        list[str] | None,
-        typer.Argument(help="Command whose JSON keys are printed, such as motion or mesh pin.", metavar="COMMAND"),
-    ] = None,
-    form: Annotated[
-        str, typer.Option("--as", help="Format: json, markdown, or answers (the schema of --json).")
-    ] = "json",
-    out: Out = None,
-    force: Force = False,
-) -> None:
-    """Print the JSON Schema of declarations, with which editors with a YAML plugin complete and validate them.
-
-    With --as answers, print the JSON Schema of the output of commands with --json, by command. With a command, print
-    the keys of its JSON as a table.
-    """
-    from geartrain.report.json_schema import answer_schema, declaration_reference, describe_answer, schema
-    from geartrain.report.text import to_markdown, to_text
-
-    if form not in ("json", "markdown", "answers"):
-        what = f"'{form}' is not a schema format; use json, markdown or answers"
-        raise typer.BadParameter(what, param_hint="--as")
-    to = sink(out, force)
-    if question:
-        keys = [describe_answer(" ".join(question))]
-        emit(to_markdown(keys) if form == "markdown" else to_text(keys, 120), to)  # columns, because keys are long
-    elif form == "markdown":
-        emit(declaration_reference(), to)
-    else:
-        emit(as_json(schema() if form == "json" else answer_schema()), to)

@@ -9,12 +9,12 @@ import typer
 
 from geartrain.cli.common import (
     PICTURES,
-    STANDARD_NAME,
     VERDICT,
     File,
     Force,
     file_name,
     is_sound,
+    is_standard,
     picture_sink,
     suffix_of,
     tell,
@@ -35,23 +35,26 @@ def run(
             "--output-file",
             "-o",
             metavar="FILE",
-            help="Write an .svg, .png or .pdf to FILE (- = standard output); default NAME-KIND.svg.",
+            help="Write an .svg, .png or .pdf to FILE (- is standard output); default NAME-KIND.svg.",
         ),
     ] = None,
     state: Annotated[
         str | None, typer.Option("--state", help="State to draw; default the first, for lever all states.")
     ] = None,
-    turns: Annotated[str, typer.Option("--turns", help="Revolutions of the input, such as 3, -1/4, 2.5.")] = "0",
+    turns: Annotated[str, typer.Option("--turns", help="Revolutions of the driving link, such as 3, -1/4, 2.5.")] = "0",
     theme: Theme = "light",
     force: Force = False,
     labels: Annotated[
         bool, typer.Option("--labels/--no-labels", help="Print names and numbers in the drawing.")
     ] = True,
     output: Annotated[
-        list[str] | None, typer.Option("--output", help="With dials: draw only this output; may be repeated.")
+        list[str] | None, typer.Option("--of", help="With dials: draw only this output; may be repeated.")
     ] = None,
 ) -> None:
-    """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
+    """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials.
+
+    Example: `geartrain draw freeth-2021 --kind dials --turns 3 -o dials.svg`.
+    """
     from geartrain.analysis.gear_train import load
 
     # options are checked before the train is read
@@ -60,7 +63,7 @@ def run(
     train = load(file)
     if out is None:
         out = file_name(f"{train.name}-{kind}", ".svg")
-    elif not out.suffix and out != STANDARD_NAME:
+    elif not out.suffix and not is_standard(out):
         out = out.with_name(f"{out.name}.svg")
     to = picture_sink(out, force, theme, "-o")
     from geartrain.drawing import picture

@@ -12,7 +12,7 @@ from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, give, si
 def run(
     file: File,
     output: Annotated[
-        str | None, typer.Option("--output", help="Output link; default the first output that is not the input.")
+        str | None, typer.Option("--of", help="Output link; default the first output that is not the input.")
     ] = None,
     search: Annotated[
         bool, typer.Option("--search", help="Try every combination of clutches and brakes that determines the speeds.")
@@ -21,7 +21,7 @@ def run(
         int, typer.Option("--gears", min=0, help="Search for series with this number of forward gears.")
     ] = 0,
     steps: Annotated[
-        tuple[float, float], typer.Option("--steps", help="Minimum and maximum ratio step of a series.")
+        tuple[float, float], typer.Option("--ratio-steps", help="Minimum and maximum ratio step of a series.")
     ] = (
         1.05,
         2.0,
@@ -33,7 +33,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Tabulate ratios, steps, speeds, slip, torques of clutches and brakes, and recirculating power of every state."""
+    """Tabulate ratios, steps, speeds, slip, torques of clutches and brakes, and recirculating power of every state.
+
+    Example: `geartrain gearbox zf-8hp70 --search --gears 8`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.report.gearbox_report import describe_gear_search, describe_gearbox
 

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from geartrain.cli.common import Names, tell
-from geartrain.cli.option_values import MOST_COUNT, exact, input_rate
+from geartrain.cli.option_values import MOST_COUNT, exact, input_rate, whole
 from geartrain.cli.option_values import restitution as read_restitution
 
 if TYPE_CHECKING:
@@ -33,8 +33,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.work import Execution, Journal
     from geartrain.scene.scene_run import TimeRun
 
-Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Number of processes; default one per core.")]
-Dask = Annotated[str | None, typer.Option("--dask", help="Address of a dask scheduler whose workers do the work.")]
+Workers = Annotated[
+    str | None,
+    typer.Option(
+        "--workers",
+        metavar="N",
+        help="Number of processes (default one per core), or a dask scheduler such as tcp://host:8786.",
+    ),
+]
 Resume = Annotated[bool, typer.Option("--resume", help="Resume an interrupted run.")]
 
 COMPILING = "compiling kernels for this machine: 10 to 30 s, only once"
@@ -78,10 +84,8 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
 class RunOptions:
     """Options of a run: its workers, and whether an interrupted run is resumed."""
 
-    workers: int | None
-    """Number of processes; None for the number of cores, or for a cluster."""
-    dask: str | None = None
-    """Address of a dask scheduler."""
+    workers: str | None
+    """Number of processes, or address of a dask scheduler; None for one process per core."""
     resume: bool = False
 
     @contextmanager
@@ -93,7 +97,9 @@ class RunOptions:
             size = f"{tasks} tasks on " if tasks else ""
             tell(f"{what}: {size}{workers} worker {'process' if workers == 1 else 'processes'}")
 
-        with open_executor(self.workers, self.dask, announce) as executor:
+        text = self.workers or ""
+        count = None if not text or ":" in text else whole("--workers", text, "number of processes", "4", 1)
+        with open_executor(count, text if ":" in text else None, announce) as executor:
             yield executor
 
 
@@ -166,12 +172,17 @@ Rate = Annotated[
     str | None,
     typer.Option("--rate", help="Input speed in turns per second, or such as '30 rpm'; default the declared drive."),
 ]
-Turns = Annotated[str | None, typer.Option("--turns", help=f"Revolutions of the input to evaluate; default {TURNS}.")]
+Turns = Annotated[
+    str | None, typer.Option("--turns", help=f"Revolutions of the driving link to evaluate; default {TURNS}.")
+]
 Skip = Annotated[str | None, typer.Option("--skip", help=f"Revolutions to simulate before evaluation; default {SKIP}.")]
 Steps = Annotated[
     int | None,
     typer.Option(
-        "--steps", min=1, max=MOST_COUNT, help="Time steps per revolution of the input; default by its tooth counts."
+        "--steps",
+        min=1,
+        max=MOST_COUNT,
+        help="Time steps per revolution of the driving link; default by its tooth counts.",
     ),
 ]
 Restitution = Annotated[

@@ -25,6 +25,7 @@ from geartrain.cli.common import (
     draw,
     emit,
     give,
+    option_error,
     picture_sink,
     sink,
     tell,
@@ -40,12 +41,12 @@ if TYPE_CHECKING:
 def run(
     file: File,
     turns: Annotated[
-        str, typer.Option("--turns", help="Revolutions of the input, or 'period'; negative to turn backwards.")
+        str, typer.Option("--turns", help="Revolutions of the driving link, or 'period'; negative to turn backwards.")
     ] = "20",
     samples: Annotated[
         int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions.")
     ] = 200_000,
-    output: Annotated[Names, typer.Option("--output", help="Output or link to report; may be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     links: Annotated[bool, typer.Option("--links", help="Report every link, not only the outputs.")] = False,
     wide: Annotated[bool, typer.Option("--wide", help="Report the contribution of each pair to every output.")] = False,
     state: StateName = None,
@@ -64,14 +65,16 @@ def run(
     ] = False,
     fast: Fast = None,
     json: Json = False,
-    csv: Annotated[bool, typer.Option("--csv", help="Print every position as CSV.")] = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Plot errors and speeds to this file.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run with -o x.csv.")] = False,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute transmission error and speed of outputs with real teeth and pins; with -o x.csv, at every position."""
+    """Compute transmission error and speed of outputs with real teeth and pins; with -o x.csv, at every position.
+
+    Example: `geartrain motion moon-triangular --of moon --turns 20`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.dynamics import MotionRun
 
@@ -80,10 +83,8 @@ def run(
     # where the results of an interrupted run are written, checked together with the others
     cut = _partial(to)
     check_distinct_outputs(to, cut, picture)
-    if csv and to.path is not None:
-        raise typer.BadParameter("positions are either printed or written: give --csv or -o x.csv", param_hint="--csv")
-    if resume and to.suffix != ".csv":
-        raise typer.BadParameter("only a CSV file can be resumed: give -o x.csv too", param_hint="--resume")
+    if resume and (to.suffix != ".csv" or to.path is None):
+        raise option_error("--resume", "only a CSV file can be resumed", "give -o x.csv too")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     # an output that is also a link is reported once
@@ -91,7 +92,7 @@ def run(
     requested = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
         _write_table(requested, to.path, resume, force)
-    elif csv:
+    elif to.suffix == ".csv":
         for rows in _rows(requested, 0):
             emit("\n".join(rows))
     else:
@@ -113,7 +114,9 @@ def _turns(text: str, motion: Motion) -> float:
     if text != "period":
         return float(read_turns("--turns", text))
     if motion.period is None:
-        raise typer.BadParameter("no speed ripples, so a common period does not exist", param_hint="--turns")
+        raise option_error(
+            "--turns", "a common period does not exist", "give a number of revolutions", "no speed ripples"
+        )
     return float(motion.period)
 
 

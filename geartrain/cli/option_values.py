@@ -44,10 +44,10 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
     if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give one between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise GearTrainError(Problem(f"{text} is out of range", "its square would overflow or underflow", fix, place))
-    if found.value < 0 and minimum is not None:
-        raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
-    if found.value == 0 and minimum == "above 0":
+    if minimum == "above 0" and found.value <= 0:
         raise GearTrainError(Problem(f"{text} is not above 0", "", f"give a {dimension} above 0", place))
+    if minimum == "0" and found.value < 0:
+        raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
     return found
 
 

@@ -18,6 +18,7 @@ from geartrain.cli.common import (
     give,
     is_sound,
     load_all,
+    option_error,
     show,
     sink,
 )
@@ -34,7 +35,7 @@ def report(
     json: Json = False,
     section: Annotated[
         list[str] | None,
-        typer.Option("--section", help="Print only sections whose title contains this word; repeatable."),
+        typer.Option("--section", help="Print only sections whose title contains this word; may be repeated."),
     ] = None,
     everything: Annotated[
         bool, typer.Option("--all", help="Print all sections, including formulas, circuits and sources.")
@@ -45,6 +46,8 @@ def report(
     """Report on trains as text on the terminal (80 columns in a pipe), or as .md, .html or .json by the suffix of -o.
 
     An .html page also contains pictures of the plan and the dials if the extra 'plot' is installed.
+
+    Example: `geartrain report freeth-2021 -o page.html`.
     """
     from geartrain.report.document import without_details
     from geartrain.report.train_data import collect_report
@@ -52,7 +55,7 @@ def report(
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":
-        raise typer.BadParameter("the animation needs an HTML page: give -o x.html too", param_hint="--view")
+        raise option_error("--view", "the animation needs an HTML page", "give -o x.html too")
     trains = load_all(files)
     # the exit code covers all states, also those that are not printed
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))
@@ -113,7 +116,10 @@ def compare(
     ] = False,
     force: Force = False,
 ) -> None:
-    """Compare the outputs of several trains in one table, with their errors against the targets."""
+    """Compare the outputs of several trains in one table, with their errors against the targets.
+
+    Example: `geartrain compare freeth-2006 freeth-2008`.
+    """
     from geartrain.report.reconstruction_comparison import describe_comparison
     from geartrain.report.train_data import collect_report
 

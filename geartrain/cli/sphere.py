@@ -18,6 +18,7 @@ from geartrain.cli.common import (
     draw,
     emit,
     give,
+    option_error,
     picture_sink,
     sink,
 )
@@ -52,7 +53,7 @@ def run(
         Path | None, typer.Option("--graph", help="File with a graph of gears, two names per line.")
     ] = None,
     aim: Annotated[str, typer.Option("--aim", help="With --graph: aim at equal 'pitch' or closed 'phases'.")] = "pitch",
-    minimum: Annotated[int, typer.Option("--minimum", help="With --graph: minimum tooth count of a gear.")] = 12,
+    minimum: Annotated[int, typer.Option("--min-teeth", help="With --graph: minimum tooth count of a gear.")] = 12,
     radius: Annotated[
         str, typer.Option("--radius", help="Radius of the sphere, or pitch radius of a wheel, such as 5=1.25.")
     ] = "1",
@@ -67,7 +68,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Determine mobility, gridlock, closure of the teeth and sizes of gears on a sphere; -o x.yaml writes a train."""
+    """Determine mobility, gridlock, closure of the teeth and sizes of gears on a sphere; -o x.yaml writes a train.
+
+    Example: `geartrain sphere icosidodecahedron --teeth 5=20,3=12`.
+    """
     from geartrain.report.spherical_report import describe_sphere
     from geartrain.spherical.gear_sphere import GearSphere
 
@@ -80,7 +84,7 @@ def run(
         _survey(json, to)
         return
     if (solid is None) == (graph is None):
-        raise typer.BadParameter("give a solid, --graph or --survey", param_hint="SOLID")
+        raise option_error("SOLID", "the gears are not given, or twice", "give a solid, --graph or --survey")
     made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
@@ -102,9 +106,9 @@ def run(
 def _check_listed(to: Sink, picture: Sink) -> None:
     """Reject output options that need one sphere, when a list is requested."""
     if to.suffix in _YAML:
-        raise typer.BadParameter("a list of tooth sets cannot be written as a train", param_hint="-o")
+        raise option_error("-o", "a list of tooth sets cannot be written as a train", "use .md, .html or .json")
     if picture.path is not None:
-        raise typer.BadParameter("only one sphere can be drawn, and the list has several", param_hint="--plot")
+        raise option_error("--plot", "a list of spheres cannot be drawn", "omit --plot, --suggest and --survey")
 
 
 def _survey(json: bool, to: Sink) -> None:
@@ -157,7 +161,7 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
         pairs = (part.partition("=") for part in text.split(","))
         return {kind.strip(): int(count) for kind, _, count in pairs}
     except ValueError:
-        raise typer.BadParameter(f"'{text}' is not of the form 5=20,3=12", param_hint="--teeth") from None
+        raise option_error("--teeth", f"'{text}' is not a list of tooth counts", "write it as 5=20,3=12") from None
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
@@ -171,7 +175,7 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
         return value
     if kind not in configuration.kinds:
         kinds = ", ".join(dict.fromkeys(configuration.kinds))
-        raise typer.BadParameter(f"'{kind}' is not a kind of gear; use {kinds}", param_hint="--radius")
+        raise option_error("--radius", f"'{kind}' is not a kind of gear", f"use {kinds}")
     # a pitch radius determines the sphere through the pitch cone angle of its kind
     cones = size_gears(configuration).outer
     return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))

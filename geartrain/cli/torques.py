@@ -24,11 +24,12 @@ from geartrain.cli.common import (
     draw,
     emit,
     give,
+    option_error,
     picture_sink,
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run, progress
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run, progress
 from geartrain.cli.option_values import MOST_COUNT, Theme
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
@@ -45,22 +46,22 @@ def run(
     json: Json = False,
     turns: Annotated[
         str | None,
-        typer.Option("--turns", help="Compute torque over this many revolutions of the input, or over the 'period'."),
+        typer.Option(
+            "--turns", help="Compute torque over this many revolutions of the driving link, or over the 'period'."
+        ),
     ] = None,
     samples: Annotated[
         int,
         typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions, besides kinks and jumps."),
     ] = 20_000,
-    input_: Annotated[
-        str | None, typer.Option("--input", help="With --turns: link whose torque is computed; default the crank.")
+    link: Annotated[
+        str | None, typer.Option("--of", help="With --turns: link whose torque is computed; default the crank.")
     ] = None,
-    csv: Annotated[bool, typer.Option("--csv", help="Print the torque at every position as CSV.")] = False,
     trials: Annotated[
         int | None, typer.Option("--trials", help="Number of runs with random friction by its declared deviation.")
     ] = None,
     seed: Seed = 1,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
     plot: Annotated[
         Path | None,
@@ -70,31 +71,36 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque."""
+    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque.
+
+    With -o x.csv and --turns, write the torque at every position.
+
+    Example: `geartrain torques norton-compound --plot power.svg`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.report.torque_report import collect_torque_report, describe_torques
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
-    tabled = csv or to.suffix == ".csv"
-    if turns is None and (tabled or input_ is not None or trials is not None):
-        which = "--csv" if tabled else "--input" if input_ is not None else "--trials"
-        raise typer.BadParameter("this option needs --turns: give --turns too", param_hint=which)
+    tabled = to.suffix == ".csv"
+    if turns is None and (tabled or link is not None or trials is not None):
+        which = "-o" if tabled else "--of" if link is not None else "--trials"
+        raise option_error(which, "no revolutions are given", "give --turns too")
     if resume and trials is None:
-        raise typer.BadParameter("only friction trials can be resumed: give --trials too", param_hint="--resume")
+        raise option_error("--resume", "only friction trials can be resumed", "give --trials too")
     train = load(file)
     states = chosen_states(train, state)
     found = [train.torques(name) for name in states]
-    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_)
+    over_turn = None if turns is None else _over_turn(train, found, turns, samples, link)
     # a state without loads is not a failure
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if over_turn is not None:
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None and over_turn.turns is not None:
-        options = RunOptions(workers, dask, resume)
-        tried = _friction_trials(train, over_turn, (samples, input_), (trials, seed), out, options)
+        options = RunOptions(workers, resume)
+        tried = _friction_trials(train, over_turn, (samples, link), (trials, seed), out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
@@ -115,7 +121,9 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
-            raise typer.BadParameter("no torque ripples, so a common period does not exist", param_hint="--turns")
+            raise option_error(
+                "--turns", "a common period does not exist", "give a number of revolutions", "no torque ripples"
+            )
         span = float(period)
     else:
         span = float(read_turns("--turns", turns))
@@ -152,7 +160,7 @@ def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> To
     if len(loaded) != 1:
         names = ", ".join(train.states)
         done = {"--plot": "drawn", "--turns": "simulated"}[option]
-        raise typer.BadParameter(f"only one state can be {done}: give --state with one of {names}", param_hint=option)
+        raise option_error(option, f"only one state can be {done}", f"give --state with one of {names}")
     return loaded[0]
 
 

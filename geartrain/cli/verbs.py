@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import sys
 import tempfile
 import traceback
@@ -20,7 +21,7 @@ import typer
 from typer.core import TyperGroup
 
 from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain, tell
-from geartrain.errors import GearTrainError, Problem, printable
+from geartrain.errors import GearTrainError, Problem, QuestionError, nearest_names, printable, suggest
 from geartrain.wings import WINGS, has_wing
 
 if TYPE_CHECKING:
@@ -99,7 +100,15 @@ class Verbs(Mapping[str, Command]):
         run, settings = getattr(found, "run", found), getattr(found, "context_settings", None)
         one = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         one.command(name, context_settings=settings)(run)
-        return typer.main.get_command(one)
+        command = typer.main.get_command(one)
+        # typer keeps line breaks within paragraphs, prints the type of a flag, and a maximum that is only a safeguard
+        command.help = re.sub(r"(?<!\n)\n(?!\n)", " ", command.help or "")
+        for param in command.params:
+            if getattr(param, "is_flag", False):
+                param.metavar = ""
+            if (getattr(param, "max", None) or 0) >= 10**9:
+                param.max = None  # type: ignore[attr-defined]
+        return command
 
     def _load(self, name: str) -> Any:
         """Import the function or module of a command.
@@ -126,6 +135,14 @@ class LazyGroup(TyperGroup):
     def __init__(self, *given: Any, **more: Any) -> None:
         super().__init__(*given, **more)
         self.commands = self.verbs  # type: ignore[assignment]
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
+        """Return the command that is named. Raises `QuestionError` for an unknown name."""
+        name = args[0]
+        if name not in self.verbs and not name.startswith("-") and not ctx.resilient_parsing:
+            fix = suggest(name, self.verbs, f"`{ctx.command_path} --help` lists the commands")
+            raise QuestionError(Problem("unknown command", "", fix, name))
+        return super().resolve_command(ctx, args)
 
 
 # ----------------------------------------------------------------------------------------------------------- exit codes
@@ -167,9 +184,39 @@ def _translated_exits() -> Iterator[None]:
         tell("stopped")
         raise typer.Exit(INTERRUPTED) from None
     except Exception as error:
-        if hasattr(error, "format_message"):  # usage error: the text may quote control characters of the user
-            error.message = printable(str(error.message))  # type: ignore[attr-defined]
+        if hasattr(error, "format_message") and hasattr(error, "ctx") and type(error).__name__ != "NoArgsIsHelpError":
+            raise QuestionError(usage_problem(error)) from None
         raise
+
+
+def usage_problem(error: Any) -> Problem:
+    """Return the problem of a usage error of typer, in the form of all other errors.
+
+    An error is known by its attributes, because its class is in click or in typer, depending on the version of typer.
+    """
+    context, param = error.ctx, getattr(error, "param", None)
+    see = f"`{f'{context.command_path} ' if context else ''}--help` lists the arguments and options"
+    what = str(error.message).rstrip(".").removeprefix("Value error, ")
+    if (name := getattr(error, "option_name", None)) is not None:
+        if not what.startswith("No such option"):
+            return Problem("its value is missing" if "requires" in what else "it takes no value", "", see, name)
+        known = [each for one in context.command.params for each in one.opts if each.startswith("--")]
+        close = nearest_names(name.lstrip("-"), [each.lstrip("-") for each in known])
+        fix = f"did you mean --{' or --'.join(close)}?" if close else see
+        return Problem("unknown option", "", fix, name)
+    if extra := re.fullmatch(r"Got unexpected extra argument\S* \((.*)\)", what):
+        return Problem("unexpected argument", "", see, extra[1])
+    hint = getattr(error, "param_hint", None) or ""
+    place = hint if isinstance(hint, str) else ", ".join(hint)
+    if param is not None and not place:
+        place = param.opts[0] if param.param_type_name == "option" else param.metavar or param.name.upper()
+    place = place.strip("{}.'")
+    if not what:  # a required parameter
+        return Problem("it is missing", "", f"give {place}; {see}", place)
+    if one := re.fullmatch(r"'(.*)' is not one of ('.*')", what):
+        return Problem(f"'{one[1]}' is not a valid value", "", suggest(one[1], re.findall("'(.*?)'", one[2])), place)
+    what = what.partition(", unable to parse")[0].replace("Input should be", "it must be")
+    return Problem(what[:1].lower() + what[1:], "", see, place)
 
 
 def guarded(run: Callable[[], Any]) -> int:

@@ -11,7 +11,6 @@ import typer
 from geartrain.cli.common import (
     GOOD,
     INTERRUPTED,
-    STANDARD_NAME,
     VERDICT,
     Fast,
     File,
@@ -21,6 +20,7 @@ from geartrain.cli.common import (
     Without,
     file_name,
     is_sound,
+    is_standard,
     load_all,
     sink,
     tell,
@@ -41,14 +41,14 @@ if TYPE_CHECKING:
 
 _MOST_ANGLES = 2_000_000  # angles of all links together, before samples are selected
 
-Other = Annotated[str | None, typer.Argument(help="Another train, shown next to the first.", metavar="[FILE2]")]
+Other = Annotated[str | None, typer.Argument(help="Another train, shown next to the first.", metavar="FILE2")]
 Page = Annotated[
     Path | None,
     typer.Option(
         "--output-file",
         "-o",
         metavar="FILE",
-        help="Write to FILE (- = standard output); default NAME.html in this folder.",
+        help="Write to FILE (- is standard output); default NAME.html in this folder.",
     ),
 ]
 Turns = Annotated[str | None, typer.Option("--turns", help="With --dynamics: revolutions of the driving link to show.")]
@@ -65,9 +65,7 @@ def view(
     state: StateName = None,
     open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     force: Force = False,
-    teeth: Annotated[
-        bool, typer.Option("--teeth/--no-teeth", help="Draw wheels with teeth, or as plain discs.")
-    ] = True,
+    discs: Annotated[bool, typer.Option("--discs", help="Draw wheels as plain discs, without teeth.")] = False,
     dynamics: Annotated[
         bool,
         typer.Option("--dynamics", help="Simulate and play one state in the time domain, with backlash and impacts."),
@@ -83,7 +81,10 @@ def view(
     embed: Embed = False,
     kiosk: Kiosk = False,
 ) -> None:
-    """Write an animated train, or two side by side, as one HTML file that needs no server and no network."""
+    """Write an animated train, or two side by side, as one HTML file that needs no server and no network.
+
+    Example: `geartrain view freeth-2021 --open`.
+    """
     from geartrain.scene import build_scene
 
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
@@ -97,7 +98,7 @@ def view(
     runs = [_simulated(train, each, request) if dynamics else None for train, each in taken]
     whole = shown == "page"
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
-    _write_page(scenes, to, shown, other is not None, teeth)
+    _write_page(scenes, to, shown, other is not None, not discs)
     if open_it and to.path is not None and not webbrowser.open(to.path.resolve().as_uri()):
         tell("no browser could be started; open the file manually")
     for run in runs:
@@ -162,7 +163,7 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
 
 def _page_sink(path: Path, force: bool) -> Sink:
     """Return the destination of a page. Raises `QuestionError` for a suffix that browsers do not open as a page."""
-    if path == STANDARD_NAME or path.suffix.lower() in (".html", ".htm") or path.is_dir():
+    if is_standard(path) or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"
     fix = "use the suffix .html; pictures and films can be saved from the page"
@@ -173,7 +174,7 @@ def _page_sink(path: Path, force: bool) -> Sink:
 
 
 def watch(
-    file: Annotated[str, typer.Argument(help="YAML file to watch.", metavar="{FILE}")],
+    file: Annotated[str, typer.Argument(help="YAML file to watch.", metavar="FILE")],
     port: Annotated[
         int, typer.Option("--port", min=0, max=65535, help="Port of the local server; 0 takes a free one.")
     ] = 0,
@@ -183,6 +184,8 @@ def watch(
 
     The page is served on this machine only, and keeps camera, crank and state. Errors in the file are displayed above
     the last valid version.
+
+    Example: `geartrain watch train.yaml --open`.
     """
     from geartrain.viewer.live_server import LiveServer
 

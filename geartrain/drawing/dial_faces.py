@@ -160,7 +160,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
             Problem(
                 f"{len(faces)} dial faces do not fit on a page",
                 f"a page has space for {_MOST}",
-                "select outputs with --output",
+                "select outputs with --of",
             )
         )
     return faces
@@ -197,10 +197,10 @@ def _draw_key(
     axes: Axes, face: DialPicture, scene: Scene, readings: Sequence[PointerReading], centre: tuple[float, float]
 ) -> None:
     """Draw a key below a face: one line for each hand, with its style and its reading."""
-    told = [_reading_text(scene.pointers[at], readings[at], face) for at in face.pointers]
+    reading_text = [_reading_text(scene.pointers[at], readings[at], face) for at in face.pointers]
     sample = _sample_length(face)
-    left = centre[0] - (max(map(text_width, told)) + sample) / 2
-    for order, words in enumerate(told):
+    left = centre[0] - (max(map(text_width, reading_text)) + sample) / 2
+    for order, words in enumerate(reading_text):
         y, look = centre[1] - _OUTER - 0.3 - _ROW * order, series_look(order)
         axes.plot([left, left + sample - 0.08], [y, y], linewidth=2.2, zorder=6, gid="key", **look)
         write(axes, left + sample, y, words, look["color"], ha="left", fontsize=FINE)
@@ -265,7 +265,7 @@ def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture) 
     error = reading.error * scale.way
     if abs(error) > 5e-7:  # turns, below the printed precision of six decimals
         text += f" {'+' if error > 0 else '-'} {abs(error) * 360:.3g}°"
-    if face.name and (shown := scale.told(reading.at * scale.way)):  # a plain face has ticks but no cells
+    if face.name and (shown := scale.reading_text(reading.at * scale.way)):  # a plain face has ticks but no cells
         text += f", {shown}"
     way = pointer.text.removesuffix(" as read")
     sense = f", turning {way}" if way and pointer.speed else f", {way}" if way else ""

@@ -110,8 +110,8 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
     most = {trace.name for trace in ranked[:_OUTPUTS]}
     traces = [trace for trace in found if trace.name in most]
     figure = _figure([(trace, _drawers(trace)) for trace in traces], f"turns of {run.motion._problem.driving_link}")
-    left_out = _left_out(len(erring), len(found) - len(erring))
-    return headed(figure, "; ".join(filter(None, (title, *left_out))))
+    omitted = _omitted(len(erring), len(found) - len(erring))
+    return headed(figure, "; ".join(filter(None, (title, *omitted))))
 
 
 def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> Figure:
@@ -140,7 +140,7 @@ def outputs_figure(motion: Motion, turns: float = 1.0, samples: int = 2001) -> F
     return motion_figure(MotionRun(motion, turns, samples))
 
 
-def _left_out(erring: int, exact: int) -> Iterator[str]:
+def _omitted(erring: int, exact: int) -> Iterator[str]:
     """Yield remarks on outputs that are not drawn, given the numbers of outputs with and without a deviation."""
     if not erring:
         yield "every output moves uniformly"
@@ -156,9 +156,9 @@ def _count_remark(outputs: int, which: str) -> Iterator[str]:
     """Yield a remark on the outputs beyond the maximum number that is drawn."""
     less = outputs - _OUTPUTS
     if less == 1:
-        yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --output"
+        yield f"1 output{which and ' with a smaller deviation'} is left out: select it with --of"
     elif less > 1:
-        yield f"{less} outputs{which} are left out: select them with --output"
+        yield f"{less} outputs{which} are left out: select them with --of"
 
 
 def _figure(parts: Sequence[tuple[_Trace, Sequence[_Drawer]]], below: str) -> Figure:

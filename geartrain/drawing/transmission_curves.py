@@ -146,8 +146,8 @@ def triangular_figure(transmission: TriangularTransmission, friction: PairFricti
     ['driven angle', 'speed ratio', 'sliding efficiency', 'arms of the force']
     """
     require_contact(transmission)
-    rubs = transmission.friction > 0 if friction is None else True
-    rows = [row for row in range(len(_LABELS)) if rubs or row != _EFFICIENCY]
+    has_friction = transmission.friction > 0 if friction is None else True
+    rows = [row for row in range(len(_LABELS)) if has_friction or row != _EFFICIENCY]
     figure, panels = curve_panels([2.5] * len(rows), 1.5)
     for row, axes in zip(rows, panels, strict=True):
         _panel(axes, transmission, row, friction)

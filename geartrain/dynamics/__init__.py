@@ -3,12 +3,12 @@
 Input: circuits, exact speeds and loads of a state, and the known data of each gear pair. Output: torques, powers,
 efficiencies, the driving wheel of each pair, and the angle of every link at every position including transmission
 errors. Call the methods of `GearTrain` (`torques`, `driven`, `motion`, `strength`, `dynamics`), or one of the functions
-here with `GearTrain.mechanics`. Both return the classes of this package.
+here with `GearTrain.mechanics`. Both return results of the classes in this package.
 
 Torques are balanced with the transpose of the Willis system, A^T x + T = 0 (docs/torques.md, equation 3). The loss of
 each pair follows from the direction of power in the frame of its carrier (5). Transmission errors propagate by the same
-rows, a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2). Each error is evaluated at the angle to
-which the other errors have moved its driver (3).
+rows, a (e_i - e_k) + b (e_j - e_k) = c delta (docs/motion.md, equation 2). Each error is evaluated at its driver's
+angle, which includes the errors of other pairs (3).
 """
 
 from __future__ import annotations

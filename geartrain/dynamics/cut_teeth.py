@@ -1,4 +1,4 @@
-"""Modules and tooth outlines of the wheels of a train as they are cut, without a layout."""
+"""Modules and tooth outlines of the wheels of a train as cut, without a layout."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ class _Place(NamedTuple):
 
 
 def find_modules(declared: Train) -> Mapping[str, float]:
-    """Return transverse modules [m] of all wheels that declare one with a unit or are connected to such a wheel."""
+    """Return transverse modules [m] of all wheels that declare one with a unit, or mesh directly or indirectly with
+    such a wheel.
+    """
     found = {
         name: wheel.transverse_module
         for name, (_, wheel) in declared.wheels.items()
@@ -37,15 +39,16 @@ def find_modules(declared: Train) -> Mapping[str, float]:
         name = waiting.popleft()
         for mate in mates.get(name, ()):
             if mate not in found:
+                # mates have equal normal modules; the transverse module grows with the helix angle
                 found[mate] = found[name] * declared.wheels[mate][1].slant / declared.wheels[name][1].slant
                 waiting.append(mate)
     return found
 
 
 def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
-    """Return the teeth of all plane wheels, in modules, and why the others have none.
+    """Return the tooth outlines of all plane wheels [modules], and the reasons why other wheels have none.
 
-    If a tooth form is faulty no wheel has teeth.
+    If a tooth form is invalid, no wheel has teeth.
     """
     places = _places(train.declaration)
     try:
@@ -55,7 +58,7 @@ def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
 
 
 def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
-    """Yield a note under rule W3 for every wheel whose pairs require different teeth."""
+    """Yield a note under rule W3 for every wheel whose pairs require different teeth on it."""
     declared = train.declaration
     for name, problem in find_disagreements(train, _places(declared)).items():
         place = declared.place("links", declared.wheels[name][0], "wheels", name)
@@ -63,7 +66,7 @@ def find_inconsistent_wheels(train: TrainMechanics) -> Iterator[BuildFinding]:
 
 
 def not_cut(wheel: str, problem: Problem) -> Problem:
-    """Return the reason why a wheel is not cut, with the wheel's name."""
+    """Return the problem of a wheel without teeth, with the wheel's name."""
     return replace(problem, what=f"wheel '{wheel}' is not cut: {problem.what}")
 
 
@@ -72,6 +75,6 @@ def _places(declared: Train) -> Mapping[str, _Place]:
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """Return 0 if a wheel meshes only with spur wheels, else 1."""
+    """Return 0 if a wheel and all its mates are spur wheels, else 1."""
     mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
     return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

@@ -1,8 +1,8 @@
 """Gear meshes with real teeth and pins with declared dimensions, built from the declaration of a train.
 
-It also finds sizes where only the shape of teeth is declared. Triangular teeth have sizes up to a scale, and a wheel
-with several mates has a single size. The sizes therefore follow from the first pair of every connected set, by
-breadth-first search, each pair at the centre distance that its transmission function requires.
+It also finds sizes if only the shape of teeth is declared. Triangular teeth have sizes up to a scale, and a wheel has
+the same size with all its mates. The sizes therefore follow from the first pair of every connected set by breadth-first
+search, with each pair at the centre distance that its transmission function requires.
 """
 
 from __future__ import annotations
@@ -26,31 +26,31 @@ if TYPE_CHECKING:
 
 
 ShaftAngle = Callable[[GearPair], float | None]
-"""Function that returns the shaft angle of a pair [rad], or None for parallel axes."""
+"""Function that returns the shaft angle of a pair [rad]; None for parallel axes."""
 
 
 @dataclass(frozen=True)
 class PinMesh:
-    """Coupling with declared dimensions, and its transmission function."""
+    """Coupling by pin and slot with declared dimensions, and its transmission function."""
 
     coupling: Coupling
     transmission: PinToSlotTransmission
 
     @property
     def reversed(self) -> SlotToPinTransmission:
-        """Transmission function with the slot driving. No follower can be driven this way all round."""
+        """Transmission function while the slot drives the pin; a pin follower has none, because it only oscillates."""
         from geartrain.teeth.pin_transmission import SlotToPinTransmission
 
         return SlotToPinTransmission(self.transmission.r, self.transmission.e, self.transmission.friction)
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
-    """Return every gear pair with real teeth, by name.
+    """Return every gear pair with a real tooth form, by name.
 
     The first wheel of a pair drives unless `GearMesh.driven_by` changes that. The teeth of a pair are built when the
     pair is first read, which raises `GearTrainError` if they cannot be built.
 
-    shaft_angle   function of a pair, called only where the teeth need the angle
+    shaft_angle   function that returns the shaft angle of a pair, called only if its tooth form needs the angle
     """
     forms = {gear.name: (at, gear, train.form_of(gear)) for at, gear in enumerate(train.gears)}
 
@@ -67,12 +67,13 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
         assert mesh is not None
         return mesh
 
+    # the form "ideal" has no teeth
     real = (name for name, (_, _, form) in forms.items() if form is not None and form.form != "ideal")
     return ItemwiseMapping(real, made)
 
 
 def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
-    """Build all meshes. Raise `GearTrainError` with all pairs whose teeth cannot be built."""
+    """Build the teeth of all pairs. Raise `GearTrainError` with all pairs whose teeth cannot be built."""
     problems: list[Problem] = []
     for name in meshes:
         try:
@@ -85,7 +86,7 @@ def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
 
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
-    """Return the wheels of a pair in the form that tooth forms read."""
+    """Return the wheels of a pair with the data that tooth forms need."""
     first, second = (train.wheels[name][1] for name in gear.pair)
     friction = train.friction_of(gear)
     return MeshingWheels(
@@ -103,19 +104,19 @@ def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
 
 
 def _kind(wheel: Wheel) -> str:
-    """Return the kind of a wheel: helical teeth count as a kind of their own, not as spur teeth."""
+    """Return the kind of a wheel; "helical" for spur wheels with a helix angle."""
     return "helical" if wheel.is_helical else wheel.kind
 
 
 def _width(train: Train, *wheels: Wheel) -> float | None:
-    """Return the face width of the narrowest wheel [m], or None if it is not declared."""
+    """Return the face width of the narrowest wheel [m]; None unless all widths are declared."""
     declared = [wheel.thickness or train.thickness for wheel in wheels]
     given = [width.si for width in declared if width is not None]
     return min(given) if len(given) == len(wheels) else None
 
 
 def _pitch_distance(*wheels: Wheel) -> float | None:
-    """Return the sum of the pitch radii [m], or None unless all wheels declare a module with a unit."""
+    """Return the sum of the pitch radii [m]; None unless all wheels declare a module with a unit."""
     halves = [
         wheel.transverse_module * wheel.count / 2
         for wheel in wheels
@@ -134,7 +135,7 @@ def find_pins(train: Train) -> tuple[PinMesh, ...]:
 
 
 def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
-    """Return the sizes of all pairs with real teeth and parallel axes, by name."""
+    """Return the sizes of all pairs with real teeth and parallel axes, by name of the pair."""
     tips: dict[str, float] = {}
     found = {}
     for mesh in _in_order(meshes):
@@ -146,7 +147,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 
 
 def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
-    """Return the outlines of all pairs with real teeth and parallel axes as they are cut, by name."""
+    """Return the outlines of all pairs with real teeth and parallel axes as cut, by name of the pair."""
     from geartrain.dynamics.wheel_teeth import CHORD
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
 
@@ -159,13 +160,16 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the pairs breadth first: each shares a wheel with an earlier one if it is connected to any."""
+    """Yield the pairs in breadth-first order: each pair shares a wheel with an earlier one if any pair connects
+    them.
+    """
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):
         for wheel in mesh.gear.pair:
             at.setdefault(wheel, []).append(mesh)
     done: set[str] = set()
     for first in meshes:
+        # a new search for each connected set of pairs
         waiting = deque([first])
         while waiting:
             mesh = waiting.popleft()

@@ -1,7 +1,7 @@
-"""Pitch-line speed of a pair of gears, needed by friction that depends on speed.
+"""Pitch-line speed of a gear pair, needed for friction that depends on speed.
 
-The pitch line of a pair runs at V = |w_i - w_k| r_i in the frame of its carrier, docs/torques.md (17a). The angular
-speed w follows from the `rate` of the train or from inputs with units, and r from the modules of both wheels.
+Relative to the carrier the pitch-line speed is V = |w_i - w_k| r_i, docs/torques.md (17a). The angular speeds w follow
+from the `rate` of the train or from inputs with units, and the pitch radius r_i from the modules of the wheels.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def radians_per_second(train: Train, case: StateCase) -> float | None:
-    """Return the train's unit of speed in rad/s, or None if its speeds are plain numbers.
+    """Return the train's unit of speed in rad/s; None if its speeds are plain numbers.
 
     Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
     have units.
@@ -36,22 +36,22 @@ def radians_per_second(train: Train, case: StateCase) -> float | None:
 
 @dataclass(frozen=True)
 class PairSpeed:
-    """Pitch-line speed of a pair [m/s], or the reason why it is unknown."""
+    """Pitch-line speed of a gear pair [m/s], or the reason why it is unknown."""
 
     value: float | None
     problem: Problem | None = None
 
     def known(self) -> float:
-        """Return the speed. Raise `GearTrainError` with the missing data if it is unknown."""
+        """Return the pitch-line speed [m/s]. Raise `GearTrainError` with the missing data if it is unknown."""
         if self.problem is not None:
             raise GearTrainError(self.problem)
         return self.value or 0.0
 
 
 def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> PairSpeed:
-    """Return the pitch-line speed of one pair in one state.
+    """Return the pitch-line speed of one gear pair in one state.
 
-    The value is None without a problem if the relative motion of the pair is not determined.
+    The result has neither value nor problem if the relative motion of the pair is not determined.
     """
     turning = setting.relative(circuit.i, circuit.carrier)
     if turning is None:
@@ -69,6 +69,7 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
         return PairSpeed(None, Problem(what, why, fix, mesh.place))
     assert unit is not None
     assert radius is not None
+    # the radius is that of the pair's first wheel, so its speed is needed
     first = mesh.gear.pair[0] in setting.train.links[circuit.i].wheels
     other = setting.relative(circuit.j, circuit.carrier)
     if not first and other is not None:
@@ -77,14 +78,14 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> Pai
 
 
 def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
-    """Return the mesh with a pitch-line speed [m/s], if its friction depends on speed."""
+    """Return the mesh with its friction at a pitch-line speed [m/s], if the friction depends on speed."""
     if mesh.wheels.friction_law is None:
         return mesh
     return replace(mesh, wheels=replace(mesh.wheels, pitch_line=speed))
 
 
 def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
-    """Return the meshes at their pitch-line speeds in one state, where these are known."""
+    """Return the meshes with friction at their pitch-line speeds in one state, where these speeds are known."""
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}

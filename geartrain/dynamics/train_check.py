@@ -1,4 +1,4 @@
-"""Checks whether a train can be built, from its declaration and, where declared, from its teeth."""
+"""Checks whether a train can be built, from its declaration and from declared tooth forms."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
-    """Return everything in a declaration that cannot be built or is unwise (docs/buildability.md)."""
+    """Return all findings on parts that cannot be built or are inadvisable (docs/buildability.md)."""
     cuts = _cuts_teeth(train.declaration)
     found = tuple(check_build(train.declaration, train.tree, train.circuits, lambda: _outlines(train) if cuts else {}))
     if not cuts:
@@ -28,7 +28,7 @@ def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
 
 
 def _cuts_teeth(declared: Train) -> bool:
-    """Return whether pairs declare tooth forms and numpy is installed."""
+    """Return whether a pair declares a tooth form, and numpy is installed."""
     return any(map(declared.form_of, declared.gears)) and find_spec("numpy") is not None
 
 

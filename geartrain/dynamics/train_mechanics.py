@@ -1,6 +1,7 @@
 """Mechanics of a train: real teeth and pins, driving wheels, and the loads of each state.
 
-Every part is computed on first use and cached. Torques, motion, strength and dynamic simulation are functions of it.
+Every property is computed at the first access and cached. Torques, motion, strength and dynamic simulation take this
+object as input.
 """
 
 from __future__ import annotations
@@ -24,17 +25,17 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
-"""Driving directions by pair, each with the names of its states."""
+"""Pair -> its driving directions, each with the names of the states in which it occurs."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class TrainMechanics(Shown):
-    """Everything about a train that follows from its teeth and loads.
+    """Properties of a train that depend on its teeth and loads.
 
     See Also
     --------
-    geartrain.GearTrain.mechanics : Property of a train that holds it.
+    geartrain.GearTrain.mechanics : property that returns it
     """
 
     kinematics: TrainKinematics
@@ -64,14 +65,16 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Sign of each link: -1 if its axis points against the reference direction of its parallels."""
+        """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """Train with each of its equal planets declared, so that they share loads; this train if it has no copies."""
+        """Train with each equal planet as a separate link, so that planets share loads; this train if it has no
+        copies.
+        """
         # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self
 
@@ -92,7 +95,9 @@ class TrainMechanics(Shown):
 
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
-        """Gear pairs with real teeth by name, regardless of the driving side. Each is built when it is first read."""
+        """Gear pairs with real teeth by name, with the first wheel driving; the teeth of a pair are built when it is
+        first read.
+        """
         if not any(map(self.declaration.form_of, self.declaration.gears)):
             return {}  # avoids importing tooth forms for a train without any
         from geartrain.dynamics.gear_meshes import find_meshes
@@ -104,7 +109,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def teeth(self) -> tuple[GearMesh, ...]:
-        """All pairs of `undriven`, built.
+        """All gear pairs with real teeth, with the first wheel driving; all are built.
 
         Raises
         ------
@@ -119,22 +124,22 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with real teeth, each driven as in the first state in which its driver is known."""
+        """Gear pairs with real teeth, each as driven in the first state in which its driver is known."""
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 
     @cached_property
     def driven_ways(self) -> DrivenWays:
-        """Driving directions of every pair with real teeth, with the names of their states.
+        """Driving directions of every pair with real teeth, with the names of the states.
 
-        A pair with an undetermined driver counts in both directions.
+        A pair with an undetermined driver has both directions.
         """
         states = self.kinematics.usable_states
         return _find_driven_ways(self.teeth, ((state, self.meshes_in(state)) for state in states))
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """Everything that prevents real teeth from turning, whichever wheel of a pair drives in some state."""
+        """Problems that prevent real teeth from turning in a driving direction that occurs in some state."""
         if not self.teeth:
             return ()
         from geartrain.teeth.gear_mesh import find_faults
@@ -153,6 +158,7 @@ class TrainMechanics(Shown):
             return ()
         drivers = self.drivers(state)
         driven = tuple(mesh.driven_by(drivers[mesh.name]) for mesh in self.teeth)
+        # only friction that depends on speed needs the load case
         if all(mesh.wheels.friction_law is None for mesh in driven):
             return driven
         from geartrain.dynamics.pair_speeds import at_own_speeds
@@ -161,7 +167,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def pins(self) -> tuple[PinMesh, ...]:
-        """Pin-and-slot couplings with declared dimensions, each with its transmission function."""
+        """Couplings by pin and slot with declared dimensions, each with its transmission function."""
         if not self.declaration.couplings:
             return ()
         from geartrain.dynamics.gear_meshes import find_pins
@@ -173,7 +179,7 @@ class TrainMechanics(Shown):
     def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, MeshDriver]:
         """Return the driver of each pair and coupling in one state.
 
-        It is declared, or follows from the direction of power in the frame of the pair's carrier.
+        The driver is declared, or follows from the direction of power relative to the pair's carrier.
 
         Parameters
         ----------
@@ -192,7 +198,8 @@ class TrainMechanics(Shown):
         return self._drivers[key]
 
     def load_case(self, state: str | None = None) -> LoadCase | None:
-        """Return one state with its speeds, teeth and loads; None if its speeds are neither determined nor free.
+        """Return the load case of one state with its speeds and teeth; None if its speeds are neither determined nor
+        free.
 
         Parameters
         ----------
@@ -218,9 +225,9 @@ class TrainMechanics(Shown):
 
 
 def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | None, Sequence[GearMesh]]]) -> DrivenWays:
-    """Return the driving directions of all pairs. A pair with an undetermined driver counts in both.
+    """Return the driving directions of all pairs; a pair with an undetermined driver has both directions.
 
-    driven   by state, the pairs as they are driven in it; the state is None for a train without states
+    driven   states and the pairs as driven in each; the state is None for a train without states
     """
     found: dict[str, list[tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: [] for mesh in teeth}
     for state, meshes in driven:
@@ -231,7 +238,7 @@ def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | No
 
 
 def _count(ways: list[tuple[GearMesh, tuple[str, ...]]], mesh: GearMesh, state: str | None) -> None:
-    """Add a state to one driving direction of a pair. A mesh with a known driver replaces one without."""
+    """Add a state to one driving direction of a pair, in place. A mesh with a known driver replaces one without."""
     own = () if state is None else (state,)
     for at, (known, states) in enumerate(ways):
         if known.driver == mesh.driver:

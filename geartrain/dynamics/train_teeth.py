@@ -1,8 +1,8 @@
-"""Teeth of every wheel of a train, each cut once for all its mates.
+"""Teeth of every wheel of a train; a wheel is cut once for all its mates.
 
 Drawing, simulation and manufacture use the same teeth. A wheel has the teeth that its pairs declare, otherwise standard
-teeth. If it has several pairs, the deepest roots and the fillets that clear all mates are used. If its pairs require
-different teeth, the wheel has none.
+teeth. If it has several pairs, it gets the deepest roots, and fillets that clear all mates. If its pairs require
+different teeth, the wheel has no teeth.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ STANDARD = "standard"
 
 
 class ToothingPlace(Protocol):
-    """Data of a placed wheel that its teeth need: module [mm] and half cone angle [rad]."""
+    """Protocol of a placed wheel: module [mm] and half cone angle [rad], from which its teeth are built."""
 
     @property
     def module(self) -> float:
@@ -57,29 +57,29 @@ class ToothingPlace(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class PairBacklash:
-    """Backlash of a pair as its wheels are cut: at the pitch line [mm], and as an angle of each wheel [rad]."""
+    """Backlash of a pair whose wheels are cut: along the pitch line [mm], and as an angle of each wheel [rad]."""
 
     pair: str
     wheels: tuple[str, str]
     length: float
     angles: tuple[float, float]
     contact_ratio: float | None = None
-    """Contact ratio of conjugate teeth at their design centre distance; None otherwise."""
+    """Contact ratio of conjugate teeth at their design centre distance; None for other teeth."""
     more_contact: str = ""
-    """Advice that raises the contact ratio."""
+    """Advice how to increase the contact ratio."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainTeeth:
-    """Teeth of all wheels of a train."""
+    """Teeth of all wheels of a train, or the reasons why wheels have none."""
 
     wheels: Mapping[str, WheelTeeth]
-    """Teeth by wheel. `problems` has the reasons for the wheels without teeth."""
+    """Wheel -> teeth. `problems` has the reasons for the wheels without teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
-    likenesses: Mapping[str, WheelTeeth]
-    """Approximate teeth of wheels without agreed teeth, as the first of their pairs requires them."""
+    approximations: Mapping[str, WheelTeeth]
+    """Wheel -> approximate teeth of a wheel whose pairs require different teeth, as its first pair requires them."""
     flat: frozenset[str]
-    """Wheels whose teeth are straight and plane."""
+    """Names of wheels whose teeth are straight and plane."""
     backlashes: tuple[PairBacklash, ...]
     """Backlash of all pairs in which both wheels have teeth."""
 
@@ -90,16 +90,16 @@ def find_train_teeth(
     backlash: float | None = None,
     apart: Mapping[str, float] = FrozenDict(),
 ) -> TrainTeeth:
-    """Return the teeth of all plane wheels.
+    """Return the teeth of all wheels with straight, plane teeth.
 
-    backlash    of pairs without a declared form [mm]; default: a twentieth of the module
-    apart       by pair, the excess of the centre distance over its design value [mm], where the wheels are misplaced
+    backlash    backlash of pairs without a declared form [mm]; by default a twentieth of the module
+    apart       pair -> centre distance minus its design value [mm], for misplaced wheels
     """
     return _Toothing(train, places, backlash, apart).all()
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """Return problems by wheel: why no teeth suit all pairs with a declared form, for plane wheels."""
+    """Return for each wheel the problem that no teeth suit all its pairs with a declared form."""
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
@@ -122,6 +122,7 @@ class _Toothing:
         try:
             meshes = train.meshes
         except GearTrainError as error:
+            # other wheels are still cut; these problems are reported for the wheels concerned
             meshes, self.unbuilt = (), error.problems
         self.meshes = {mesh.name: mesh for mesh in meshes}
         self.sizes = find_sizes(meshes)
@@ -154,7 +155,7 @@ class _Toothing:
 
     @cached_property
     def standard(self) -> dict[str, StandardTeeth]:
-        """Standard teeth by wheel, for the wheels of pairs without a declared form."""
+        """Wheel -> standard teeth, for wheels whose pairs declare no form."""
         free = (name for name in self.pairs if name not in self.shaped and not self._wave_pairs(name))
         gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
@@ -179,7 +180,9 @@ class _Toothing:
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
     ) -> tuple[Involute, WheelPair, int]:
-        """Return the form of two standard wheels, their pair with a ring second, and the number of the first wheel."""
+        """Return the form of two standard wheels, their pair with a ring second, and the number (1 or 2) of the first
+        wheel in it.
+        """
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
         form = standard_form(teeth, its, self._standard_backlash(name))
         return form, WheelPair(one.z, other.z, other.internal), 2 if first[0].internal else 1
@@ -190,7 +193,9 @@ class _Toothing:
     # ------------------------------------------------------------------------------------------------ declared forms
 
     def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
-        """Yield the requirements of declared pairs in one plane. Crown wheels count only without a spur mate."""
+        """Yield the requirements of declared pairs on a wheel in one plane; crown wheels are used only without a spur
+        mate.
+        """
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
         for mesh in flat or meshes:
@@ -208,7 +213,7 @@ class _Toothing:
         """Return the teeth of all wheels."""
         found: dict[str, WheelTeeth] = {}
         problems: dict[str, tuple[Problem, ...]] = {}
-        likenesses: dict[str, WheelTeeth] = {}
+        approximations: dict[str, WheelTeeth] = {}
         for name in self.pairs:
             try:
                 requested = self._requested(name)
@@ -216,11 +221,12 @@ class _Toothing:
                     found[name] = self._one(name, requested)
                 except GearTrainError as error:
                     problems[name] = error.problems
-                    likenesses[name] = self._cut(name, requested[:1])
+                    # pictures show such a wheel with the teeth of its first pair
+                    approximations[name] = self._cut(name, requested[:1])
             except GearTrainError as error:
                 problems.setdefault(name, error.problems)
         flat = frozenset(name for name in self.pairs if self._is_flat(name))
-        return TrainTeeth(found, problems, likenesses, flat, tuple(self._backlashes(found)))
+        return TrainTeeth(found, problems, approximations, flat, tuple(self._backlashes(found)))
 
     def _requested(self, name: str) -> list[PairRequirement]:
         wheel, place = self._wheel(name), self.places[name]
@@ -231,6 +237,7 @@ class _Toothing:
             raise GearTrainError(Problem(f"a {kind} has no plane outline", why, fix))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
             check_size(self._wheel(each).count or 1)
+        # `unbuilt` does not say which pairs are faulty, so all wheels with a form are refused
         if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
         if not self.pairs[name] and (turning := self._escapement_sense(name)):
@@ -241,7 +248,9 @@ class _Toothing:
         return list(self._declared_requested(name) if name in self.shaped else self._standard_requested(name))
 
     def _escapement_sense(self, name: str) -> int:
-        """Return the sense in which an escapement lets a wheel turn: 1 if unknown, 0 for other wheels."""
+        """Return the sense in which an escapement lets its escape wheel turn: 1 or -1, 1 if unknown; 0 for other
+        wheels.
+        """
         link, wheel = self.declared.wheels[name]
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
             return 0
@@ -253,7 +262,7 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """Return problems by wheel with declared teeth: why its pairs require different teeth."""
+        """Return for each wheel with declared teeth the problem that its pairs require different teeth."""
         found = {}
         for name in self.pairs:
             try:
@@ -276,7 +285,7 @@ class _Toothing:
         return WheelTeeth(name, z, cut.kind, first.form, first.words, cut.tip, cut.root, cut.tooth, cut.pins)
 
     def _backlashes(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairBacklash]:
-        """Yield the backlash of all pairs whose wheels are both cut."""
+        """Yield the backlash of all pairs in which both wheels are cut."""
         for gear in self.declared.gears:
             if not set(gear.pair) <= set(found):
                 continue
@@ -288,7 +297,9 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Return the contact ratio of conjugate teeth at their design distance, or None, and advice that raises it."""
+        """Return the contact ratio of conjugate teeth at their design distance (else None), and advice how to increase
+        it.
+        """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
             return None, ""
@@ -303,7 +314,7 @@ class _Toothing:
     def _backlash(self, gear: GearPair) -> float | None:
         """Return the backlash of a pair as placed, along the pitch circles [modules].
 
-        It is None if the centre distance is not the one that the transmission function requires.
+        The result is None if the centre distance is not the one that the transmission function requires.
         """
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
         if gap is not None and gear.name not in self.waves:
@@ -313,9 +324,9 @@ class _Toothing:
         return mesh.verdict.backlash * (self._wheel(mesh.driven).count or 0) / 2
 
     def _misplaced_backlash(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
-        """Return the backlash [modules] at a centre distance `gap` modules too large.
+        """Return the backlash [modules] at a centre distance that is `gap` [modules] larger than the design value.
 
-        It is None for teeth that have another transmission function there.
+        The result is None for teeth that have another transmission function at this distance.
         """
         if mesh is not None:
             return mesh.backlash_apart(gap)

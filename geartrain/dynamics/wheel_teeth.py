@@ -1,4 +1,4 @@
-"""Teeth of one wheel as cut for all its mates: input of drawings, rotation and manufacture."""
+"""Teeth of one wheel as cut for all its mates: input of drawings, motion and manufacture."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ class WheelTeeth:
     wheel: str
     z: int
     kind: str
-    """Kind of wheel: `external`, `ring` or `pins`."""
+    """Kind of the wheel: `external`, `ring` or `pins`."""
     form: str
     """Name of the declared tooth form, or `standard`. `words` describes the form to a manufacturer."""
     words: str
     tip: float
-    """Radius of the tips."""
+    """Tip radius [modules]."""
     root: float
-    """Radius of the roots."""
+    """Root radius [modules]."""
     tooth: tuple[Vertex, ...] = ()
-    """Outline of the first tooth, symmetric about the x axis, from root to root. Empty for pins."""
+    """Outline of the first tooth from root to root, symmetric about the x axis [modules]; empty for pins."""
     pins: LanternPins | None = None
     """Pins of a lantern, or the separate pins of a ring with pin teeth."""
 
     def contours(self, module: float) -> tuple[Contour, ...]:
-        """Return all contours of the wheel [mm], outer contour first, then holes. The axle is at (0, 0)."""
+        """Return all contours of the wheel [mm], first the outer contour, then holes. The axis is at (0, 0)."""
         if self.pins is not None and self.kind == "pins":
             return tuple(lantern(self.pins, self.z, module))
         if self.pins is not None:
@@ -47,15 +47,16 @@ class WheelTeeth:
 
     @property
     def depth(self) -> float:
-        """Radius of the roots. For a ring with pins, the radius to which the pin seats reach if that is larger."""
+        """Root radius [modules]; for a ring with pins the radius of the bottom of the pin seats if it is larger."""
         if self.pins is None or self.kind == "pins":
             return self.root
         return max(self.root, self.pins.circle + self.pins.radius)
 
     def section(self) -> tuple[tuple[float, float], ...]:
-        """Return radius over pitch radius and angle [rad] of the points of one tooth or pin.
+        """Return the points of one tooth or pin: radius over pitch radius [1], and angle [rad].
 
-        A tooth runs from mid-space to mid-space; a pin is a closed circle. Arcs are replaced by chords.
+        The section of a tooth extends from mid-space to mid-space; a pin is a closed circle. Arcs are replaced by
+        chords.
         """
         R = self.z / 2
         if self.pins is not None and self.kind == "pins":

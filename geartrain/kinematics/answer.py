@@ -1,4 +1,4 @@
-"""Result of solving a train in one state: verdict with its certificate, speeds, evaluated outputs."""
+"""Result of a speed solution in one state: verdict with its certificate, speeds, and evaluated outputs."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from geartrain.numerics.exact import abridged_text
 from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, finite
 
-MOST_NAMES = 12
+MOST_NAMES = 12  # names listed in a sentence; the others are counted
 _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Join the first names, and give the number of the remaining ones.
+    """Join names with `mark`; replace all after the first 12 by their number.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -30,7 +30,8 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """A closed loop of meshing wheels in the frame of one carrier, with its ratio product (docs/theory.md, 7).
+    """Closed loop of meshing wheels in the frame of one carrier, with the product of its speed ratios (docs/theory.md,
+    7).
 
     Examples
     --------
@@ -41,14 +42,14 @@ class Loop(Result):
     """
 
     carrier: str
-    """Link relative to which all pairs of the loop are considered."""
+    """Link relative to which the ratios of all pairs of the loop are measured."""
     links: tuple[str, ...]
     """Links in the order of the loop."""
     pairs: tuple[str, ...]
     """Ids of the pairs in the order of the loop; the last one closes it."""
     product: Fraction
-    """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one mesh is
-    redundant; otherwise the links of the loop are locked to the carrier.
+    """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one of its pairs is
+    redundant. Otherwise the links of the loop are locked to the carrier.
     """
 
     def _summary(self) -> str:
@@ -56,7 +57,7 @@ class Loop(Result):
 
     @property
     def closes(self) -> bool:
-        """True if the loop can turn; its last mesh is then redundant."""
+        """True if the product is 1: the loop can turn, and its last pair is redundant."""
         return self.product == 1
 
     def __str__(self) -> str:
@@ -89,13 +90,13 @@ class Verdict(Result):
     speeds cannot be calculated in this state, because its locks form a linkage or would stop a rotation.
     """
     text: str
-    """Verdict as a sentence, with its cause."""
+    """Verdict as a sentence, with its cause, in plain text."""
     links: tuple[str, ...] = ()
-    """Links whose speed is undetermined."""
+    """Links whose speeds are undetermined; empty unless the train is free or partly locked."""
     fixes: tuple[str, ...] = ()
-    """Links whose additional prescription would determine all speeds."""
+    """Links whose speeds, if they were prescribed too, would determine all other speeds."""
     prescriptions: tuple[str, ...] = ()
-    """Inputs, brakes and clutches that take part in a lock or contradiction."""
+    """Links of the inputs, brakes and clutches that cause a lock or a contradiction."""
     loops: tuple[Loop, ...] = ()
     """Loops with a ratio product other than 1, which lock the train or a part of it."""
 
@@ -111,19 +112,20 @@ class Verdict(Result):
 
 @dataclass(frozen=True, slots=True)
 class SpeedAccuracy:
-    """Error of a float speed: its estimate, and the true error if the exact speed is known."""
+    """Error of a speed computed in float64: its estimate, and the true error if the exact speed is known."""
 
     estimate: Real
     true_error: Real | None
     condition: float | None = None
-    """Component-wise condition number, (25) of docs/theory.md; infinite for a link at rest, None if not requested."""
+    """Component-wise condition number [1], (25) of docs/theory.md; infinite for a link at rest, None if not requested.
+    """
 
 
 class RowResiduals(TypedDict, total=False):
-    """JSON keys that only float speeds have: relative residual of each row of the Willis system."""
+    """JSON keys of float speeds only: residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
-    """Residual of each row of the Willis system over the sum of the magnitudes of its terms, by label."""
+    """Row label -> magnitude of the residual over the sum of the magnitudes of the terms of the row [1]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,27 +163,31 @@ class Answer(FrozenFields, Tabular, TrainResult):
     state: str | None
     """Name of the state; None for a train without states."""
     place: str
-    """Place where the inputs of the state were declared; empty if the verdict is `determined` as expected."""
+    """File and line where the inputs of the state are declared; empty if the verdict is `determined` as expected."""
     unit: str
     """Unit of all speeds, such as `turns per tropical year` or `rpm`; empty for plain numbers."""
     verdict: Verdict
-    """Verdict on whether the speeds follow from the inputs."""
+    """Verdict on the speeds: determined, or the reason why they are not."""
     speeds: Mapping[str, SpeedValue]
-    """Speed of each determined link [`unit`]: exact, or floats (`LongFloat` above 1e308) depending on `method`."""
+    """Link -> determined speed [`unit`]. Speeds are Fractions or floats (`LongFloat` above 1e308), depending on
+    `method`.
+    """
     outputs: Mapping[str, OutputResult]
-    """Declared outputs, evaluated on first access."""
+    """Declared outputs by name, evaluated at the first access."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Ratio of speeds by link and input, with all other inputs at rest; computed on access, empty for floats."""
+    """Link -> input -> speed of the link per unit speed of the input, with all other inputs at rest. Computed at the
+    first access; empty for float speeds.
+    """
     method: str
-    """Method of solution: exact, or floats by sparse LU factorisation or by rounding exact speeds."""
+    """Method of solution: "exact", or float64 by sparse LU factorisation or by rounding exact speeds."""
     accuracy: Mapping[str, SpeedAccuracy]
-    """Absolute error of each link's speed [`unit`] and its condition number; computed on access, empty for exact
-    speeds.
+    """Link -> error [`unit`] and condition number of its speed. Computed at the first access; empty for exact speeds.
     """
     work: int
     """Number of circuits that were solved."""
     residual: Mapping[str, float] = field(default_factory=dict)
-    """|b - A w| over |A| |w| [1] by row of `WillisSystem.matrix`; computed on access, empty if the matrix was not used.
+    """Row label of `WillisSystem.matrix` -> |b - A w| over |A| |w| [1]. Computed at the first access; empty if the
+    matrix was not used.
     """
     expected: str = "determined"
     """Expected kind of verdict, as named by the state's `expect`."""
@@ -198,7 +204,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links of the requested or declared outputs, else all links that are not inputs or fixed."""
+        """Return the links of the requested or declared outputs; without outputs, all links that are neither inputs nor
+        fixed.
+        """
         if case is None or self._output is not None:
             return self.speeds
         outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]
@@ -207,7 +215,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """Return a speed as text; if exactly one input turns, as a ratio to that input."""
+        """Return a speed as text; as a ratio to the input if exactly one input turns."""
         speed = self.speeds[link]
         own = inputs.get(turning[0]) if len(turning) == 1 else None
         if own is None or not isinstance(speed, Fraction) or not isinstance(own, Fraction) or link == turning[0]:
@@ -215,7 +223,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{brief(speed / own)} of {turning[0]}"
 
     def __getitem__(self, name: str) -> SpeedValue:
-        """Return the speed of an output, or of a link."""
+        """Return the speed of an output, or of a link [`unit`]; `KeyError` if it is not determined."""
         result = self.outputs.get(name)
         speed = result.speed if result is not None else self.speeds.get(name)
         if speed is None:
@@ -224,7 +232,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with one row for each determined link: its speed as a float, and as an exact fraction."""
+        """Table with a row for each determined link: its speed as a float, and as an exact fraction."""
         speeds = self.speeds.values()
         exact = [str(speed) if isinstance(speed, Fraction) else None for speed in speeds]
         return {"link": [*self.speeds], "speed": [float(speed) for speed in speeds], "exact": exact}
@@ -235,7 +243,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs that miss their `expect`, their `published` value or the tolerance of a target."""
+        """Outputs that do not agree with their `expect`, their `published` value or the tolerance of a target."""
         results = (result for result in self.outputs.values() if self.verdict or result.speed is not None)
         return tuple(result for result in results if not result.holds)
 
@@ -250,7 +258,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def speed_figures(self) -> Mapping[str, SpeedFigures]:
-        """Speeds and their errors in the form of the JSON output."""
+        """Speeds and their errors by link, in the form of the JSON output [`unit`]."""
         found = {link: speed_figures(speed) for link, speed in self.speeds.items()}
         for link, accuracy in self.accuracy.items():
             found[link]["estimate"] = as_plain(accuracy.estimate)
@@ -261,5 +269,5 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def row_residuals(self) -> RowResiduals:
-        """Residuals in the form of the JSON output; empty for exact speeds."""
+        """Residuals of the rows of the Willis system, in the form of the JSON output; empty for exact speeds."""
         return {"residual": self.residual} if self.residual else {}

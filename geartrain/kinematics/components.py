@@ -24,7 +24,9 @@ from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 
 @dataclass(frozen=True, slots=True)
 class Components:
-    """All components of a train as parallel arrays over nodes. A node is a link relative to a carrier."""
+    """Components (ordinary trains of one carrier) as parallel arrays over nodes. A node is a link relative to a
+    carrier.
+    """
 
     links: tuple[str, ...]
     index: Mapping[str, int]
@@ -37,19 +39,19 @@ class Components:
     node_group: Sequence[int]
     """Component of each node."""
     ratios: FactoredRatios
-    """Speed of each node's link relative to its carrier, over the unknown of its component."""
+    """Speed of each node's link relative to its carrier, over the unknown speed of its component."""
     node_circuit: Sequence[int]
-    """Circuit through which the search reached each node; -1 for a root."""
+    """Circuit through which the breadth-first search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
     """Carrier of each component."""
     nodes_of: Mapping[int, Sequence[int]]
-    """Nodes of each link."""
+    """Link -> its nodes, one for each carrier relative to which it meshes."""
     closing: Sequence[int]
-    """Circuits that close a loop consistently; each is redundant."""
+    """Circuits that close a loop with ratio product 1; each is redundant."""
     breaking: Sequence[int]
-    """Circuits that close a loop inconsistently; they lock their component to its carrier."""
+    """Circuits that close a loop with another ratio product; they lock their component to its carrier."""
     holding: Sequence[int]
-    """Couplings of winding number 0, which lock the component of the slot to its carrier."""
+    """Couplings with winding number 0, which lock the component of the slot to its carrier."""
 
     @property
     def node_parent(self) -> Sequence[int]:
@@ -57,7 +59,7 @@ class Components:
         return self.ratios.parent
 
     def relative(self, node: int) -> Fraction:
-        """Return the speed of the node's link relative to its carrier, over the component's unknown."""
+        """Return the speed of a node's link relative to its carrier, over the unknown speed of its component."""
         return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
@@ -65,11 +67,11 @@ class Components:
         return next(node for node in self.nodes_of[link] if self.node_carrier[node] == carrier)
 
     def group_of(self, circuit: Circuit) -> int:
-        """Return the component to which a circuit belongs."""
+        """Return the component that contains a circuit."""
         return self.node_group[self.node(self.index[circuit.i], self.index[circuit.carrier])]
 
     def loop(self, circuit: int) -> Loop:
-        """Return the loop that a closing or breaking circuit completes, in order, with its ratio product."""
+        """Return the loop that a `closing` or `breaking` circuit completes, in order, with its ratio product."""
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]
         up, down = [self.node(self.index[link], carrier) for link in (chord.i, chord.j)]
@@ -86,10 +88,10 @@ class Components:
         )
 
     def closing_product(self, circuit: int) -> Fraction:
-        """Return the product of the ratios around the loop that a circuit completes, (20); 1 if the loop is consistent.
+        """Return the ratio product of the loop that a circuit completes, (20) of docs/theory.md; 1 if the loop can
+        turn.
 
-        It is the factor between the speed ratio of the circuit and the ratio along the search tree, from its first link
-        to its second.
+        It is the speed ratio of the circuit over the ratio along the search tree between the same two links.
         """
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]
@@ -101,7 +103,9 @@ class Components:
         return above if above >= 0 else None
 
     def path(self, nodes: Iterable[int]) -> list[int]:
-        """Return the circuits on the search-tree paths between nodes of one component, which relate their speeds."""
+        """Return the circuits on the search-tree paths between nodes of one component; they determine the ratio of
+        their speeds.
+        """
         wanted = list(nodes)
         chains = [chain_to_root(node, self._predecessor) for node in wanted]
         common = set(chains[0]).intersection(*chains[1:]) if chains else set()
@@ -113,11 +117,10 @@ class Components:
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
-    """Find the ordinary train of every carrier by breadth-first search, with factored ratios: (18), (19) of
-    docs/theory.md.
+    """Find the ordinary trains of every carrier by breadth-first search: (18), (19) of docs/theory.md.
 
     first   links from which the search starts if possible (the inputs); the unknown of their component is then their
-            own speed, and long numbers are never multiplied with each other
+            own speed, and fractions with many digits are not multiplied with each other
     """
     index = {link: at for at, link in enumerate(links)}
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
@@ -168,7 +171,14 @@ _Edge = tuple[int, int, int, int]
 def _nodes(
     index: Mapping[str, int], circuits: Sequence[Circuit]
 ) -> tuple[list[int], list[int], list[list[_Edge]], list[int]]:
-    """Return the nodes, and for each its edges (circuit, far node, a, b): far speed = a/b times the near one."""
+    """Return the link and carrier of each node, its edges, and the couplings with winding number 0.
+
+    An edge (circuit, far node, a, b) means: relative speed of the far node = a/b times the relative speed of this
+    node.
+
+    An edge (circuit, far node, a, b) means: relative speed of the far node = a/b times the relative speed of this
+    node.
+    """
     size = len(index)
     node_of: dict[int, int] = {}
     node_link: list[int] = []
@@ -189,10 +199,12 @@ def _nodes(
     for at, (_, _, i, j, k, a, b, _, _) in enumerate(circuits):
         carrier = index[k]
         here = node(index[i], carrier)
+        # a follower prescribes the slot's relative speed 0, and relates no two nodes
         if b == 0:
             holding.append(at)
             continue
         there = node(index[j], carrier)
+        # a w_i + b w_j = 0 gives each relative speed from the other
         edges[here].append((at, there, -a, b))
         edges[there].append((at, here, -b, a))
     return node_link, node_carrier, edges, holding
@@ -206,11 +218,12 @@ def _search_order(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], c
 
 @dataclass(frozen=True, slots=True)
 class ReducedSystem:
-    """Linear system that couples the components: unknowns, the speed of every link as a form of them, and equations.
+    """Linear system that couples the components: unknowns, equations, and the speed of every link as a linear form.
 
     Unknowns 0..g-1 belong to the components. Above them there is one for each carrier other than the frame, and one for
-    each link that is in no mesh. `origin` gives the cause of each equation, for diagnoses: ("share", link, node) a link
-    that occurs relative to two carriers, ("loop", circuit, -1) an inconsistent loop, ("hold", circuit, -1) a follower.
+    each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node) for a link
+    that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold", circuit, -1) for a
+    follower.
     """
 
     components: Components
@@ -230,7 +243,9 @@ class ReducedSystem:
         return self.seen_from(parts.nodes_of[link][0])
 
     def unknowns_of(self, link: int) -> tuple[int, ...]:
-        """Return the unknowns of a link's speed without their coefficients, which may be long numbers."""
+        """Return the unknowns that occur in a link's speed, without computing their coefficients, which may have many
+        digits.
+        """
         parts = self.components
         if link == parts.frame:
             return ()
@@ -242,7 +257,7 @@ class ReducedSystem:
         return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> LinearForm:
-        """Return the speed of a node's link: the speed of its carrier plus its relative speed."""
+        """Return the speed of a node's link as a linear form: speed of its carrier plus relative speed."""
         parts = self.components
         row: LinearForm = {parts.node_group[node]: parts.relative(node)}
         carrier = parts.node_carrier[node]
@@ -253,7 +268,7 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Reduce every component to its one unknown, and return the remaining system: docs/theory.md, 8."""
+    """Reduce every component to one unknown speed, and return the system that couples them: docs/theory.md, 8."""
     groups = len(parts.group_carrier)
     carriers = dict.fromkeys(carrier for carrier in parts.group_carrier if carrier != parts.frame)
     idle = (link for link in range(len(parts.links)) if link not in parts.nodes_of and link != parts.frame)
@@ -281,7 +296,9 @@ def reduce_components(parts: Components) -> ReducedSystem:
 
 @dataclass(frozen=True)
 class SolvedPart:
-    """A train, or its relevant part, ready for solution; its components are computed on first use."""
+    """Links and circuits of a train, or of the part that affects requested links; components are computed on first
+    use.
+    """
 
     links: tuple[str, ...]
     frame: str
@@ -291,7 +308,7 @@ class SolvedPart:
 
     @cached_property
     def reduced(self) -> ReducedSystem:
-        """Reduced system: one unknown for each component, and the remaining equations."""
+        """Reduced system: one unknown for each component, and the equations that couple them."""
         return reduce_components(find_components(self.links, self.frame, self.circuits, self.first))
 
 

@@ -1,6 +1,6 @@
-"""The train as a networkx graph whose edges carry the declared objects, and its adjacency matrix.
+"""Train as a networkx graph whose edges carry the declared objects, and its adjacency matrix.
 
-The edges are undirected. Which link has the pin or a certain wheel is read from the declared object of the edge.
+The edges are undirected. The declared object of an edge names the link with the pin, or the link of each wheel.
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ if TYPE_CHECKING:
 def build_graph(train: Train) -> Graph:
     """Return a graph with links as vertices, and turning pairs, gear pairs and couplings as edges.
 
-    Edge data: `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (axis, or id of the
-    pair) and `declared`, the object of the declaration. The edge key is the id of a pair or coupling, and `revolute 0`
-    and so on for turning pairs in the order of the declaration.
+    Edges have the data `kind` (revolute, gear, pin_and_slot, pin_follower, pins_in_holes, parallel), `label` (axis, or
+    name
+    of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or coupling;
+    turning pairs have the keys `revolute 0`, `revolute 1` etc. in the order of the declaration.
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
@@ -51,16 +52,16 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
 
 
 MOST_SQUARE = 48
-"""Maximum number of links for which the adjacency matrix is shown by default; it grows with their square."""
+"""Maximum number of links for which the adjacency matrix is shown by default; its size grows with their square."""
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
-    """Return the edges in the order of the declaration: two links, kind, and the axis or the id of the pair."""
+    """Return the edges in the order of the declaration: two links, kind, and name of the axis or pair."""
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 
 def adjacency_labels(train: Train) -> list[list[str]]:
-    """Return the adjacency matrix as labels: `R(axis)` for a turning pair, the id for a gear pair or coupling.
+    """Return the adjacency matrix as text: `R(axis)` for a turning pair, the name of a gear pair or coupling, or "".
 
     Parameters
     ----------
@@ -88,7 +89,9 @@ def adjacency_labels(train: Train) -> list[list[str]]:
 
 
 def adjacency_kinds(train: Train) -> list[list[str]]:
-    """Return the kind of the edge between any two links: revolute, gear, that of a coupling, "several", or ""."""
+    """Return the kind of the edge between any two links: revolute, gear or the kind of the coupling, "several", or
+    "".
+    """
     at = {link: position for position, link in enumerate(train.links)}
     cells = [["" for _ in at] for _ in at]
     for (first, second), _, kind, _, _ in _edges(train):
@@ -135,7 +138,7 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Return Graphviz text: turning pairs as thin edges, gear pairs thick, couplings dashed, the frame as a box.
+    """Return the graph as Graphviz text: turning pairs thin, gear pairs thick, couplings dashed, the frame as a box.
 
     Parameters
     ----------
@@ -163,7 +166,7 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return GraphML text with kind, label and, for gear pairs, the two wheels.
+    """Return the graph as GraphML text with kind, label and, for gear pairs, the two wheels.
 
     Parameters
     ----------
@@ -188,7 +191,7 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return node-link JSON with kind, label and, for gear pairs, the two wheels.
+    """Return the graph as node-link JSON with kind, label and, for gear pairs, the two wheels.
 
     Parameters
     ----------
@@ -215,7 +218,7 @@ def to_json(graph: Graph) -> str:
 
 
 def _plain(graph: Graph) -> Graph:
-    """Return the graph with text instead of the declared objects."""
+    """Return the graph with text as data of nodes and edges."""
     import networkx as nx
 
     plain: Graph = nx.MultiGraph(name=graph.name)

@@ -22,29 +22,33 @@ Relative = Callable[[str, str], SpeedValue | None]
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """Speed that a target requires."""
+    """Speed that a `target` or `period` of an output requires."""
 
     label: str
-    """Description of the target without its sense of rotation."""
+    """Description of the required speed without its sense of rotation."""
     speed: Fraction
-    """Speed [unit of the train]; positive if only the magnitude is compared."""
+    """Required speed [unit of the train]; positive if only the magnitude is compared."""
     signed: bool
     """True if the sign is compared, False if only the magnitude is compared."""
     sense: str = ""
-    """Sense of a name or period: "direct", "retrograde" or empty."""
+    """Declared sense of the required speed: "direct", "retrograde" or empty."""
 
     @property
     def words(self) -> str:
-        """Description of the target with its sense of rotation."""
+        """Description of the required speed with its sense of rotation."""
         return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
 
     def error(self, speed: SpeedValue) -> SpeedValue:
-        """Return the relative error speed / goal - 1, positive if fast; the difference if the goal is 0."""
+        """Return the relative error speed / goal - 1, which is positive for a fast output; the difference if the goal
+        is 0.
+        """
         return error_against(speed, self.speed, self.signed)
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error of a speed, or of its magnitude; the speed itself if the wanted speed is 0."""
+    """Return speed / wanted - 1, or the same for the magnitude of the speed if `signed` is False; the speed if
+    `wanted` is 0.
+    """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
 
@@ -55,7 +59,7 @@ class TargetResult(Result):
 
     Examples
     --------
-    The Moon of the Antikythera mechanism makes 254 turns in 19 years, and the sky 13.36826:
+    The Moon pointer of the Antikythera mechanism makes 254 revolutions in 19 years, the Moon 13.36826 in one year:
 
     >>> import geartrain
     >>> target = geartrain.load("freeth-2008").solve().outputs["moon"].targets[0]
@@ -74,17 +78,18 @@ class TargetResult(Result):
     )
 
     goal: RatioGoal
-    """Speed of the target [unit of the train], and whether its sign is compared."""
+    """Required speed [unit of the train], with the information whether its sign is compared."""
     error: SpeedValue
-    """Output / target - 1, of magnitudes if the sign is not compared; the output itself if the target is 0."""
+    """Output over target minus 1 [1], of magnitudes if the sign is not compared; the output itself if the target is 0.
+    """
     days_per_century: float | None
-    """Gain of the pointer in time [d per 36525 d], if the unit is a time and the target is not 0; None beyond the range
-    of float64.
+    """Gain of the pointer in time [days per 36525 days]; None if the unit of speeds contains no time, if the target is
+    0, or beyond the range of float64.
     """
     degrees_per_unit: float | None
     """Gain of the pointer in angle during one unit of time [deg]; None beyond the range of float64."""
     met: bool | None
-    """True if the error is within the declared tolerance; None without a tolerance."""
+    """True if `error` is within the declared tolerance; None if no tolerance is declared."""
 
     @property
     def label(self) -> str:
@@ -93,17 +98,17 @@ class TargetResult(Result):
 
     @property
     def speed(self) -> Fraction:
-        """Speed of the target [unit of the train]; positive if only the magnitude is compared."""
+        """Required speed [unit of the train]; positive if only the magnitude is compared."""
         return self.goal.speed
 
     @property
     def compared(self) -> Literal["speed", "magnitude", "difference"]:
-        """Kind of comparison: speed with its sign, magnitude, or difference from 0."""
+        """Kind of comparison: speed with its sign, magnitude of the speed, or difference from 0."""
         return ("speed" if self.goal.signed else "magnitude") if self.speed else "difference"
 
     @property
     def ppm(self) -> float | None:
-        """Relative error [ppm]; None if the target is 0, and beyond the range of floats."""
+        """Relative error [ppm]; None if the target is 0, or beyond the range of float64."""
         return as_plain_product(self.error, 10**6) if self.speed else None
 
 
@@ -111,21 +116,21 @@ class SpeedFigures(TypedDict, total=False):
     """Speed in the form of the JSON output: exact fraction as text, nearest float, and errors of float solutions."""
 
     exact: Required[str | None]
-    """Exact speed as a fraction in text; None if it was solved in floats or is not determined."""
+    """Exact speed as a fraction in text; None if it was solved in floats, or is not determined."""
     value: Required[float | None]
     """Nearest float64; None beyond its range, or if the speed is not determined."""
     decimal: str
-    """Decimal number of twelve digits, for a speed beyond the range of float64."""
+    """Decimal number with twelve digits, only for a speed beyond the range of float64."""
     estimate: float | None
-    """Estimated absolute error of a speed solved in floats."""
+    """Estimated absolute error of a speed that was solved in floats [unit of the train]."""
     true_error: float | None
-    """Absolute error of a speed solved in floats relative to the exact one, if that is known."""
+    """Difference between a speed solved in floats and the exact speed, if the latter is known [unit of the train]."""
     condition: float | None
-    """Component-wise condition number of a speed solved in floats; None for a link at rest."""
+    """Component-wise condition number of a speed that was solved in floats [1]; None for a link at rest."""
 
 
 class JudgedExpectation(NamedTuple):
-    """A declared `expect`, and whether the speed agrees with it."""
+    """Declared `expect` of an output, with the result of its comparison with the speed."""
 
     value: str
     """Expected value as declared."""
@@ -135,20 +140,20 @@ class JudgedExpectation(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class JudgedFigure(Result):
-    """A declared `published` value, the corresponding value of the train, and whether they agree."""
+    """Declared `published` value of an output, the same quantity of the train, and the result of their comparison."""
 
     KEYS = ("value", Key("as", "form"), "place", "found", "holds")
 
     value: str
     """Value as printed in the source."""
     form: Literal["speed", "input/output", "output/input"]
-    """Quantity that is printed."""
+    """Quantity that the source prints: "speed", "output/input" or "input/output"."""
     place: str | None
-    """Place in the source at which it is printed."""
+    """Place in the source where the value is printed."""
     found: SpeedValue | None
-    """The same quantity of this train."""
+    """Same quantity, calculated for this train."""
     holds: bool | None
-    """True if both agree to the printed digits; None if the quantity is not determined."""
+    """True if both agree in all printed digits; None if the quantity is not determined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,46 +173,46 @@ class OutputResult(Result):
     name: str
     """Name of the output."""
     output: Output
-    """The output as declared."""
+    """Declaration of the output."""
     of: str
-    """Link that turns."""
+    """Link whose speed is the output."""
     relative_to: str
-    """Link to which the speed is relative."""
+    """Link relative to which the speed is measured."""
     speed: SpeedValue | None
-    """Relative speed of `of`, about its own axis [unit of the train]: exact, or a float (`LongFloat` above 1e308) if
-    solved in floats; None if undetermined.
+    """Speed of `of` relative to `relative_to`, about the axis of `of` [unit of the train]. It is exact, or a float
+    (`LongFloat` above 1e308) if solved in floats; None if undetermined.
     """
     ratio: SpeedValue | None
-    """Output over input, if there is exactly one non-zero input."""
+    """Output over input speed, if exactly one input has a non-zero speed."""
     expect_holds: bool | None
-    """True if the speed agrees with the declared `expect`; None without one."""
+    """True if the speed agrees with the declared `expect`; None if none is declared."""
     published_holds: bool | None
-    """True if the output agrees with the declared `published` value; None without one."""
+    """True if the output agrees with the declared `published` value; None if none is declared."""
     targets: tuple[TargetResult, ...]
-    """Comparison with each declared target."""
+    """Comparisons with the declared targets."""
     bookkeeping: bool
     """True for a sum of joint speeds about non-parallel axes, which is not a rotation."""
 
     @property
     def found(self) -> SpeedValue | None:
-        """The quantity to compare with the `published` value; None if it is not defined."""
+        """Quantity to compare with the `published` value; None if it is undefined or no value is declared."""
         published = self.output.published
         return None if published is None else as_published(published, self.speed, self.ratio)
 
     @property
     def figures(self) -> SpeedFigures:
-        """Speed in the form of the JSON output."""
+        """Speed of the output in the form of the JSON output."""
         return speed_figures(self.speed)
 
     @property
     def expect(self) -> JudgedExpectation | None:
-        """Declared expectation with its evaluation."""
+        """Declared `expect` with the result of its comparison; None if none is declared."""
         expect = self.output.expect
         return None if expect is None else JudgedExpectation(str(expect.value), self.expect_holds)
 
     @property
     def published(self) -> JudgedFigure | None:
-        """Published value with its evaluation."""
+        """Published value with the result of its comparison; None if none is declared."""
         figure = self.output.published
         if figure is None:
             return None
@@ -215,13 +220,15 @@ class OutputResult(Result):
 
     @property
     def holds(self) -> bool:
-        """False if an `expect`, a `published` value or the tolerance of a target is not met."""
+        """False if the output does not agree with an `expect`, a `published` value or the tolerance of a target."""
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
         return False not in judged
 
     @property
     def differs_in_sign(self) -> bool:
-        """True if the opposite speed would meet every `expect` and `published` that this speed does not meet."""
+        """True if the opposite speed would satisfy every `expect` and `published` value that this speed does not
+        satisfy.
+        """
         if self.speed is None or (self.expect_holds is not False and self.published_holds is not False):
             return False
         opposite, ratio = -self.speed, None if self.ratio is None else -self.ratio
@@ -230,7 +237,7 @@ class OutputResult(Result):
 
 
 def as_plain_product(value: SpeedValue, times: int) -> float | None:
-    """Return the product as a float, or None beyond the range of float64."""
+    """Return `value` times `times` as a float; None beyond the range of float64."""
     size = as_float(value) if isinstance(value, Fraction) else as_plain(value)
     return None if size is None else size * times
 
@@ -241,7 +248,9 @@ def magnitude(value: SpeedValue) -> SpeedValue:
 
 
 def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
-    """Return a speed for JSON; beyond the range of float64 `value` is None and `decimal` is given."""
+    """Return a speed in the form of the JSON output; beyond the range of float64, `value` is None and `decimal` is
+    given.
+    """
     if isinstance(speed, LongFloat):
         return {"exact": None, "value": None, "decimal": f"{speed:.12g}"}
     if not isinstance(speed, Fraction):
@@ -256,12 +265,13 @@ def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
 def judge_outputs(
     train: Train, case: StateCase, relative: Relative, is_rotation: Callable[[str, str], bool]
 ) -> Iterator[OutputResult]:
-    """Evaluate every output of a case.
+    """Yield the evaluation of every output of a case.
 
-    relative      function that returns the speed of one link relative to another
+    relative      function that returns the speed of one link relative to another, about the axis of the first
     is_rotation   function that returns whether all axes between two links are parallel
     """
     moving = [speed for speed in case.inputs.values() if speed]
+    # a ratio to the input is defined only for a single moving input
     drive = moving[0] if len(moving) == 1 else None
     for name, output in case.outputs.items():
         of, base = output.links(name, train.frame)
@@ -282,7 +292,7 @@ def judge_outputs(
 
 
 def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
-    """Return whether the speed agrees with the expectation; floats are compared to nine digits."""
+    """Return whether the speed agrees with the declared `expect`; floats are compared to nine digits."""
     expect = output.expect
     if expect is None or speed is None:
         return None if expect is None else False
@@ -302,14 +312,14 @@ def _published_holds(output: Output, speed: SpeedValue | None, ratio: SpeedValue
 
 
 def as_published(published: Published, speed: SpeedValue | None, ratio: SpeedValue | None) -> SpeedValue | None:
-    """Return an output as the quantity that a source prints."""
+    """Return an output as the quantity that the source prints: speed, output/input or input/output."""
     if published.as_ == "speed":
         return speed
     return ratio if published.as_ == "output/input" else 1 / ratio if ratio else None
 
 
 def goal_of(train: Train, target: Target) -> RatioGoal:
-    """Convert a target to a speed in the unit of the train."""
+    """Return the speed that a target requires, in the unit of the train."""
     turns = target.turns.value
     if target.speed is not None:
         return RatioGoal(f"speed {target.speed}", target.speed.value * turns, True)
@@ -318,6 +328,7 @@ def goal_of(train: Train, target: Target) -> RatioGoal:
     else:
         row, days = period_table()[target.name or ""], train.unit_days or Fraction(1)
         label = row.name if turns == 1 else f"{turns} turns in {row.name}"
+        # rows of the period table are periods in days, or speeds
         speed = turns * (days / row.value if row.kind == "period" else abs(row.value))
     if target.sense is None:
         return RatioGoal(label, speed, False)
@@ -345,7 +356,7 @@ class Sensitivity(Result):
 
     Examples
     --------
-    With 63 teeth instead of 64 the Moon is slower by 1/64:
+    With 63 teeth instead of 64, the speed of the Moon pointer decreases by 1/64:
 
     >>> import geartrain
     >>> train = geartrain.load("freeth-2008-doubt")
@@ -361,16 +372,16 @@ class Sensitivity(Result):
     teeth: int
     """Tooth count that is used."""
     allowed: tuple[int, ...]
-    """All counts that the evidence allows."""
+    """Tooth counts that the evidence allows."""
     output: str
     """Name of the output."""
     less: float | None
-    """Change of the speed of the output with one tooth fewer [ppm]; None if the train can no longer turn, or the output
-    is at rest.
+    """Relative change of the output's speed with one tooth fewer [ppm]; None if the train can then not turn, or the
+    output is at rest.
     """
     more: float | None
-    """Change of the speed of the output with one tooth more [ppm]; None if the train can no longer turn, or the output
-    is at rest.
+    """Relative change of the output's speed with one tooth more [ppm]; None if the train can then not turn, or the
+    output is at rest.
     """
 
 
@@ -382,7 +393,7 @@ def sensitivity(
 ) -> Iterator[Sensitivity]:
     """Yield the effect of one tooth fewer and one tooth more of each uncertain wheel, by exact solution.
 
-    solve_with   function from changed circuits to relative speeds
+    solve_with   function that solves the train with other circuits, and returns the function for relative speeds
     """
     for name, wheel in train.uncertain_wheels():
         teeth = wheel.count
@@ -396,7 +407,7 @@ def sensitivity(
         for result in outputs:
             shift = {step: _relative_change(result, relative) for step, relative in changed.items()}
             if any(value != 0 for value in shift.values()):
-                allowed = wheel.doubt.allowed if wheel.doubt else ()
+                allowed = wheel.uncertainty.allowed if wheel.uncertainty else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
 
 

@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Lever(Shown):
-    """One epicyclic set as points on a line: w_m = w_k + x_m u for each member m.
+    """Lever of one epicyclic gear set: points on a line with w_m = w_k + x_m u for each member m.
 
     See Also
     --------
-    find_levers : an example
+    find_levers : has an example
     """
 
     carrier: str
     """Carrier k of the set."""
     abscissae: Mapping[str, Fraction]
-    """Exact abscissa x of each link; 0 for the carrier, and at most 1 in magnitude."""
+    """Link -> exact abscissa x; 0 for the carrier, and at most 1 in magnitude."""
 
     def _summary(self) -> str:
         points = ", ".join(f"{link} {brief(x)}" for link, x in self.abscissae.items())
@@ -39,16 +39,17 @@ class Lever(Shown):
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:
-    """Return every elementary epicyclic set of a train: links that mesh relative to a moving carrier, coaxial with it.
+    """Return the lever of every elementary epicyclic set: links that mesh relative to a moving carrier, coaxial with
+    it.
 
     Parameters
     ----------
     train : Train
-        The declaration.
+        Declaration of the train.
     tree : Tree
-        Its turning pairs as a tree, `GearTrain.kinematics.tree`.
+        Turning pairs as a tree, `GearTrain.kinematics.tree`.
     circuits : sequence of Circuit
-        Its fundamental circuits, `GearTrain.circuits`.
+        Fundamental circuits, `GearTrain.circuits`.
 
     Returns
     -------

@@ -22,7 +22,7 @@ from geartrain.train.mechanism import Axis, Revolute
 
 
 def has_copies(train: Train) -> bool:
-    """Return True if at least one link is declared with `copies` above 1."""
+    """Return whether a link is declared with `copies` above 1."""
     return any(part.copies > 1 for part in train.links.values())
 
 
@@ -33,23 +33,23 @@ def check_copies(train: Train, tree: Tree) -> None:
 
 
 def with_copies(train: Train, tree: Tree) -> Train:
-    """Return the train in which every equal planet is declared: `p`, `p.2`, `p.3`, with their own pairs and axes.
+    """Return the train with every equal planet as a separate link (`p`, `p.2`, `p.3`), with its own pairs and axes.
 
     Loads and bearings apply to each planet. Positions are rotated about the axis of the carrier; undeclared ones follow
-    from the layout. Prescriptions of a planet apply to the first.
+    from the layout. Inputs, brakes and locks of a planet apply to its first copy.
     """
     return _Expansion(train, tree).train() if has_copies(train) else train
 
 
 def originals(train: Train) -> dict[str, str]:
-    """Return the declared link of each link of the expanded train."""
+    """Return for each link of the expanded train the declared link."""
     own = {link: link for link in train.links}
     return own | {_copy_name(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
 
 
 def as_one(train: Train) -> Train:
-    """Return the train in which one planet has the mass, inertia and stiffness of all equal ones, as they move
-    alike.
+    """Return the train in which one planet has the mass, inertia and stiffness of all its copies, which have equal
+    motion.
     """
     if not has_copies(train):
         return train
@@ -70,6 +70,7 @@ def _with_total_inertia(train: Train, part: Link) -> Link:
         return part
     wheels = {}
     for name, wheel in part.wheels.items():
+        # mass of wheels follows from their density, so it is multiplied too
         density = wheel.density or train.density
         wheels[name] = wheel if density is None else wheel.changed(density=_multiplied(density, number))
     bearing = part.bearing
@@ -121,16 +122,17 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
             if bearer in train.links and train.links[bearer].copies > 1:
                 what = f"'{link}' turns on '{bearer}', which has `copies: {train.links[bearer].copies}`"
                 fix = (
-                    f"write `copies: {train.links[bearer].copies}` for it too; or, if all share one '{link}', let it "
-                    "turn on an added link coaxial with the carrier, joined by "
+                    f"write `copies: {train.links[bearer].copies}` for it too; or, if all share one '{link}', add a "
+                    "link coaxial with the carrier on which it turns, with the coupling "
                     f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
                 )
-                yield Problem(what, "each copy would need its own", fix, train.place("links", link))
+                why = f"each of the {train.links[bearer].copies} links '{bearer}' would need an own '{link}'"
+                yield Problem(what, why, fix, train.place("links", link))
             continue
         if bearer is None or bearer == train.frame:
             what = f"{part.copies} links '{link}' have no carrier"
             why = "equal planets are spaced about the axis of their carrier, and the frame has no single axis"
-            fix = "let them turn on a carrier, and fix it if it is at rest: `fixed: [carrier]`"
+            fix = "declare a carrier on which they turn, and fix it if it is at rest: `fixed: [carrier]`"
             yield Problem(what, why, fix, train.place("links", link))
         elif train.links[bearer].copies not in (1, part.copies):
             yield _unequal(train, link, bearer, "links", link)
@@ -139,12 +141,13 @@ def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
 
 
 def _name_conflicts(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each declared name that a copy would also get."""
+    """Yield a problem for each declared name that equals the generated name of a copy."""
     axes = {*train.axes, *(joint.axis for joint in train.revolutes)}
     ids = {gear.id for gear in train.gears}
     for link, part in train.links.items():
         mine = {joint.axis for joint in train.revolutes if train.frame not in joint.pair and link in joint.pair}
         pairs = [gear.id for gear in train.gears if gear.id and link in {train.wheels[wheel][0] for wheel in gear.pair}]
+        # copy 1 has the declared name
         for at in range(2, 1 + part.copies):
             for kind, own, all_of in (
                 ("link", [link], train.links),
@@ -165,6 +168,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
     for at, gear in enumerate(train.gears):
         first, second = (train.wheels[wheel][0] for wheel in gear.pair)
         counts = {train.links[link].copies for link in (first, second)}
+        # a single mate is shared by all copies
         if len(counts) > 1 and 1 not in counts:
             yield _unequal(train, first, second, "gears", at)
     for at, coupling in enumerate(train.couplings):
@@ -177,7 +181,7 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
 
 
 def _allows_copies(train: Train, coupling: Coupling) -> bool:
-    """Return True for a coupling that keeps each of several equal links parallel to one other link."""
+    """Return whether the coupling keeps each of several equal links parallel to one other link."""
     counts = {train.links[link].copies for link in (coupling.pin, coupling.slot)}
     return isinstance(coupling, Parallel | PinsInHoles) and 1 in counts
 
@@ -192,7 +196,7 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 @dataclass(frozen=True)
 class _Expansion:
-    """Expansion of a train with its turning pairs; copy 1 is the declared link."""
+    """Expansion of the copies of a train and their turning pairs; copy 1 is the declared link."""
 
     declared: Train
     tree: Tree
@@ -237,17 +241,18 @@ class _Expansion:
             "gears": [index for index, _ in gears],
             "couplings": [index for index, _ in couplings],
         }
+        # messages about copies name the line of the declared part
         made._marks = _Places(self.declared, indices)
         return made
 
     # ------------------------------------------------------------------------------------------------------- one part
 
     def _further_copies(self, *links: str) -> range:
-        """Return the numbers of the further copies of a joint or pair between some links."""
+        """Return the numbers of the further copies, from 2, of a joint or pair between some links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
 
     def _copied_link(self, link: str, at: int) -> str:
-        """Return the link that belongs to a copy; a link without copies is shared by all."""
+        """Return the name of copy `at` of a link; a link without copies is shared by all."""
         return _copy_name(link, at) if self.declared.links[link].copies > 1 else link
 
     def _link(self, part: Link, at: int) -> Link:
@@ -281,7 +286,7 @@ class _Expansion:
         return _copy_name(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel
 
     def _loads(self, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
-        """Return loads in which a torque on a planet acts on each copy."""
+        """Return the loads of the expanded train: a torque on a planet acts on each of its copies."""
         if not loads:
             return loads
         found = dict(loads)
@@ -292,7 +297,7 @@ class _Expansion:
     # ---------------------------------------------------------------------------------------------------------- places
 
     def _axis(self, label: str, at: int) -> Axis:
-        """Return the axis of a copy, rotated about the axis of the carrier."""
+        """Return the axis of copy `at`, rotated about the axis of the carrier."""
         carrier, number = self._carriers[label]
         about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
         axis, angle = self.declared.axes[label], tau * (at - 1) / number
@@ -305,13 +310,14 @@ class _Expansion:
                 fix = f"give axis '{self.tree.axis(carrier)}' a position, or remove that of '{label}'"
                 why = "copies are spaced about the axis of their carrier, which has no position"
                 raise DeclarationError([Problem(what, why, fix, self.declared.place("axes", label))])
+            # rotation about the carrier's axis, which may not pass through the origin
             place = plus(about.point, turned(minus(axis.point, about.point), about.way, angle))
             changes["position"] = tuple(Quantity.parse(f"{_decimal(part)} mm", "length", plain=False) for part in place)
         return axis.changed(**changes)
 
     @cached_property
     def _carriers(self) -> Mapping[str, tuple[str, int]]:
-        """Carrier and number of copies by axis of copied links."""
+        """Carrier and number of copies for each axis of a copied link."""
         found = {}
         for link, (_, axis) in self.tree.parent.items():
             number, carrier = self.declared.links[link].copies, self.tree.top[link]
@@ -324,7 +330,7 @@ class _Expansion:
 
 @dataclass(frozen=True)
 class _Places:
-    """Function from a path in the expanded train to the place where the original part was written."""
+    """Function that converts a path in the expanded train to the file and line of the original part."""
 
     declared: Train
     indices: Mapping[str, list[int]]
@@ -349,12 +355,12 @@ def _copy_name(name: str, at: int) -> str:
 
 
 def _with_divided_share(gear: GearPair, number: int) -> GearPair:
-    """Return the pair with its part of the declared share, which is the share of all copies together."""
+    """Return the pair with 1/`number` of the declared load share, which refers to all copies together."""
     if gear.share is None or number == 1:
         return gear
     return gear.changed(share=Figure.parse(str(gear.share.value / number)))
 
 
 def _decimal(part: float) -> str:
-    """Format a number to 15 digits; rounding errors of right angles become 0."""
+    """Return a number as text with at most 15 digits; rounding errors of right angles become 0."""
     return f"{round(part, 13):.15g}"

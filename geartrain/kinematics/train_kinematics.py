@@ -1,7 +1,7 @@
 """Kinematics of a train: joint tree, circuits, mobility and speeds, each computed once on first access.
 
-An answer proceeds from the prescriptions of a state to the relevant part of the train, the method of solution, and the
-evaluated outputs. Remarks describe conventions and mean values on which answers depend; they are notes, not errors.
+Solution of a state has four steps: read its inputs, brakes and locks; find the relevant part of the train; choose the
+method; evaluate the outputs. Remarks are notes, not errors: they describe conventions and mean values in the answers.
 """
 
 from __future__ import annotations
@@ -52,7 +52,9 @@ if TYPE_CHECKING:
 
 
 def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
-    """Yield a note for each pair whose sense of rotation is only a convention, and for each intermittent drive."""
+    """Yield a note for each pair whose sense of rotation is only a convention, and for each drive with intermittent
+    motion.
+    """
     at = {gear.name: position for position, gear in enumerate(train.gears)}
     for circuit in circuits:
         if circuit.note:
@@ -64,7 +66,9 @@ def lint_train(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:
 
 
 def _is_single_tooth(train: Train, gear: GearPair, name: str) -> bool:
-    """Return True for a spur wheel of one tooth without helix angle (helical teeth overlap) and without tooth form."""
+    """Return whether a wheel is a spur wheel with one tooth, no tooth form and no helix angle (helical teeth
+    overlap).
+    """
     wheel = train.wheels[name][1]
     return wheel.count == 1 and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
 
@@ -95,7 +99,7 @@ class TrainKinematics(Shown):
     """
 
     declaration: Train
-    """The declared train."""
+    """Declaration of the train."""
 
     # ------------------------------------------------------------------------------------------ joints and circuits
 
@@ -116,12 +120,12 @@ class TrainKinematics(Shown):
         return find_circuits(self.declaration, self.tree)
 
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        """Return all circuits except those of some pairs.
+        """Return all circuits except those of the given pairs.
 
         Parameters
         ----------
         names : sequence of str
-            Pairs to leave out.
+            Names of the pairs to leave out.
 
         Raises
         ------
@@ -140,16 +144,16 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """Sign of each link's axis: -1 if it points against the reference direction of its parallel axes."""
+        """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
         return self._axes.link_signs
 
     @cached_property
     def joint_sums(self) -> frozenset[str]:
-        """Links whose speed is a sum over non-parallel joints, and not a rotation."""
+        """Links whose speed is a sum of joint speeds over non-parallel joints, and not a rotation."""
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return True if the axes between two links are parallel, so that their relative speed is a rotation.
+        """Return whether all axes between two links are parallel, which makes their relative speed a rotation.
 
         Parameters
         ----------
@@ -162,7 +166,9 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """Prescriptions of each state (key None for a train without states), with rigid connections joint by joint."""
+        """Inputs, brakes and locks of each state (key None for a train without states); locks are expressed joint by
+        joint.
+        """
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
 
@@ -172,7 +178,7 @@ class TrainKinematics(Shown):
         return tuple(state for state, case in self.cases.items() if not case.problems)
 
     def case(self, state: str | None = None) -> StateCase:
-        """Return the prescriptions of one state.
+        """Return the inputs, brakes and locks of one state.
 
         Parameters
         ----------
@@ -193,7 +199,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def whole(self) -> SolvedPart:
-        """All links and circuits, ready for solution."""
+        """All links and circuits, prepared for solution."""
         return self._solved_part(self.circuits, tuple(self.declaration.links))
 
     @cached_property
@@ -217,7 +223,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def remarks(self) -> tuple[Problem, ...]:
-        """Conventions on which the answers of a valid declaration depend; they are notes, not errors."""
+        """Notes on conventions and mean values in the answers for a valid declaration; they are not errors."""
 
         return tuple(lint_train(self.declaration, self.circuits))
 
@@ -232,7 +238,8 @@ class TrainKinematics(Shown):
         return solve(self.whole, case, self.signs, None)
 
     def equations(self, state: str | None = None) -> WillisSystem:
-        """Return the labelled Willis system of one state (docs/theory.md, 6).
+        """Return the Willis equations of one state as a linear system with labelled rows and columns (docs/theory.md,
+        6).
 
         Parameters
         ----------
@@ -304,14 +311,14 @@ class TrainKinematics(Shown):
         state : str, optional
             A declared state; None only for a train without states.
         inputs : mapping of str to sequence of float, optional
-            Speeds by input link, one for each case, instead of the declared ones [unit of the train].
+            Input link -> speeds, one for each case, instead of the declared speeds [unit of the train].
         condition_of : sequence of str
             Links whose component-wise condition number is computed (docs/theory.md, equation 25).
 
         Returns
         -------
         FloatSpeeds
-            Speeds and error estimates, arrays (link, case).
+            Speeds and error estimates as arrays with axes (link, case).
         """
         from geartrain.kinematics.speeds import solve_floats
 
@@ -323,14 +330,15 @@ class TrainKinematics(Shown):
         return solve_floats(system, inputs, condition_of)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """Return the case with only one output, the link that turns, and the link to which it is relative.
+        """Return the case with one output only, the link whose speed it is, and the link relative to which it is
+        measured.
 
         Parameters
         ----------
         case : StateCase
             One of `cases`.
         output : str
-            An output or a link.
+            Name of an output or a link.
 
         Raises
         ------
@@ -353,7 +361,7 @@ class TrainKinematics(Shown):
         return replace(case, outputs=outputs), links
 
     def seen_links(self, state: str | None, names: Sequence[str] = ()) -> dict[str, tuple[str, str]]:
-        """Return the link that turns and the link to which it is relative, by output or link.
+        """Return for each output or link the link whose speed it is, and the link relative to which it is measured.
 
         Parameters
         ----------
@@ -375,7 +383,7 @@ class TrainKinematics(Shown):
         return SolvedPart(links, declared.frame, circuits, first)
 
     def _relevant_part(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
-        """Return the part of the train that can affect some links."""
+        """Return the part of the train that can affect the links `wanted`."""
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = relevant_circuits(self.circuits, kept)
@@ -392,7 +400,9 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Solve in floats with error estimates, and with true errors if the exact solution is known."""
+        """Return the answer with float speeds and error estimates, and with true errors if the exact solution is
+        known.
+        """
         from geartrain.kinematics.speeds import solve_floats
 
         truth = solution.speeds if solution is not None else {}
@@ -427,7 +437,7 @@ class TrainKinematics(Shown):
         return replace(answer, residual=LazyMapping(residual))
 
     def _without_speeds(self, part: SolvedPart, case: StateCase, system: WillisSystem) -> Solution:
-        """Return the verdict on a dense system, by its LU factors if these are certainly regular, else modulo a
+        """Return the verdict without speeds: by LU factors if these prove regularity, else by elimination modulo a
         prime.
         """
         from geartrain.kinematics.speeds import is_regular
@@ -440,8 +450,8 @@ class TrainKinematics(Shown):
         return Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
 
     def _condition_links(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
-        """Return links whose condition number is reported; only outputs of long trains, because each costs one
-        solve.
+        """Return the links whose condition number is reported: all links, or outputs only in long trains, because each
+        costs a solve.
         """
         if wanted is None and len(part.links) <= _CONDITIONED:
             return part.links
@@ -473,8 +483,8 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """Return the answer with evaluated outputs, restricted to the links in `wanted`; `ratios` is None for
-        floats.
+        """Return the answer with evaluated outputs, restricted to the links `wanted`; `ratios` is None for float
+        speeds.
         """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
@@ -482,6 +492,7 @@ class TrainKinematics(Shown):
         if wanted is not None:
             verdict = self._output_verdict(case, verdict, relative(*wanted) is not None, wanted)
             shown = wanted if case.outputs else wanted[:1]
+            # other links were solved only as far as the output needs them
             speeds = {link: speeds[link] for link in shown if link in speeds}
             accuracy = None if accuracy is None else _restricted(accuracy, shown)
 
@@ -512,7 +523,7 @@ class TrainKinematics(Shown):
     # -------------------------------------------------------------------------------------------- the verdict on a part
 
     def _output_verdict(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
-        """Return the verdict on one output, which may be determined or at rest although the train is free.
+        """Return the verdict on one output, which may be determined or at rest although other links are free.
 
         known   True if the output's speed is determined
         """
@@ -533,31 +544,32 @@ class TrainKinematics(Shown):
 
 
 def _facing_advice(bevels: Sequence[str]) -> str:
-    """Return the advice for two bevel wheels that meet a third from the same side."""
+    """Return the advice text for two bevel wheels that mesh with a third from the same side."""
     one, other, shared = bevels
     return f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
 
 
 def _unknown(of: str, base: str) -> None:
-    """Return None as the relative speed of any two links."""
+    """Return None: the relative speed of any two links is unknown."""
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:
-    """Return the accuracy of some links, computed on access."""
+    """Return the accuracy of the given links, computed when it is read."""
     return LazyMapping(lambda: {link: accuracy[link] for link in links if link in accuracy})
 
 
 def _nearest(speed: Fraction) -> float:
-    """Return the nearest float. Raises `RangeError` beyond the range of float64."""
+    """Return the nearest float64. Raises `RangeError` beyond its range."""
     value = as_float(speed)
     if value is None:
         why = "its ratio would become 0 or infinity"
-        raise RangeError(Problem("a speed leaves the range of float64", why, "use the exact method, and no radians"))
+        fix = "use `method='exact'`, with input speeds in turns and not in radians"
+        raise RangeError(Problem("a speed leaves the range of float64", why, fix))
     return value
 
 
 def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
-    """Raise `QuestionError` unless each input, and no other link, has one finite speed for each case."""
+    """Raise `QuestionError` unless exactly the inputs are given, each with one finite speed for each case."""
     for link in inputs:
         check_choice("input", link, declared)
     for link in declared:

@@ -1,4 +1,4 @@
-"""One labelled row of a Willis system."""
+"""One labelled equation of a Willis system."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class WillisEquation(NamedTuple):
-    """One row of a Willis system: the sum of coefficient times speed over `terms` equals `right`.
+    """One equation of a Willis system: the sum of coefficient times speed over `terms` equals `right`.
 
     See Also
     --------
@@ -15,10 +15,10 @@ class WillisEquation(NamedTuple):
     """
 
     label: str
-    """Id of the pair, or the prescription, such as `input sun`."""
+    """Name of the pair, or the prescribed speed, such as `input sun`."""
     kind: str
-    """Kind of row: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
+    """Kind of the equation: frame, input, fixed, lock, gear, pin_and_slot, pin_follower, pins_in_holes or parallel."""
     terms: tuple[tuple[str, int], ...]
-    """Links with their non-zero coefficients."""
+    """Pairs of a link and its non-zero coefficient."""
     right: Fraction = Fraction(0)
     """Right-hand side [unit of the train]."""

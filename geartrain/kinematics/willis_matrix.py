@@ -1,7 +1,7 @@
 """Willis system as a sparse matrix, for the float solvers and for solvers of the user.
 
-The entries are tooth counts and their sums, integers far below 2**53. A float64 matrix represents them exactly, so all
-error of a float solution is due to the solver.
+The entries are tooth counts and their sums, integers far below 2**53. A float64 matrix represents them exactly, so the
+error of a float solution is due only to the solver.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ _GIVEN = -1  # column of prescribed speeds
 
 @dataclass(frozen=True, eq=False, slots=True)
 class WillisMatrix(Shown):
-    """A Willis system as arrays, A w = b: `matrix @ speeds == right` for speeds in the order of `links`.
+    """Willis system A w = b as arrays: `matrix @ speeds == right` for speeds in the order of `links`.
 
-    One matrix serves three right-hand sides: speeds (A w = b), small tooth errors (A dw = e), and, transposed, torques
+    The same matrix determines speeds (A w = b), the effect of small tooth errors (A dw = e), and, transposed, torques
     without losses. `GearTrain.solve(method="sparse")` factorises this matrix.
 
     See Also
@@ -52,15 +52,17 @@ class WillisMatrix(Shown):
     """
 
     matrix: csc_array
-    """Matrix A (row, link), float64, compressed sparse columns; every entry is an integer, represented exactly."""
+    """Matrix A, axes (row, link), in compressed sparse column format; its float64 entries are integers, represented
+    exactly.
+    """
     right: Floats
-    """Right-hand side b (row,), float64, rounded from the prescribed speeds [unit of the train]."""
+    """Right-hand side b of each row [unit of the train], rounded to float64."""
     rows: tuple[WillisEquation, ...]
     """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
-    """Links of the columns: all except the frame, or all links if the complete system was requested."""
-    left_out: tuple[str, ...]
-    """Labels of rows that are left out: the row of the frame, and rows that follow from others."""
+    """Links of the columns: all except the frame, or all links if the whole system was requested."""
+    omitted: tuple[str, ...]
+    """Labels of omitted rows: the row of the frame, and rows that follow from others."""
 
     def _summary(self) -> str:
         rows, columns = self.matrix.shape
@@ -73,7 +75,7 @@ class WillisMatrix(Shown):
 
     @property
     def exact_right(self) -> tuple[Fraction, ...]:
-        """Exact right-hand side, before rounding to floats [unit of the train]."""
+        """Right-hand side of each row before rounding to float64 [unit of the train]."""
         return tuple(row.right for row in self.rows)
 
 
@@ -101,10 +103,10 @@ def build_matrix(
 def independent_rows(
     links: Sequence[str], equations: Sequence[WillisEquation], redundant: Sequence[str]
 ) -> tuple[list[str], list[WillisEquation]]:
-    """Return the moving links, and the rows without that of the frame and without dependent rows.
+    """Return the moving links, and the rows without the frame's row and without redundant rows.
 
-    There are as many rows as moving links if the speeds are determined, and more if rows contradict each other, because
-    these are kept. If there are too many rows, dependent ones are found by Gaussian elimination modulo a prime.
+    There are as many rows as moving links if the speeds are determined, and more if rows contradict each other: all of
+    these are kept. Redundant rows are found by Gaussian elimination modulo a prime if there are too many rows.
     """
     frame = next(row.terms[0][0] for row in equations if row.kind == "frame")
     links, idle = [link for link in links if link != frame], set(redundant)
@@ -115,6 +117,7 @@ def independent_rows(
     ]
     if len(rows) > len(links):
         at = {link: column for column, link in enumerate(links)}
+        # the right-hand side is a column too, so that contradicting rows are not redundant
         forms = [
             residues({at[link]: Fraction(c) for link, c in row.terms if link in at} | {_GIVEN: -row.right})
             for row in rows
@@ -128,5 +131,9 @@ def _nearest(row: WillisEquation) -> float:
     value = as_float(row.right)
     if value is None:
         what = f"the right-hand side of '{row.label}' is beyond the range of float64"
-        raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", "read `equations().equations`, in fractions"))
+        raise RangeError(
+            Problem(
+                what, "float64 covers 1e-308 to 1e308", "use `train.equations().equations`, whose numbers are fractions"
+            )
+        )
     return value

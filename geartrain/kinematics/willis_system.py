@@ -1,4 +1,4 @@
-"""Labelled Willis system: one integer row for each circuit, for the frame, and for each prescription.
+"""Labelled Willis system: one integer equation for each circuit, for the frame, and for each input, brake and lock.
 
 `relative_speed` gives the speed of one link relative to another, exact or in floats.
 """
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 
 def axis_sense(of: str, base: str, signs: Mapping[str, int]) -> int:
-    """Return 1, or -1 if the axes of two links have opposite directions.
+    """Return 1, or -1 if the reference senses of two links' axes are opposite.
 
-    signs   -1 for links whose axis points against the reference direction of its parallel axes
+    signs   -1 for links whose axis is opposite to the reference direction of its parallel axes
     """
     return signs.get(of, 1) * signs.get(base, 1)
 
@@ -51,7 +51,7 @@ def relative_speed(
     """Return w_of - s w_base, the relative speed about the axis of `of`; None if a speed is not known.
 
     speed_of   function that returns the speed of a link about its own axis; None if it is not determined
-    signs      -1 for links whose axis points against the reference direction of its parallels; s is the product of both
+    signs      -1 for links whose axis is opposite to the reference direction; s is the product of both links' signs
     """
     own, other = speed_of(of), speed_of(base)
     if own is None or other is None:
@@ -63,8 +63,8 @@ def relative_speed(
 class WillisSystem(Shown):
     """Willis system of a train in one case, with links as columns and labelled equations as rows.
 
-    One row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of docs/theory.md,
-    one for the frame, one for each drive, brake and lock.
+    There is one row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of
+    docs/theory.md, one row for the frame, and one for each input, brake and lock.
 
     Examples
     --------
@@ -77,16 +77,16 @@ class WillisSystem(Shown):
     """
 
     links: tuple[str, ...]
-    """Links of the columns."""
+    """Links of the columns, in the order of the declaration."""
     equations: tuple[WillisEquation, ...]
-    """Equations of the rows."""
+    """Equations of the rows, with their labels."""
     exact: bool = True
-    """False if inputs in radians and in turns are mixed, so that numbers are shown as decimals."""
+    """False if inputs in radians and in turns are mixed; numbers are then shown as decimals."""
     redundant: tuple[str, ...] = ()
-    """Labels of redundant pairs, which close loops of ratio product 1; empty if not determined."""
+    """Names of redundant pairs, which close loops with ratio product 1; empty if not determined."""
 
     def __str__(self) -> str:
-        """Return the equations as printed by `geartrain equations`."""
+        """Return the equations as printed by `geartrain inspect equations`."""
         return self.text()
 
     def _summary(self) -> str:
@@ -135,10 +135,11 @@ def assemble_willis_system(
     signs: Mapping[str, int],
     redundant: Sequence[str] = (),
 ) -> WillisSystem:
-    """Assemble the rows of all circuits, of the frame, and of the prescriptions of `case` (None: no prescriptions).
+    """Assemble the equations of all circuits, of the frame, and of the inputs, brakes and locks of `case`, if one is
+    given.
 
-    signs       -1 for links whose axis points against the reference direction of its parallel axes
-    redundant   ids of circuits known to follow from others
+    signs       -1 for links whose axis is opposite to the reference direction of its parallel axes
+    redundant   names of pairs known to follow from others
     """
     rows = [WillisEquation("frame", "frame", ((frame, 1),))]
     rows += [

@@ -16,9 +16,9 @@ Indices = NDArray[np.intp]
 
 
 def packed(values: NDArray[Any], kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> str:
-    """Return little-endian numbers in base64, row by row.
+    """Return an array as base64 text of little-endian numbers, row by row.
 
-    No digit is lost, and the text is a third as long as decimals.
+    Conversion is lossless, and the text is a third as long as decimal numbers.
     """
     return b64encode(values.astype(kind).tobytes()).decode("ascii")
 
@@ -27,14 +27,14 @@ NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
 
 
 def some(columns: NamedArrays, which: Indices | Bools) -> NamedArrays:
-    """Return the named tuple with the entries selected by index or by mask along the last axis."""
+    """Return a named tuple of arrays with the entries selected by index or by mask along the last axis."""
     kind: Any = type(columns)
     found: NamedArrays = kind(*(each[..., which] for each in columns))
     return found
 
 
 def joined(sets: Sequence[NamedArrays]) -> NamedArrays:
-    """Join named tuples of arrays along the last axis."""
+    """Return one named tuple of arrays, joined along the last axis."""
     kind: Any = type(sets[0])
     found: NamedArrays = kind(*(np.concatenate(each, axis=-1) for each in zip(*sets, strict=True)))
     return found

@@ -16,18 +16,17 @@ from typing import NamedTuple
 
 
 class Block(NamedTuple):
-    """Rows and an equal number of columns that are solved simultaneously; each row is matched to the column at its
-    index.
-    """
+    """Rows and an equal number of columns that are solved together; the k-th row is matched to the k-th column."""
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
 
 
 def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = ()) -> list[Block] | None:
-    """Return the block triangular form of a square system, or None if no perfect matching exists.
+    """Return the block triangular form of a square system; None if no perfect matching of rows and columns exists.
 
-    Each block follows all blocks that it depends on. The cost is linear for trees, and rows times entries at worst.
+    Each block follows all blocks that it depends on. Run time is linear for trees, and proportional to rows times
+    entries in the worst case.
 
     rows   columns with an entry, for each row
     also   further columns that a row depends on, without an entry in it
@@ -42,7 +41,7 @@ def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = (
 
 
 def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
-    """Return strongly connected components by Tarjan's algorithm without recursion, in order of dependence."""
+    """Return the strongly connected components in order of dependence, by Tarjan's algorithm without recursion."""
     order: dict[int, int] = {}
     low = [0] * len(rows)
     done = [False] * len(rows)
@@ -86,7 +85,7 @@ def _close(open_: list[int], root: int, done: list[bool]) -> tuple[int, ...]:
 
 
 def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int) -> list[Block]:
-    """Return the Dulmage-Mendelsohn decomposition of a system in an order in which its parts can be solved.
+    """Return the blocks of the Dulmage-Mendelsohn decomposition, in an order in which they can be solved.
 
     Only the first part can have more rows than columns, and only the last more columns than rows. `rows` maps each row
     to its columns.
@@ -107,7 +106,7 @@ def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int)
 
 
 def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) -> list[Block]:
-    """Return the blocks of the square part, renumbering its rows and columns internally."""
+    """Return the blocks of the square part with its original row and column numbers."""
     names = list(rows)
     columns = sorted({column for held in rows.values() for column in held}.difference(known))
     number = {column: at for at, column in enumerate(columns)}
@@ -135,7 +134,8 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
 
 
 def _match_forced_rows(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
-    """Match rows with one remaining column repeatedly (Karp-Sipser heuristic); return the unmatched rows.
+    """Match rows that have only one free column, repeatedly (Karp-Sipser heuristic), in place; return the unmatched
+    rows.
 
     This matches trees in linear time.
     """
@@ -182,7 +182,7 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
 
 
 def _reachable(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
-    """Return all vertices that alternating paths from the starts reach on their own side."""
+    """Return all vertices on the side of `starts` that alternating paths from them reach."""
     found, queue = set(starts), list(starts)
     for here in queue:
         for there in across[here]:

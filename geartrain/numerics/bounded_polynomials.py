@@ -22,16 +22,18 @@ from geartrain.numerics.exact import log10
 from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, quotient_error, sum_error
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers of variables: (variable, power) pairs, variables ascending, powers of either sign, never 0."""
+"""Product of powers of variables: pairs (variable, power) in ascending order of variables; powers have either sign,
+not 0.
+"""
 
 WholeTerm = tuple[int, tuple[int, ...]]
-"""An integer coefficient, and the exponents of all variables."""
+"""Term with an integer coefficient, and the exponents of all variables."""
 
 Product = Callable[[Monomial], Floats]
-"""A function that returns the values of a monomial at all points, as arrays that broadcast."""
+"""Function that returns the values of a monomial at all points, as an array that can be broadcast."""
 
 _SAFE = 250
-"""Decimal exponent of safe terms: terms between 10^-250 and 10^250 neither underflow nor overflow in float64."""
+"""Limit of the decimal exponents of terms: between 10^-250 and 10^250 no product underflows or overflows in float64."""
 
 
 def monomial_of(exponents: Iterable[int]) -> Monomial:
@@ -40,7 +42,7 @@ def monomial_of(exponents: Iterable[int]) -> Monomial:
 
 
 def products_of(columns: Sequence[Floats]) -> Product:
-    """Return a `Product` that multiplies columns, one for each variable; powers must be 1 or more."""
+    """Return a `Product` that multiplies columns of values, one for each variable; powers must be 1 or more."""
 
     def product(monomial: Monomial) -> Floats:
         found: Floats = np.ones(())
@@ -53,7 +55,9 @@ def products_of(columns: Sequence[Floats]) -> Product:
 
 
 def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[Floats, Floats]:
-    """Return the sum of some terms in order, and the sum of their absolute values; zeros of `shape` without terms."""
+    """Return the sum of arrays in their order, and the sum of their absolute values; zeros of `shape` if there are
+    none.
+    """
     each = list(terms)
     if not each:
         return np.zeros(shape), np.zeros(shape)
@@ -61,9 +65,9 @@ def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[
 
 
 def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> int:
-    """Return the maximum number of roundings of one term of a sum of monomials, plus those of the summation.
+    """Return an upper bound on the number of roundings of a sum of monomials: in one term, and in the summation.
 
-    roundings   number of roundings already in each variable
+    roundings   number of roundings in the value of each variable
     """
     # a power p of a variable with n roundings has p + p n roundings; a coefficient adds two
     each = (sum(abs(power) * (roundings[variable] + 1) for variable, power in monomial) for monomial in monomials)
@@ -74,7 +78,7 @@ def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Seq
     """Return whether no term can underflow or overflow in float64, whatever the order of multiplication.
 
     terms     nonzero coefficients, and exponents of all variables
-    largest   log10 of the largest value of each variable; the minimum value is 1
+    largest   log10 of the maximum value of each variable; the minimum value is 1
     """
     for coefficient, exponents in terms:
         reach = sum(size * abs(power) for size, power in zip(largest, exponents, strict=True))
@@ -86,18 +90,20 @@ def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Seq
 
 @dataclass(frozen=True, eq=False)
 class BoundedPolynomial:
-    """A sum of coefficients times monomials."""
+    """Sum of coefficients times monomials, with a bound on the rounding error of its values."""
 
     terms: tuple[tuple[float, Monomial], ...]
-    """Coefficients in float64, and their monomials."""
+    """Coefficients in float64, with their monomials."""
     roundings: int
-    """Number of roundings in one term and the sum. The error is at most roundings * u * (sum of absolute terms)."""
+    """Number of roundings in one term and the sum. The absolute error is at most roundings * u * (sum of absolute
+    terms).
+    """
 
     @classmethod
     def of(cls, terms: Sequence[tuple[int, Monomial]], scale: int, roundings: Sequence[int]) -> BoundedPolynomial:
         """Return a polynomial with integer coefficients, divided by a scale that keeps them within float64.
 
-        roundings   number of roundings already in each variable
+        roundings   number of roundings in the value of each variable
         """
         # the exact quotient is rounded once; coefficients may be out of the range of float64
         scaled = tuple((float(Fraction(coefficient, scale)), monomial) for coefficient, monomial in terms)
@@ -110,7 +116,7 @@ class BoundedPolynomial:
         return self.roundings * UNIT_ROUNDOFF * SLACK if len(signs) == 1 else None
 
     def __call__(self, product: Product) -> tuple[Floats, Floats | None]:
-        """Return the values, and bounds on their errors, or None for the bounds if `relative` is known."""
+        """Return the values and bounds on their absolute errors; None instead of the bounds if `relative` is known."""
         each = (product(monomial) if one == 1 else one * product(monomial) for one, monomial in self.terms)
         if self.relative is not None:
             # terms of one sign: the size is the value, so a relative bound is sufficient
@@ -119,22 +125,22 @@ class BoundedPolynomial:
         return value, sum_error(self.roundings, size)
 
     def bounded(self, product: Product) -> tuple[Floats, Floats]:
-        """Return the values, and bounds on their absolute errors in every case."""
+        """Return the values and bounds on their absolute errors, also if `relative` is known."""
         return _filled_in(*self(product), self.relative)
 
 
 @dataclass(frozen=True, eq=False)
 class BoundedQuotient:
-    """A quotient of two polynomials, or only the numerator if `lower` is None."""
+    """Quotient of two bounded polynomials; only the numerator if `lower` is None."""
 
     upper: BoundedPolynomial
     lower: BoundedPolynomial | None
 
     @classmethod
     def of(cls, upper: Sequence[WholeTerm], lower: Sequence[WholeTerm], roundings: Sequence[int]) -> BoundedQuotient:
-        """Return a quotient of two sums of integer coefficients with exponents of all variables.
+        """Return the quotient of two sums of terms with integer coefficients and exponents of all variables.
 
-        roundings   number of roundings already in each variable
+        roundings   number of roundings in the value of each variable
         """
         # divided by the largest coefficient, which may be out of the range of float64
         scale = max((abs(coefficient) for coefficient, _ in (*upper, *lower)), default=1)
@@ -147,9 +153,9 @@ class BoundedQuotient:
         return self.upper.relative if self.lower is None else None
 
     def __call__(self, product: Product) -> tuple[Floats, Floats | None]:
-        """Return the values, and bounds on their errors, or None for the bounds if `relative` is known.
+        """Return the values and bounds on their absolute errors; None instead of the bounds if `relative` is known.
 
-        A bound is infinite at poles and where no digit is certain.
+        A bound is infinite at poles, and at points where no digit is certain.
         """
         if self.lower is None:
             return self.upper(product)
@@ -161,7 +167,7 @@ class BoundedQuotient:
         return value, np.where((left > 0) & np.isfinite(room), room, np.inf)
 
     def bounded(self, product: Product) -> tuple[Floats, Floats]:
-        """Return the values, and bounds on their absolute errors in every case."""
+        """Return the values and bounds on their absolute errors, also if `relative` is known."""
         return _filled_in(*self(product), self.relative)
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ChebyshevSeries:
-    """A Chebyshev series on the interval [start, end]."""
+    """Chebyshev series on the interval [start, end]."""
 
     coefficients: Floats
     start: float
@@ -24,13 +24,13 @@ class ChebyshevSeries:
 
     @classmethod
     def of(cls, f: Callable[[Floats], Floats], start: float, end: float, nodes: int) -> ChebyshevSeries:
-        """Interpolate f at `nodes` Chebyshev points."""
+        """Return the series that interpolates f at `nodes` Chebyshev points of the interval."""
         d = np.asarray(start + (end - start) * (points(nodes)[0] + 1) / 2, dtype=np.float64)
         return cls.through(f(d), start, end)
 
     @classmethod
     def through(cls, values: Floats, start: float, end: float) -> ChebyshevSeries:
-        """Interpolate values at the Chebyshev points of `points`, in ascending order."""
+        """Return the series that interpolates values at the Chebyshev points of `points`, in ascending order."""
         _, inverse = points(len(values))
         return cls(np.asarray(inverse @ values, dtype=np.float64), start, end)
 
@@ -60,14 +60,16 @@ class ChebyshevSeries:
 
     @property
     def tail(self) -> float:
-        """Maximum of the last four coefficients relative to the largest coefficient, a measure of convergence."""
+        """Maximum magnitude of the last four coefficients over the maximum of all, as a measure of convergence."""
         size = np.abs(self.coefficients)
         return float(size[-4:].max() / max(size.max(), 1e-300))  # the last coefficient only may be 0 by symmetry
 
 
 @lru_cache(maxsize=32)
 def points(count: int) -> tuple[Floats, Floats]:
-    """Return Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to coefficients."""
+    """Return the Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to
+    coefficients.
+    """
     x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
     # at these points the matrix is as well conditioned as a cosine transform, so that inverting it is accurate
     return x, np.asarray(np.linalg.inv(cheb.chebvander(x, count - 1)), dtype=np.float64)

@@ -17,17 +17,19 @@ if TYPE_CHECKING:
 
 
 CONFIDENCE = 0.95
-PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)
+PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)  # 95 % range, quartiles and median
 
 
 def deviations(confidence: float = CONFIDENCE) -> float:
-    """Return the half-width of the two-sided interval of a standard normal variable with this probability."""
+    """Return the number z of standard deviations for which a normal variable is within +-z with probability
+    `confidence`.
+    """
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 
 @dataclass(frozen=True, slots=True)
 class ProbabilityEstimate(Result):
-    """A probability estimated from independent trials, with Wilson's 95 % interval.
+    """Probability estimated from independent trials, with Wilson's 95 % interval.
 
     Examples
     --------
@@ -59,7 +61,7 @@ class ProbabilityEstimate(Result):
 def wilson(count: float, of: float) -> tuple[float, float]:
     """Return Wilson's 95 % score interval for `count` successes in `of` trials; (0, 1) without trials.
 
-    For weighted trials both are effective numbers, which need not be integers.
+    For weighted trials `count` and `of` are effective numbers, which need not be integers.
     """
     if not of:
         return 0.0, 1.0
@@ -74,7 +76,7 @@ def wilson(count: float, of: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class IntervalEstimate:
-    """An estimate and its 95 % interval.
+    """Estimate of a quantity, with its 95 % confidence interval.
 
     Examples
     --------
@@ -83,11 +85,11 @@ class IntervalEstimate:
     """
 
     value: float
-    """The estimate, in the unit of the estimated quantity."""
+    """Estimated value, in the unit of the quantity."""
     low: float
-    """Lower end of the interval; -inf if there are too few trials."""
+    """Lower end of the interval, in the same unit; -inf if there are too few trials."""
     high: float
-    """Upper end of the interval; inf if there are too few trials."""
+    """Upper end of the interval, in the same unit; inf if there are too few trials."""
 
     def to_dict(self) -> list[float | None]:
         """Return [value, low, high] for JSON; null for infinite or undetermined numbers."""
@@ -95,12 +97,12 @@ class IntervalEstimate:
 
 
 def in_degrees(figure: IntervalEstimate) -> list[float | None]:
-    """Convert the estimate of an angle [rad] to [value, low, high] in degrees for JSON."""
+    """Return the estimate of an angle [rad] as [value, low, high] in degrees for JSON."""
     return [finite(degrees(each)) for each in (figure.value, figure.low, figure.high)]
 
 
 def mean_of(values: Floats) -> IntervalEstimate:
-    """Return the mean with its confidence interval by the normal approximation."""
+    """Return the mean of values with its 95 % confidence interval, by the normal approximation."""
     n = len(values)
     if n < 2:
         return IntervalEstimate(float(values[0]) if n else nan, -inf, inf)
@@ -109,7 +111,8 @@ def mean_of(values: Floats) -> IntervalEstimate:
 
 
 def deviation_of(values: Floats) -> IntervalEstimate:
-    """Return the standard deviation with Bonett's interval, which is also valid for non-normal distributions.
+    """Return the standard deviation of values with Bonett's 95 % interval, which is also valid for non-normal
+    distributions.
 
     D. G. Bonett, Approximate confidence interval for standard deviation of nonnormal distributions, Comput. Stat. Data
     Anal. 50 (2006) 775-782: ln(c s^2) +- z c sqrt((g - (n - 3)/n) / (n - 1)), with the kurtosis g about a trimmed mean
@@ -132,7 +135,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
 
 
 def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
-    """Return a percentile of sorted values with a distribution-free interval between two order statistics."""
+    """Return a percentile of sorted values, with a distribution-free 95 % interval between two order statistics."""
     n, p = len(ordered), percent / 100
     if not n:
         return IntervalEstimate(nan, -inf, inf)
@@ -143,10 +146,11 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
 
 @cache
 def _counts_below(n: int, p: float) -> tuple[int, int]:
-    """Return the shortest range of counts of values below quantile p, out of n, with a probability of at least 95 %.
+    """Return the shortest range of the number of values below quantile p, out of n, that has a probability of at least
+    95 %.
 
-    The count is binomial (H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1). Counts of 0 and n
-    leave an end of the interval open, and are included only if 95 % cannot be reached without them.
+    The count is binomial (H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1). The numbers 0 and
+    n leave an end of the interval open, and are included only if 95 % cannot be reached without them.
     """
     from scipy.special import bdtr
 
@@ -163,6 +167,6 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
 
 
 def percentiles_of(values: Floats) -> dict[float, IntervalEstimate]:
-    """Return the reported percentiles of some values with their intervals, by percentage."""
+    """Return the percentiles in `PERCENTILES` of some values, with their intervals, by percentage."""
     ordered = np.sort(values)
     return {percent: percentile_of(ordered, percent) for percent in PERCENTILES}

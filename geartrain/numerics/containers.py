@@ -1,4 +1,4 @@
-"""Immutable and lazily created mappings, and a pause of the garbage collector."""
+"""Immutable mappings, mappings that are created when they are read, and a pause of the garbage collector."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ V = TypeVar("V")
 
 
 class FrozenDict(dict[K, V]):
-    """An immutable dictionary that compares, prints, copies and pickles as a dictionary does.
+    """Immutable dictionary that compares, prints, copies and pickles like a dictionary.
 
     >>> FrozenDict(a=1) | {"b": 2}
     {'a': 1, 'b': 2}
@@ -26,7 +26,6 @@ class FrozenDict(dict[K, V]):
     __slots__ = ()
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
-        """Raise `TypeError` for any modification of the mapping."""
         raise TypeError("this mapping is immutable: copy it with dict(...) and change the copy")
 
     __setitem__ = __delitem__ = __ior__ = _refuse
@@ -37,7 +36,7 @@ class FrozenDict(dict[K, V]):
 
 
 class LazyMapping(Mapping[K, V]):
-    """A mapping that is created when it is first read; it compares and pickles as the dictionary that it contains.
+    """Mapping that is created when it is first read; it compares and pickles like the dictionary that it contains.
 
     >>> requested = []
     >>> found = LazyMapping(lambda: requested.append("made") or {"a": 1})
@@ -77,7 +76,7 @@ class LazyMapping(Mapping[K, V]):
 
 
 class ItemwiseMapping(Mapping[K, V]):
-    """A mapping with given keys, each value created when it is first read.
+    """Mapping with given keys, whose values are created one by one when they are first read.
 
     >>> requested = []
     >>> found = ItemwiseMapping("ab", lambda key: requested.append(key) or key.upper())
@@ -113,7 +112,7 @@ class ItemwiseMapping(Mapping[K, V]):
 
 
 class FrozenFields:
-    """A base class of frozen dataclasses that makes their plain dictionaries immutable too."""
+    """Base class of frozen dataclasses that converts their dictionaries to immutable ones."""
 
     __slots__ = ()
 

@@ -16,21 +16,22 @@ from typing import Any, Protocol, TypeVar
 T = TypeVar("T")
 
 PRIME = (1 << 61) - 1
-"""A Mersenne prime. The rank modulo it is a lower bound of the rank, and equal to it except with probability 1e-18."""
+"""Mersenne prime. The rank modulo it is a lower bound of the rank, and equal to the rank except with probability 1e-18.
+"""
 
 LinearForm = dict[int, Fraction]
-"""A linear form: column -> coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are never solved for.
+"""Linear form: column -> coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are treated as known.
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Echelon:
-    """Echelon form: pivots in the order of elimination, conditions on symbols only, and redundant rows."""
+    """Echelon form: pivots in the order of elimination, conditions that contain only symbols, and redundant rows."""
 
     pivots: tuple[tuple[int, LinearForm], ...]
-    """Pairs (column, rest) with column = -(rest); the rest contains none of the columns eliminated before it."""
+    """Pairs (column, rest), which mean: unknown = -(rest). `rest` contains no column of an earlier pair."""
     conditions: tuple[LinearForm, ...]
-    """Rows without unknowns, each of which must vanish."""
+    """Rows without unknowns, each of which must be 0 for a consistent system."""
     redundant: tuple[int, ...]
     """Indices of the rows that became 0 = 0."""
 
@@ -40,7 +41,7 @@ class Echelon:
         return len(self.pivots)
 
     def forms(self, budget: int | None = None) -> dict[int, LinearForm]:
-        """Solve by back substitution for every pivot column, as a linear form of symbols and free unknowns.
+        """Return the unknown of every pivot as a linear form of symbols and free unknowns, by back substitution.
 
         Many free unknowns lead to long forms. `TooDenseError` is raised after `budget` operations.
         """
@@ -67,7 +68,7 @@ class TooDenseError(Exception):
 
 
 def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None:
-    """Add factor * other to a row in place, removing entries that cancel.
+    """Add factor * other to a row in place, and remove entries that cancel.
 
     Entries are numbers or polynomials, all of one type.
     """
@@ -82,7 +83,7 @@ def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None
 def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None, modulus: int = 0) -> Echelon:
     """Eliminate unknowns by sparse Gaussian elimination over the rationals or modulo a prime; see `eliminate_units`.
 
-    rows      linear forms that vanish; columns < 0 are symbols
+    rows      linear forms that must be 0; columns < 0 are symbols
     budget    maximum number of operations, weighted by the length of numbers; `TooDenseError` beyond it
     modulus   0 for exact rationals, else a prime; coefficients must then be integers
     """
@@ -93,7 +94,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
 
 
 class Ring(Protocol[T]):
-    """Protocol of the coefficient ring of linear forms."""
+    """Protocol of the ring of the coefficients of linear forms."""
 
     @property
     def modulus(self) -> int:
@@ -101,7 +102,7 @@ class Ring(Protocol[T]):
         ...
 
     def inverse(self, entry: T) -> T | None:
-        """Return the inverse of a coefficient, or None if it is not a unit of the ring."""
+        """Return the inverse of a coefficient; None if it is not a unit of the ring."""
         ...
 
     def words(self, entry: T) -> int:
@@ -110,7 +111,7 @@ class Ring(Protocol[T]):
 
 
 class _Rationals:
-    """The field of rationals."""
+    """Field of the rational numbers, with Fractions as elements."""
 
     modulus = 0
 
@@ -126,7 +127,7 @@ RATIONALS = _Rationals()
 
 @dataclass(frozen=True, slots=True)
 class Residues:
-    """The field of integers modulo a prime."""
+    """Field of the integers modulo a prime."""
 
     modulus: int
 
@@ -148,7 +149,7 @@ def eliminate_units(
     part). Rows with one or two unknowns are plain substitutions, so chains, trees and cascades take linear time.
     Fill-in appears only where circuits are truly coupled.
 
-    rows     linear forms that vanish; columns < 0 are symbols, never pivots
+    rows     linear forms that must be 0; columns < 0 are symbols, never pivots
     budget   maximum number of operations, weighted by the length of coefficients; `TooDenseError` beyond it
 
     Returns the pivots in the order of elimination, (column, rest) with column = -(rest), and the remaining rows with
@@ -228,7 +229,8 @@ def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) ->
 
 
 def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
-    """Return whether some unknowns make every linear form nonnegative, by phase 1 of the simplex method.
+    """Return whether values of the unknowns exist for which every linear form is nonnegative, by phase 1 of the
+    simplex method.
 
     Bland's rule, by which the entering and the leaving variables have the lowest possible index, prevents cycling.
 
@@ -257,7 +259,7 @@ def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> boo
 
 
 def _reaches_zero(table: list[list[Fraction]], basis: list[int], artificial: int) -> bool:
-    """Return whether the artificial variables, numbered from `artificial` on, can all be reduced to 0."""
+    """Return whether the artificial variables, whose indices begin at `artificial`, can all be reduced to 0."""
     while True:
         lacking = [row for row, own in zip(table, basis, strict=True) if own >= artificial]
         if not any(row[-1] for row in lacking):

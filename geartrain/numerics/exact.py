@@ -1,6 +1,6 @@
 """Integers and Fractions of any length: products with few gcds, nearest floats, and decimal text, full or abridged.
 
-Python's limit on the digits of integers in text is neither hit nor changed.
+Python's limit on the number of digits in text is neither exceeded nor changed.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 
 
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
-    """Multiply n/d by a/b and return the reduced fraction with a positive denominator.
+    """Return n/d times a/b as a reduced fraction (numerator, positive denominator).
 
     n/d must be reduced. a and b are short, so the gcds are cheap.
     """
@@ -64,7 +64,7 @@ def log10(value: Fraction) -> float:
 
 
 def as_float(value: Fraction | float) -> float | None:
-    """Return the nearest float64, or None if the value overflows or would be subnormal."""
+    """Return the nearest float64; None if the value overflows or is subnormal."""
     try:
         number = float(value)
     except OverflowError:
@@ -80,14 +80,14 @@ def decimal(value: Fraction, digits: int = 10) -> str:
     Parameters
     ----------
     value : Fraction
-        The number.
+        Number to format.
     digits : int
         Number of significant digits.
 
     Returns
     -------
     str
-        The number in the format `g` of floats.
+        Text in the format `g` of floats.
 
     Examples
     --------
@@ -108,7 +108,9 @@ def decimal(value: Fraction, digits: int = 10) -> str:
 
 
 def _scaled(value: Fraction, power: int, digits: int) -> int:
-    """Return round(value * 10**power), of about `digits` digits, from leading bits if these are sufficient."""
+    """Return round(value * 10**power), a number with about `digits` digits; only leading bits are used if they are
+    sufficient.
+    """
     with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
         near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
         off = near - near.to_integral_value()
@@ -126,14 +128,15 @@ def _leading(number: int) -> Decimal:
 
 
 _PLAIN, _SHORT = 2000, 600
-"""Bits and digits of integers that Python converts itself; its limit on digits is never below 640."""
+"""Maximum bits and maximum digits of integers that Python converts itself; Python's limit on digits is never below 640.
+"""
 
 
 def fraction_text(value: Fraction | int) -> str:
     """Format an integer or Fraction of any size with all digits, as `str` does.
 
-    Python refuses to convert integers beyond 4300 digits, because its conversion takes quadratic time. Here decimals
-    are assembled from halves in almost linear time, and the limit of the process is not changed.
+    Python refuses to convert integers beyond 4300 digits, because its conversion takes quadratic time. This function
+    converts by divide and conquer in almost linear time, and does not change the limit of the process.
 
     >>> fraction_text(Fraction(-254, 19)), len(fraction_text(7**20_000))
     ('-254/19', 16902)
@@ -167,11 +170,11 @@ def abridged_text(value: Fraction | int, most: int = 40) -> str:
     return f"({count_digits(top)} digits)" + (f"/({count_digits(bottom)} digits)" if bottom != 1 else "")
 
 
-_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
+_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))  # SI prefixes; below 1e-6 nano is used
 
 
 def watts_text(power: float) -> str:
-    """Format a power [W] with the SI prefix that keeps the number short.
+    """Format a power [W] with a suitable SI prefix and four digits.
 
     >>> watts_text(0.0025), watts_text(0)
     ('2.5 mW', '0 W')

@@ -1,9 +1,9 @@
 """Numbers stored as a short ratio to another number, and multiplied out when they are read.
 
-Along a train every speed is its neighbour's times a ratio of teeth. Where the common factors do not cancel, a speed a
-thousand links on has thousands of digits, and storing all of them takes quadratic memory. Each number is therefore
-stored as a short ratio to an earlier one. Its value is a balanced product of powers of the primes in all ratios along
-its path.
+Along a train every speed is the speed of a neighbouring link times a ratio of tooth counts. If the factors do not
+cancel, the speed after a thousand links has thousands of digits, and storage of all speeds takes quadratic memory. Each
+number is therefore stored as a short ratio to an earlier one. Its value is a balanced product of powers of the primes
+in all ratios along its path.
 """
 
 from __future__ import annotations
@@ -18,23 +18,25 @@ from math import gcd
 from geartrain.numerics.exact import coprime, times
 
 _SHORT = 256
-"""Bits of numerator and denominator up to which a number is multiplied out immediately."""
+"""Maximum number of bits of numerator and denominator for which a number is multiplied out immediately."""
 
 _HOPS = 64
-"""Number of ratios that are multiplied one after another; longer paths count the powers of their primes."""
+"""Maximum number of ratios that are multiplied one after another; for longer paths the powers of primes are counted."""
 
 _CACHE_BITS = 1 << 29
-"""Capacity [bit] of the cache of long numbers, 64 MB; numbers read next are likely to be near."""
+"""Capacity of the cache of long numbers [bit], 64 MB; numbers that are read one after another are usually near each
+other.
+"""
 
 _SMALL = 1000  # primes up to this are divided out; the cofactor of a number below its square is prime
 _MOST_ROUGH = 1000  # numbers without small primes: factor refinement takes quadratic time in their number
 
 
 class FactoredRatios:
-    """Numbers by index: roots with given values, and numbers defined as a ratio times an earlier one.
+    """Numbers by index: roots with given values, and numbers defined as a ratio times an earlier number.
 
-    parent, a, b     index of the number that it was derived from (-1 for a root), and its ratio a / b to that
-    anchor           index of the number to which `top` / `bottom` is the ratio; -1 if that is the value itself
+    parent, a, b     index of the number from which it is derived (-1 for a root), and its ratio a / b to that number
+    anchor           index of the number that is multiplied by `top` / `bottom`; -1 if the quotient is the value
     top, bottom      ratio in lowest terms, bottom > 0; bottom is 0 if the number is not yet known
     """
 
@@ -52,7 +54,7 @@ class FactoredRatios:
         self.top[at], self.bottom[at] = top, bottom
 
     def follow(self, at: int, parent: int, a: int, b: int) -> None:
-        """Define a number as a / b times a known one; a and b are short."""
+        """Define a number as a / b times a known number; a and b are short."""
         n, d = times(self.top[parent], self.bottom[parent], a, b)
         self.parent[at], self.a[at], self.b[at] = parent, a, b
         if n.bit_length() <= _SHORT and d.bit_length() <= _SHORT:
@@ -73,13 +75,13 @@ class FactoredRatios:
         return n == 0
 
     def value(self, at: int) -> Fraction:
-        """Return the value of a number, multiplied out."""
+        """Return the value of a number as a Fraction."""
         if self.anchor[at] < 0:
             return coprime(self.top[at], self.bottom[at])
         return coprime(*self._times(self._anchor_value(self.anchor[at]), at))
 
     def _anchor_value(self, at: int) -> Fraction:
-        """Return the value of an anchor and cache it for other numbers near it."""
+        """Return the value of an anchor, and cache it for other numbers near it."""
         hops = []
         here = at
         while self.anchor[here] >= 0 and here not in self._recent:
@@ -113,7 +115,7 @@ class FactoredRatios:
             self._bits -= _bits(forgotten)
 
     def _value_from_powers(self, at: int) -> Fraction:
-        """Compute a number from its root and the powers of all ratios along the path."""
+        """Return the value of a number, computed from its root and the powers of all ratios along the path."""
         counts: dict[int, int] = {}
         while (parent := self.parent[at]) >= 0:
             a, b = self.a[at], self.b[at]
@@ -156,7 +158,7 @@ def product_of_powers(powers: dict[int, int]) -> Fraction:
 
 @lru_cache(maxsize=1 << 16)
 def _small_primes(number: int) -> tuple[tuple[tuple[int, int], ...], int]:
-    """Factor out the primes below 1000; return them with their exponents, and the remaining cofactor."""
+    """Return the prime factors below 1000 with their exponents, and the remaining cofactor."""
     found = []
     for prime in _PRIMES:
         if prime * prime > number:
@@ -174,7 +176,7 @@ _PRIMES = [n for n in range(2, _SMALL) if all(n % k for k in range(2, int(n**0.5
 
 
 def _coprime_factors(powers: dict[int, int]) -> dict[int, int]:
-    """Rewrite powers of large numbers as powers of pairwise coprime factors (factor refinement).
+    """Return powers of pairwise coprime factors with the same product as powers of large numbers (factor refinement).
 
     More than `_MOST_ROUGH` numbers are returned unchanged, because the refinement takes quadratic time.
     """
@@ -201,7 +203,7 @@ def _coprime_factors(powers: dict[int, int]) -> dict[int, int]:
 
 
 def _product_tree(factors: list[int]) -> int:
-    """Multiply long numbers by a product tree, the shortest first."""
+    """Return the product of long numbers by a product tree, in which the shortest numbers are multiplied first."""
     if not factors:
         return 1
     heapify(factors)

@@ -1,4 +1,4 @@
-"""Paths in a rooted forest, and disjoint sets (union-find), also with ratios.
+"""Paths in a rooted forest, and disjoint sets (union-find), also with known ratios between elements.
 
 A forest is given by a function that returns the parent of a vertex, and None for a root. All algorithms are iterative,
 so that the forest can have any depth.
@@ -25,7 +25,7 @@ def chain_to_root(vertex: V, above: Callable[[V], V | None]) -> list[V]:
 def ways_to_common_ancestor(i: V, j: V, above: Callable[[V], V | None]) -> tuple[list[V], list[V]]:
     """Return the paths from two vertices of one tree up to their lowest common ancestor, which ends both.
 
-    Together with the edge i j they form the fundamental cycle of that edge.
+    The two paths and the edge i j form the fundamental cycle of this edge.
 
     >>> ways_to_common_ancestor("c", "d", {"c": "b", "b": "a", "d": "b"}.get)
     (['c', 'b'], ['d', 'b'])
@@ -44,13 +44,15 @@ def tree_path(i: V, j: V, above: Callable[[V], V | None]) -> list[V]:
 
 
 class DisjointSets(Generic[V]):
-    """Disjoint sets that can only be merged (union-find); an element not seen before forms a set by itself."""
+    """Disjoint sets that can only be merged (union-find); an element not seen before is a set of its own."""
 
     def __init__(self) -> None:
         self._above: dict[V, V] = {}
 
     def find(self, thing: V) -> V:
-        """Return the representative of an element's set, the same for all elements until the set is merged."""
+        """Return the representative of an element's set; it is the same for all elements of the set until sets are
+        merged.
+        """
         above = self._above
         while (head := above.setdefault(thing, thing)) != thing:
             above[thing] = above[head]  # path halving
@@ -67,9 +69,9 @@ class DisjointSets(Generic[V]):
 
 
 class RatioSets(Generic[V]):
-    """Sets of quantities with known ratios: a union-find with exact weights.
+    """Sets of quantities with known ratios: union-find with exact weights.
 
-    A quantity not seen before has a known ratio to itself only. `join` does not change ratios that are already known.
+    A quantity not seen before has a known ratio only to itself. `join` does not change ratios that are already known.
 
     >>> sizes = RatioSets()
     >>> sizes.join("inch", "foot", Fraction(12))
@@ -82,7 +84,7 @@ class RatioSets(Generic[V]):
         self._above: dict[V, tuple[V, Fraction]] = {}
 
     def root(self, thing: V) -> tuple[V, Fraction]:
-        """Return the representative of a quantity's set, and the ratio of the quantity to it."""
+        """Return the representative of a quantity's set, and the quantity over its representative."""
         way = []
         while (step := self._above.get(thing)) is not None:
             way.append((thing, step[1]))
@@ -94,19 +96,19 @@ class RatioSets(Generic[V]):
         return thing, times
 
     def join(self, first: V, second: V, ratio: Fraction) -> None:
-        """Set the second quantity to `ratio` times the first, unless their ratio is already known."""
+        """Record that the second quantity is `ratio` times the first, unless their ratio is already known."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         if root != other:
             self._above[other] = root, ratio * times / multiple
 
     def ratio(self, first: V, second: V) -> Fraction | None:
-        """Return the ratio of the first to the second quantity, or None if it is unknown."""
+        """Return the first quantity over the second; None if their ratio is unknown."""
         (root, times), (other, multiple) = self.root(first), self.root(second)
         return times / multiple if root == other else None
 
 
 def joined_groups(things: Iterable[V], joints: Iterable[Iterable[V]]) -> list[list[V]]:
-    """Group elements that are connected by joints, each between any number of elements.
+    """Return groups of elements that are connected by joints; a joint connects any number of elements.
 
     Groups are in the order of their first members, and members in the given order. Names in a joint that are not among
     the elements are ignored.

@@ -1,4 +1,4 @@
-"""Lattices of integer rows: a basis of all integer rows in a rational span, and its dual basis of integer columns."""
+"""Lattices of integer rows: a basis of all integer rows in a rational span, and its dual basis."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
 
 
 def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | None:
-    """Reduce the entries of one row by Euclid's algorithm until at most one column is nonzero; return that column."""
+    """Reduce the entries of one row by Euclid's algorithm until at most one column has an entry; return this column."""
     live = [key for key, column in columns.items() if at in column]
     while len(live) > 1:
         # divide by the smallest entry: remainders, and the numbers in `moves`, stay short

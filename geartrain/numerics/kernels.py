@@ -10,7 +10,7 @@ key, so a change anywhere recompiles all callers. Rounding is as in Python: sums
 fused. A division by zero returns an infinity, as in numpy, and does not raise an error as in Python. Arguments should
 keep their types and be C-contiguous writable arrays, because every new type requires a compilation.
 
-Compilation takes seconds. `telling` calls a function when it begins, and Ctrl-C ends it.
+Compilation takes seconds. `telling` calls a function when it begins, and Ctrl+C interrupts it.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _listeners: list[Callable[[], None]] = []  # functions called once when a kernel
 
 @contextmanager
 def telling(say: Callable[[], None]) -> Iterator[None]:
-    """Call `say` before the first kernel is compiled within the context; loading from disk does not count."""
+    """Call `say` before the first kernel is compiled within the context; kernels loaded from disk are not reported."""
     _listeners.append(say)
     try:
         yield
@@ -44,7 +44,7 @@ def telling(say: Callable[[], None]) -> Iterator[None]:
 
 @contextmanager
 def compilation() -> Iterator[None]:
-    """Wrap all work that numba does before a kernel runs, so that Ctrl-C ends it.
+    """Wrap all work that numba does before a kernel runs, so that Ctrl+C interrupts it.
 
     Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is
     finalised. Here the interrupt is recorded without a warning, and raised as soon as the kernel is compiled.
@@ -69,14 +69,13 @@ class _Listener:
     """Listener for numba's events at the start and end of a compilation."""
 
     def notify(self, event: Any) -> None:
-        """Call all registered functions, each once."""
         while _listeners:
             _listeners.pop(0)()
 
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """Raise a KeyboardInterrupt at the end of the context if Python had to ignore it within."""
+    """Raise `KeyboardInterrupt` at the end of the context if Python ignored an interrupt within it."""
     if current_thread() is not main_thread():  # interrupts are delivered to the main thread only
         yield
         return
@@ -106,14 +105,14 @@ _PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # types of global co
 
 
 class Kernel(Generic[P, R]):
-    """A function in plain Python together with its compiled form; created by `kernel`."""
+    """Function in plain Python with its compiled form, created by `kernel`."""
 
     def __init__(self, function: Callable[P, R]) -> None:
         update_wrapper(self, function)
         self._function = cast(FunctionType, function)
 
     def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
-        """Call the function in plain Python."""
+        """Call the function as plain Python."""
         return cast(R, self._function(*arguments, **named))
 
     @cached_property
@@ -123,7 +122,7 @@ class Kernel(Generic[P, R]):
 
     @cached_property
     def _called(self) -> Callable[P, R]:
-        """The function compiled for calls from other kernels only, which takes less time."""
+        """Function compiled for calls from other kernels only, which takes less time."""
         return self._made(no_cpython_wrapper=True)
 
     def _made(self, **options: bool) -> Callable[P, R]:
@@ -142,11 +141,11 @@ class Kernel(Generic[P, R]):
         return self.compiled if fast else self
 
     def replaced(self, **kernels: Kernel[..., Any]) -> Kernel[P, R]:
-        """Return the function with some of the kernels that it calls directly replaced, by name."""
+        """Return the function with some of the kernels that it calls directly replaced by others, by name."""
         return Kernel(cast("Callable[P, R]", self._copy_with(kernels)))
 
     def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
-        """Return a copy of the function with some global names bound to other objects."""
+        """Return a copy of the function in which some global names refer to other objects."""
         own = self._function
         twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)
         twin.__annotations__ = own.__annotations__
@@ -154,7 +153,7 @@ class Kernel(Generic[P, R]):
 
     @property
     def _named(self) -> dict[str, Any]:
-        """Objects that the global names in the function refer to, by name."""
+        """Global objects to which the function refers, by name."""
         known = self._function.__globals__
         return {name: known[name] for name in _names(self._function.__code__) if name in known}
 
@@ -179,14 +178,14 @@ class Kernel(Generic[P, R]):
 
 
 def kernel(function: Callable[P, R]) -> Kernel[P, R]:
-    """Mark a function of numbers and arrays as one that can be compiled; a decorator."""
+    """Mark a function of numbers and arrays as compilable (decorator)."""
     return Kernel(function)
 
 
 def is_fast(fast: bool | None, seconds: float) -> bool:
     """Return whether to compile kernels for work that takes `seconds` in Python and numpy.
 
-    fast   the user's choice; None compiles if numba is installed and the work is long enough to justify loading it
+    fast   choice of the user; None to compile if numba is installed and the work is long enough to justify loading it
 
     Raises `MissingExtraError` if `fast` is true and numba is not installed.
     """

@@ -18,7 +18,7 @@ _MOST = 40  # labels of an axis that are shown whole
 
 @dataclass(frozen=True, slots=True)
 class LabelledArray(Tabular, Result):
-    """A read-only array whose every axis has a name and a label for each position.
+    """Read-only array in which every axis has a name, and every position on an axis a label.
 
     `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels. An unknown label raises `KeyError`.
 
@@ -33,11 +33,11 @@ class LabelledArray(Tabular, Result):
     KEYS = ("axes", "labels", "values")
 
     values: NDArray[Any]
-    """The numbers, an array of any shape, read-only."""
+    """Values, a read-only array with one dimension for each axis."""
     axes: tuple[str, ...]
     """Name of each axis, such as ("link", "case")."""
     labels: tuple[tuple[str, ...], ...]
-    """Label of each position, for each axis."""
+    """Labels of the positions, for each axis."""
 
     def __post_init__(self) -> None:
         if self.values.shape != tuple(len(names) for names in self.labels):
@@ -101,7 +101,7 @@ class LabelledArray(Tabular, Result):
 
 
 def _shown(count: int) -> list[int | None]:
-    """Return the displayed positions of an axis: all, or some from both ends around None."""
+    """Return the displayed positions of an axis: all of them, or the first and last ones with None between them."""
     if count <= _MOST:
         return list(range(count))
     return [*range(_MOST // 2), None, *range(count - _MOST // 2, count)]

@@ -1,7 +1,7 @@
 """A networkx multigraph with attributes that are computed when they are first read.
 
-Attributes of an edge may cost more than the graph. Such an attribute is stored as `Lazy(make)`, and any of networkx's
-ways to read it returns the result of `make`.
+An attribute of an edge may take longer to compute than the graph. It is stored as `Lazy(make)`, and networkx returns
+the result of `make` whenever the attribute is read.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import networkx as nx
 
 
 class Lazy:
-    """A value that is computed once, on first access."""
+    """Value that is computed once, when it is first read."""
 
     __slots__ = ("_make", "_value")
 
@@ -22,7 +22,7 @@ class Lazy:
         self._value: Any = None
 
     def __call__(self) -> Any:
-        """Return the value, computing it on the first call."""
+        """Return the value, which is computed at the first call."""
         if self._make is not None:
             self._value = self._make()
             self._make = None  # releases the memory of the function
@@ -30,7 +30,7 @@ class Lazy:
 
 
 class LazyDict(dict[str, Any]):
-    """A dictionary that computes its `Lazy` values when they are read; callers see plain values only.
+    """Dictionary that computes its `Lazy` values when they are read; callers get only computed values.
 
     >>> requested = []
     >>> data = LazyDict(id="a", cost=Lazy(lambda: requested.append("cost") or 7))
@@ -67,15 +67,15 @@ class LazyDict(dict[str, Any]):
         return self[key]
 
     def values(self) -> Any:
-        """Return all values, computing lazy ones."""
+        """Return all values; lazy values are computed."""
         return self._made().values()
 
     def items(self) -> Any:
-        """Return all items, computing lazy values."""
+        """Return all items; lazy values are computed."""
         return self._made().items()
 
     def copy(self) -> dict[str, Any]:
-        """Return a plain dictionary of all values, computing lazy ones."""
+        """Return a plain dictionary of all values; lazy values are computed."""
         return self._made()
 
     def __eq__(self, other: object) -> bool:
@@ -108,7 +108,7 @@ else:
 
 
 class LazyGraph(_MultiGraph):
-    """A multigraph whose nodes and edges store attributes in `LazyDict` objects."""
+    """Multigraph whose nodes and edges store attributes in `LazyDict` objects."""
 
     node_attr_dict_factory = LazyDict
     edge_attr_dict_factory = LazyDict

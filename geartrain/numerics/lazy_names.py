@@ -10,7 +10,7 @@ from typing import Any
 def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
     """Return the `__getattr__` function of a package.
 
-    homes   name -> the module below `package` that defines it; with leading dots, relative to a package above it
+    homes   name -> module below `package` that defines it; with leading dots, relative to a package above it
     """
 
     def find(name: str) -> Any:

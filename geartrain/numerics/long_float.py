@@ -12,15 +12,15 @@ from typing import Any, Self
 from geartrain.numerics.exact import decimal
 
 LOWEST, HIGHEST = -1021, 1024
-"""Range of exponents with which float64 represents mantissas from 1/2 to 1 with all 53 bits."""
+"""Range of exponents for which float64 represents mantissas from 1/2 to 1 with all 53 bits."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LongFloat(Rational):
-    """A number mantissa * 2**exponent with 53 bits whose exponent is out of the range of float64.
+    """Number mantissa * 2**exponent with 53 bits, whose exponent is out of the range of float64.
 
-    Arithmetic rounds like that of floats, and returns a float wherever one can represent the result. Operands may also
-    be floats, integers and Fractions. `Fraction(value)` is its exact value, which like that of any float is rounded.
+    Arithmetic rounds in the same way as for floats, and returns a float if float64 can represent the result. Operands
+    may also be floats, integers and Fractions. `Fraction(value)` returns the exact value of the rounded number.
 
     Examples
     --------
@@ -176,7 +176,7 @@ class LongFloat(Rational):
 
 
 Real = float | LongFloat
-"""A number of 53 bits with any exponent."""
+"""Number with 53 bits and any exponent."""
 
 
 def scaled(mantissa: float, exponent: int) -> Real:
@@ -191,13 +191,13 @@ def scaled(mantissa: float, exponent: int) -> Real:
 
 
 def rounded(value: Fraction) -> Real:
-    """Return the nearest number of 53 bits."""
+    """Return the nearest number with 53 bits."""
     part, power = split(value)
     return scaled(part, power)
 
 
 def split(value: Fraction | int) -> tuple[float, int]:
-    """Split an exact number into the nearest mantissa, 1/2 to 1, and exponent of two; (0, 0) for 0."""
+    """Return the nearest mantissa, 1/2 to 1, and the exponent of two of an exact number; (0, 0) for 0."""
     top, bottom = value.numerator, value.denominator
     power = top.bit_length() - bottom.bit_length()
     # shifted to equal length, the quotient is between 1/2 and 2, and Python rounds a quotient of integers only once
@@ -206,7 +206,7 @@ def split(value: Fraction | int) -> tuple[float, int]:
 
 
 def as_plain(value: Real | None) -> float | None:
-    """Return a value that is a float; None for a `LongFloat` or None."""
+    """Return a value if it is a float; None for a `LongFloat` or None."""
     return value if isinstance(value, float) else None
 
 

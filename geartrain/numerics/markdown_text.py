@@ -1,4 +1,4 @@
-"""User text as literal text in Markdown, without HTML and without links that could run a script."""
+"""Conversion of user text to literal Markdown, without HTML and without links that could run a script."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _FOLLOWED = {"http", "https", "mailto"}
 
 
 def markdown_text(text: str) -> str:
-    r"""Return a text with escaped HTML, and with escaped links except relative, http, https and mailto ones.
+    r"""Return a text with escaped HTML, and with links escaped unless they are relative or http, https or mailto links.
 
     >>> markdown_text("<b> [worn](JavaScript:alert(1)), see [the paper](https://example.org)")
     '&lt;b> [worn]\\(JavaScript:alert(1)), see [the paper](https://example.org)'
@@ -24,6 +24,6 @@ def markdown_text(text: str) -> str:
 
 
 def _bracket(found: re.Match[str]) -> str:
-    """Return the bracket before an address, followed by a backslash if the address is not allowed."""
+    """Return the bracket before an address; a backslash is added if the address is not allowed."""
     scheme = _SCHEME.match(_IGNORED.sub("", found[1] or found[2] or ""))
     return "]" if scheme is None or scheme[1].lower() in _FOLLOWED else "]\\"

@@ -1,7 +1,7 @@
 """Smooth curves as piecewise polynomials of one degree: fitting, evaluation, extremes and moments, vectorised.
 
-A piece is a polynomial in u, which runs from -1 to 1 along it. Coefficients have shape (COUNT, pieces), by ascending
-powers of u.
+A piece is a polynomial in u, which increases from -1 to 1 along the piece. Coefficients have shape (COUNT, pieces), by
+ascending powers of u.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ _GAUSS = np.polynomial.legendre.leggauss(20)  # exact to degree 39; squares of p
 
 
 class PolynomialPiece(NamedTuple):
-    """A piece of a curve: end parameters, coefficients of powers of u in [-1, 1] (COUNT, k), maximum errors (k)."""
+    """Piece of a curve: end parameters, coefficients of powers of u in [-1, 1], shape (COUNT, k), maximum errors, shape
+    (k,).
+    """
 
     start: float
     end: float
@@ -43,7 +45,8 @@ class PolynomialPiece(NamedTuple):
 
 
 def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: int = 0) -> list[PolynomialPiece]:
-    """Fit a curve of k coordinates, t (n,) -> (k, n), by adaptive Chebyshev interpolation down to rounding.
+    """Return the pieces of a curve with k coordinates, t (n,) -> (k, n), by adaptive Chebyshev interpolation to
+    rounding.
 
     Pieces are bisected until their last coefficients are negligible. Raises `RangeError` if the curve is not smooth.
     """
@@ -66,7 +69,9 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
 
 
 def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple[PolynomialPiece, float]:
-    """Interpolate the curve at Chebyshev nodes; return the piece and the relative size of its last coefficients."""
+    """Return the piece that interpolates the curve at Chebyshev nodes, and the relative size of its last
+    coefficients.
+    """
     half, middle = (end - start) / 2, start + (end - start) / 2
     t = middle + half * np.concatenate([_NODES, _BETWEEN])
     t[0], t[COUNT - 1] = start, end  # rounding must not move a node outside, where the curve may be undefined
@@ -81,7 +86,9 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
 
 
 def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floats]:
-    """Return value and derivative of the given pieces at u, with coefficients of shape (COUNT, pieces)."""
+    """Return value and derivative at u of the pieces with index `piece`; `coefficients` has the shape (COUNT,
+    pieces).
+    """
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
     for row in coefficients[::-1]:  # Horner's rule in place for value and derivative
@@ -93,7 +100,7 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
 
 
 def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
-    """Return only the value of `value`, identical in every bit."""
+    """Return the same value as `value`, bit for bit, without the derivative."""
     single = coefficients.shape[1] == 1
     found = np.zeros(u.shape)
     for row in coefficients[::-1]:
@@ -103,7 +110,7 @@ def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
 
 
 def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
-    """Return mean and standard deviation over all pieces of the given half lengths, by Gauss quadrature."""
+    """Return mean and standard deviation over all pieces, whose half lengths are `halves`, by Gauss quadrature."""
     nodes, weights = _GAUSS
     values = np.polynomial.polynomial.polyval(nodes, coefficients)
     share = halves / halves.sum() / 2
@@ -113,7 +120,7 @@ def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
 
 
 def extremes(coefficients: Floats) -> tuple[float, float]:
-    """Return minimum and maximum over all pieces, ignoring pieces that are NaN."""
+    """Return minimum and maximum over all pieces; pieces that contain NaN are ignored."""
     held = coefficients[:, ~np.isnan(coefficients[0])]
     values = np.concatenate([ends(held).ravel(), *(_polynomial(column, _turns(column)) for column in held.T)])
     return float(values.min()), float(values.max())
@@ -130,7 +137,7 @@ def ends(coefficients: Floats) -> Floats:
 
 
 def _turns(column: Floats) -> Floats:
-    """Return approximate stationary points u of a polynomial; an error in u has only a second-order effect on its
+    """Return approximate stationary points u of a polynomial; their errors have only second-order effects on its
     value.
     """
     slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)

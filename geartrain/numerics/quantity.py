@@ -1,4 +1,4 @@
-"""Numbers and quantities as written by people: "254/19", "1:30", "13.3684", "9.6 mm", "30 deg", "100 rpm"."""
+"""Numbers and quantities as written by users: "254/19", "1:30", "13.3684", "9.6 mm", "30 deg", "100 rpm"."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ IRRATIONAL: dict[str, tuple[str, Fraction]] = {
     "rad": ("angle", _TURNS_PER_RADIAN),
     "rad/s": ("speed", _TURNS_PER_RADIAN),
 }
-_EXACT = Fraction(0), Fraction("1e300")
+_EXACT = Fraction(0), Fraction("1e300")  # bounds of quantities that are used only in exact arithmetic
 _FLOATS = Fraction(1, 10**30), Fraction(10**30)  # the tenth power of such a number is still a float
 _SIZES = Fraction(1, 10**12), Fraction(10**6)  # lengths of bodies, in m or plain: sizes that can be laid out and drawn
 _BOUNDS = {"length": _SIZES, "length or fraction": (_FLOATS[0], _SIZES[1])} | {
@@ -120,18 +120,20 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the turns in one unit of time at a speed of 1: 1/360 for deg/s, 1 for rpm and for plain numbers."""
+    """Return the angle per unit of time at a speed of 1 in a unit [turn]: 1/360 for deg/s, 1 for rpm and plain
+    numbers.
+    """
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
 
 
 def same_kind(first: str | None, second: str | None) -> bool:
-    """Return whether one unit is a rational multiple of the other; a radian is one of radians only."""
+    """Return whether one unit is a rational multiple of the other; radians are rational multiples only of radians."""
     return (first in IRRATIONAL) == (second in IRRATIONAL)
 
 
 def nearest_unit(unit: str, dimension: str) -> str:
-    """Suggest known units for an unknown one, such as `rpm` for RPM."""
+    """Return a text with known units that are similar to an unknown one, such as `rpm` for RPM."""
     known = units_of(dimension)
     spelt = {name.casefold(): name for name, meant in SPELT.items() if meant in known.split(", ")}
     names = spelt | {name.casefold(): name for name in known.split(", ")}
@@ -140,7 +142,7 @@ def nearest_unit(unit: str, dimension: str) -> str:
 
 
 def units_of(dimension: str) -> str:
-    """List all units of a dimension, or of several joined by `or`, as text."""
+    """Return all units of a dimension, or of several dimensions joined by `or`, as text."""
     known = [*UNITS.items(), *IRRATIONAL.items()]
     return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
 
@@ -155,10 +157,10 @@ def base_unit(dimension: str) -> str:
 
 
 def bounds_of(dimension: str) -> tuple[Fraction, Fraction]:
-    """Return the minimum and maximum magnitude of a nonzero quantity in base units; "time or length" allows both.
+    """Return the minimum and maximum magnitude of a nonzero quantity in base units.
 
-    Lengths of bodies have the narrowest bounds. Dimensions that are computed in floats have narrower bounds than
-    others.
+    Lengths of bodies have the narrowest bounds. Dimensions that are used in float computations have narrower bounds
+    than others. "time or length" has the widest bounds.
     """
     return _BOUNDS.get(dimension, _EXACT)
 
@@ -172,7 +174,7 @@ _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$"
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A number together with the digits it was written with.
+    """Number together with the digits with which it was written.
 
     Examples
     --------
@@ -182,17 +184,16 @@ class Figure:
     """
 
     value: Fraction
-    """The number, exactly as written."""
+    """Value of the number, exactly as written."""
     half: Fraction | None
-    """Half a unit of the last decimal written; None for an integer or fraction, which is exact."""
+    """Half a unit of the last written decimal; None for an integer or fraction, which is exact."""
     text: str
-    """The number as written."""
+    """Text of the number as written."""
 
     def __str__(self) -> str:
         return self.text
 
     def _brief(self) -> str:
-        """Return the text, for the summary line of an object that contains it."""
         return self.text
 
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
@@ -201,9 +202,9 @@ class Figure:
         Parameters
         ----------
         value : Fraction
-            The number.
+            Number to compare.
         tolerance : Fraction, optional
-            Maximum difference, 0 or more; default half a unit of the last decimal written.
+            Maximum difference, 0 or more; by default half a unit of the last written decimal.
         """
         bound = tolerance if tolerance is not None else self.half or Fraction(0)
         return abs(value - self.value) <= bound if bound else bool(value == self.value)
@@ -220,7 +221,7 @@ class Figure:
         Raises
         ------
         ValueError
-            If it is not such a number.
+            If `raw` is not such a number.
 
         Examples
         --------
@@ -302,9 +303,9 @@ Friction = Annotated[Figure, AfterValidator(_not_negative)]
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A number with its unit as written.
+    """Number with its unit as written.
 
-    Comparisons and computations use `base`, never `value`, so that two units of one dimension mean the same. Units are
+    Use `base` in comparisons and computations, not `value`, because it does not depend on the written unit. Units are
     those of `UNITS`, and rad and rad/s. A radian is an irrational fraction of a turn, rounded to 50 digits.
 
     Examples
@@ -315,17 +316,16 @@ class Quantity:
     """
 
     value: Fraction
-    """The number, exact in the unit written."""
+    """Number in the written unit, exact."""
     unit: str | None
-    """The unit; None for a plain number."""
+    """Unit as written; None for a plain number."""
     text: str
-    """The quantity as written."""
+    """Text of the quantity as written."""
 
     def __str__(self) -> str:
         return self.text
 
     def _brief(self) -> str:
-        """Return the text, for the summary line of an object that contains it."""
         return self.text
 
     @property
@@ -358,17 +358,21 @@ class Quantity:
             length, angle, time, speed, velocity, torque, inertia, mass, density, pressure, torsional stiffness,
             stiffness, torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
-            Whether a plain number is allowed. 0 is always allowed.
+            True to allow a plain number without unit; 0 is always allowed.
 
         Raises
         ------
         ValueError
-            If it is not a number, or its unit is unknown, of another dimension, or missing.
+            If `raw` is not a number, or if its unit is unknown, of another dimension, or missing.
         """
         if isinstance(raw, Quantity):
             return raw
         text = str(raw)
         match = _QUANTITY.match(text) if isinstance(raw, str) and len(text) <= _MOST_DIGITS else None
+        if match is None and (number := re.match(r"[\d.]+ +(?=.*[A-Za-z])", text[:_MOST_DIGITS])):
+            known = units_of(dimension)
+            fix = f"write for example '{number[0].strip()} {known.split(', ')[0]}'; units: {known}"
+            raise PydanticCustomError("unit", "'{text}' has an unknown unit", {"text": text, "fix": fix})
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
             if not plain and figure.value:
@@ -400,7 +404,9 @@ class Quantity:
 
 
 def _in_range(quantity: Quantity, dimension: str) -> Quantity:
-    """Return a quantity that is in the range of its dimension, so that its products and squares are floats too."""
+    """Return the quantity if it is in the range of its dimension, in which products and squares are floats; else raise
+    an error.
+    """
     low, high = bounds_of(dimension)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity
@@ -415,7 +421,7 @@ def _out_of_range(text: str, why: str, fix: str) -> PydanticCustomError:
 
 
 def in_unit(speed: Quantity, unit: str) -> Fraction:
-    """Return the number of units in a quantity; in its own unit as written, so that radians stay exact."""
+    """Return a speed in a given unit; a speed that is written in this unit is unchanged, so that radians stay exact."""
     return speed.value if speed.unit == unit else speed.base / scale(unit)[1]
 
 
@@ -429,7 +435,7 @@ def millimetres(length: Quantity) -> Fraction:
 
 
 def _no_unit(text: str, dimension: str) -> PydanticCustomError:
-    first = units_of(dimension).split(", ")[0]
+    first = "mm" if dimension.startswith("length") else units_of(dimension).split(", ")[0]
     return PydanticCustomError(
         "unit",
         "'{text}' has no unit",
@@ -444,7 +450,7 @@ def _with_article(noun: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """Pydantic annotation for a field that is a quantity of one dimension."""
+    """Pydantic annotation of a field that is a quantity of one dimension."""
 
     name: str
     plain: bool = False
@@ -457,12 +463,13 @@ class Dimension:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         kinds = ["string", "number"] if self.plain else ["string"]
-        return {"type": kinds, "description": f"A {self.name} with its unit: {units_of(self.name)}"}
+        unit = f"{_with_article(self.name).capitalize()} with its unit: {units_of(self.name)}"
+        return {"type": kinds, "format": self.name, "description": unit}
 
 
 Length = Annotated[Quantity, Dimension("length", plain=True)]
 MeasuredLength = Annotated[Quantity, Dimension("length")]
-"""A length with an obligatory unit."""
+"""Length that must have a unit."""
 Angle = Annotated[Quantity, Dimension("angle")]
 Time = Annotated[Quantity, Dimension("time")]
 Span = Annotated[Quantity, Dimension("time or length")]
@@ -514,7 +521,7 @@ def not_below_zero(fix: str) -> AfterValidator:
 
 
 PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, such as 20 N/um")]
-"""Torque on the driven wheel per radian, or force along the line of action per length."""
+"""Stiffness: torque on the driven wheel per angle, or force along the line of action per displacement."""
 
 PairDamping = Annotated[MeshDamping, not_below_zero("give a damping of 0 or more")]
-"""Torque on the driven wheel per angular velocity, or force along the line of action per velocity."""
+"""Damping: torque on the driven wheel per angular velocity, or force along the line of action per velocity."""

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from geartrain.numerics.vectors import IntegerVector, dot
 
-_CHANCE = 1e-3  # maximum probability that a random angle is taken for a fraction
+_PROBABILITY = 1e-3  # maximum probability that a random angle is taken for a fraction
 _DENSITY = 3 / math.pi**2  # about this times q squared reduced fractions below 1 have a denominator up to q
 
 
@@ -26,7 +26,7 @@ def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction 
 
 
 def recognised_angle(turn: float, slack: float) -> Fraction | None:
-    """Return the fraction within `slack` of an angle [turn], or None if such a fraction could be a coincidence.
+    """Return the fraction of a turn within `slack` of an angle [turn]; None if such a fraction could be a coincidence.
 
     Fractions with denominators up to q match a random angle with probability 0.6 q^2 slack, which bounds q. At most one
     such fraction exists, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
@@ -34,7 +34,7 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
     >>> recognised_angle(0.3333, 1e-4), recognised_angle(0.3679, 1e-4)
     (Fraction(1, 3), None)
     """
-    most = math.sqrt(_CHANCE / (2 * _DENSITY * slack))
+    most = math.sqrt(_PROBABILITY / (2 * _DENSITY * slack))
     before, last = (0, 1), (1, 0)
     rest = turn
     while True:
@@ -49,5 +49,5 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
 
 
 def centred_residue(value: Fraction) -> Fraction:
-    """Reduce a number modulo 1 to the interval above -1/2 up to 1/2."""
+    """Return a number modulo 1 in the interval -1/2 (excluded) to 1/2 (included)."""
     return value - math.ceil(value - Fraction(1, 2))

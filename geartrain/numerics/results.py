@@ -28,11 +28,11 @@ from geartrain.errors import MissingExtraError, printable
 from geartrain.numerics.exact import abridged_text, fraction_text
 from geartrain.numerics.long_float import LongFloat
 
-_SHOWN = 20
+_SHOWN = 20  # rows of a table that are printed
 
 
 class Shown:
-    """A result whose `repr` is one line and whose `str` is the text that its command prints.
+    """Result whose `repr` is one line, and whose `str` is the text that its command prints.
 
     Notebooks show the tables of its HTML page. The line contains only values that are already computed.
     """
@@ -40,12 +40,12 @@ class Shown:
     __slots__ = ()
 
     PAGE: ClassVar[str] = ""
-    """Function `package.module:function` that describes the result as a document, or returns None if it cannot.
+    """Function `package.module:function` that describes the result as a document; it may return None.
 
-    The name is "" if no command prints such a result.
+    The constant is "" if no command prints such a result.
     """
     TEXT: ClassVar[str] = ""
-    """Function that returns the text of the command, if it differs from the text of the document."""
+    """Function that returns the text of the command, if this is not the text of the document."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         """Keep the inherited `__repr__` of a class, which `dataclass` would otherwise replace."""
@@ -76,7 +76,7 @@ class Shown:
         page = _described(self, self.PAGE)
         if page is not None:
             try:
-                html: str = picture_maker("report.html_page", "to_fragment")([page])
+                html: str = imported_function("report.html_page", "to_fragment")([page])
                 return html
             except MissingExtraError:
                 pass
@@ -84,15 +84,15 @@ class Shown:
 
 
 def _described(result: object, name: str) -> Any:
-    """Return the result of the function `package.module:function` for `result`; None without a name."""
+    """Return the result of the function `package.module:function` for an object; None if the name is empty."""
     if not name:
         return None
     module, _, function = name.partition(":")
-    return picture_maker(module, function)(result)
+    return imported_function(module, function)(result)
 
 
 def _text_of(document: Any) -> str:
-    text: str = picture_maker("report.text", "to_text")([document])
+    text: str = imported_function("report.text", "to_text")([document])
     return printable(text)
 
 
@@ -103,7 +103,7 @@ _LONGEST_VALUE = 40
 
 
 def summary_line(name: str, summary: str) -> str:
-    """Return `<name summary>` on one line of at most about 180 characters.
+    """Return `<name summary>` on one line; the summary has at most 160 characters.
 
     >>> summary_line("Answer", "worm: determined")
     '<Answer worm: determined>'
@@ -115,16 +115,16 @@ def summary_line(name: str, summary: str) -> str:
 
 
 def fields_summary(result: Any) -> str:
-    """Return the public fields of a dataclass or named tuple, each as `name=value`, without fields that are None.
+    """Return the public fields of a dataclass or named tuple as `name=value`, without fields that are None.
 
-    Numbers have 6 digits. Only the length of containers is shown. Mappings that are not yet created are omitted.
+    Numbers have 6 digits. For containers only the length is shown. Mappings that are not yet created are omitted.
     """
     own = [each.name for each in fields(result)] if is_dataclass(result) else ()
     return values_summary(result, getattr(result, "_fields", own))
 
 
 def values_summary(result: Any, names: Iterable[str]) -> str:
-    """Return some attributes, each as `name=value`, without attributes that are None."""
+    """Return the named attributes as `name=value`, without attributes that are None."""
     found: list[str] = []
     length = 0
     for name in names:
@@ -146,7 +146,7 @@ def short_repr(result: Any) -> str:
 
 
 def brief(value: object) -> str | None:
-    """Return a value in a few characters; None for a value that a summary omits.
+    """Return a value as short text; None for a value that a summary omits.
 
     >>> brief(Fraction(2, 7)), brief(0.12345678), brief(["a", "b", "c", "d", "e"]), brief("two words")
     ('2/7', '0.123457', '5 items', "'two words'")
@@ -189,9 +189,9 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
 
 
 class Tabular(Shown):
-    """A result with columns, which can be exported as a table.
+    """Result with columns, which can be exported as a table.
 
-    Notebooks show its first rows, unless it has a page.
+    Notebooks show the first rows, or the page of the result if it has one.
     """
 
     __slots__ = ()
@@ -202,12 +202,12 @@ class Tabular(Shown):
     ROW: ClassVar[str] = ""
     """Name of the class, in the module of the result, whose fields are the columns."""
     ROWS: ClassVar[str] = ""
-    """Function that returns the rows, each as a dictionary by column; "" for a class with its own `columns`."""
+    """Function that returns the rows, each as a dictionary by column; "" for a class that defines `columns`."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of equal length by name: numbers as floats, exact numbers as text next to them, None for missing
-        values.
+        """Columns of equal length by name. Numbers are floats, exact numbers are text in separate columns, and missing
+        values are None.
         """
         rows = _described(self, self.ROWS) or ()
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
@@ -218,7 +218,7 @@ class Tabular(Shown):
         return {name: text for name in self.columns if (text := self._meaning(name))}
 
     def _meaning(self, column: str) -> str:
-        """Return the meaning of one column, or "" if it is unknown."""
+        """Return the meaning of one column; "" if it is unknown."""
         own: Any = type(self)
         row = getattr(modules[own.__module__], self.ROW or own.__name__)
         known = {**field_docs(own), **field_docs(row), **self.MEANINGS}
@@ -258,7 +258,7 @@ class Tabular(Shown):
         """Return the text that the command prints for the result, or its first rows as a table if it has no command."""
         found = _described(self, self.TEXT or self.PAGE)
         if found is None:
-            table = picture_maker("report.document", "table_document")(self.columns, _SHOWN)
+            table = imported_function("report.document", "table_document")(self.columns, _SHOWN)
             return f"{self!r}\n{_text_of(table)}"
         return found if isinstance(found, str) else _text_of(found)
 
@@ -275,19 +275,19 @@ class Tabular(Shown):
 
 
 def _property_doc(member: object) -> str:
-    """Return the first paragraph of a property's docstring; "" for other members."""
+    """Return the first paragraph of a property's docstring; "" for other objects."""
     maker = member if isinstance(member, property) else getattr(member, "func", None)
     return " ".join((getattr(maker, "__doc__", None) or "").split("\n\n")[0].split())
 
 
 def _unit(meaning: str) -> str:
-    """Return the unit in the brackets of a meaning; "" without one."""
+    """Return the unit in square brackets in the meaning of a column; "" if there is none."""
     found = search(r"\[([^\]]+)\]", meaning)
     return found[1] if found else ""
 
 
 def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:
-    """Replace None by NaN in columns of numbers, and by "" in columns of text."""
+    """Return a column with None replaced by NaN if it has numbers, or by "" if it has text."""
     if not any(value is None for value in values):
         return values
     texts = any(isinstance(value, str) for value in values)
@@ -300,11 +300,11 @@ def _cell(value: object) -> str:
     return escape(value) if isinstance(value, str) else f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def picture_maker(room: str, name: str) -> Callable[..., Any]:
+def imported_function(room: str, name: str) -> Callable[..., Any]:
     """Import the function that draws or describes a result, by name.
 
-    Modules that draw depend on modules that calculate. Results call them only here, by name and when they are
-    displayed, so that drawing code is not imported earlier.
+    Modules that draw import modules that calculate, not the reverse. Results call drawing code only through this
+    function, by name, when they are displayed.
 
     room   module or package below `geartrain`
     name   name of the public function or class in it
@@ -314,7 +314,7 @@ def picture_maker(room: str, name: str) -> Callable[..., Any]:
 
 
 class Pictured:
-    """A result with a picture, drawn by the function `FIGURE` of the package `DRAWN_IN`."""
+    """Result with a picture, drawn by the function `FIGURE` of the package `DRAWN_IN`."""
 
     __slots__ = ()
 
@@ -332,30 +332,30 @@ class Pictured:
         Returns
         -------
         matplotlib.figure.Figure
-            The figure, for `geartrain.drawing.render` or further drawing.
+            Figure, which `geartrain.drawing.render` converts to a file.
 
         Raises
         ------
         MissingExtraError
             If matplotlib, which the extra `plot` installs, is missing.
         """
-        return picture_maker(self.DRAWN_IN, self.FIGURE)(self, *how)
+        return imported_function(self.DRAWN_IN, self.FIGURE)(self, *how)
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """A key of a result's plain data that differs from the attribute of that name."""
+    """Key of a result's plain data that differs from the attribute with the same name."""
 
     name: str
-    """Name in the data; "" merges the keys of a part into those of the result."""
+    """Name in the data; "" to merge the keys of a part into the keys of the result."""
     of: str = ""
-    """Path of the attribute, `part.attribute` for one of a part, "." for the object itself; default `name`."""
+    """Path of the attribute, `part.attribute` for an attribute of a part, "." for the object; by default `name`."""
     to: Callable[[Any], Any] | None = None
-    """Conversion of each number or object in the attribute, at any depth; its return annotation is the type in the
-    data.
+    """Function that converts each number or object in the attribute, at any depth; its return annotation is the type in
+    the data.
     """
     keys: tuple[str | Key, ...] = ()
-    """Keys of each object in the attribute, if they are not those of its class."""
+    """Keys of each object in the attribute, if they differ from the keys of its class."""
 
     @property
     def path(self) -> str:
@@ -372,19 +372,19 @@ def group(name: str, *keys: str | Key) -> Key:
 
 
 class Result(Shown):
-    """A result that can be converted to plain data for JSON: the keys in `KEYS`, or all its fields."""
+    """Result that can be converted to plain data for JSON: the keys in `KEYS`, or all its fields."""
 
     __slots__ = ()
     KEYS: ClassVar[tuple[str | Key, ...]] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON; the keys are stable (docs/json.md)."""
+        """Return the result as plain data for JSON; the keys are stable (docs/json.md)."""
         return _plain_data(self)
 
 
 @dataclass(frozen=True, slots=True)
 class TrainResult(Result):
-    """A result for a train that keeps the declaration of the train, which its text and its tables need."""
+    """Result for a train that contains the declaration of the train, which its text and its tables need."""
 
     _declaration: Any = field(default=None, kw_only=True, repr=False, compare=False)
 
@@ -397,9 +397,10 @@ class TrainResult(Result):
 
 
 def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Any:
-    """Convert a value to plain data for JSON.
+    """Return a value as plain data for JSON.
 
-    `to` and `keys`, as in `Key`, apply to everything in it except mappings, lists and None.
+    `to` and `keys` have the same meaning as in `Key`, and apply to all objects in the value except mappings, lists and
+    None.
 
     >>> plain({"ratio": Fraction(254, 19), "teeth": (20, 30)})
     {'ratio': '254/19', 'teeth': [20, 30]}
@@ -448,7 +449,7 @@ def _plain_data(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]
 
 @cache
 def keys_of(kind: Any) -> tuple[Key, ...]:
-    """Return the keys of a class's plain data in order. Raises `TypeError` for a class without any."""
+    """Return the keys of a class's plain data in order. Raises `TypeError` for a class without keys."""
     named: tuple[str | Key, ...] = getattr(kind, "KEYS", ())
     if not named and is_dataclass(kind):
         named = tuple(each.name for each in fields(kind) if not each.name.startswith("_"))
@@ -458,7 +459,7 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
 
 
 def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
-    """Convert names in a list of keys to keys of the attributes of that name."""
+    """Return keys of the attributes with the same name for the names in a sequence of keys and names."""
     return tuple(each if isinstance(each, Key) else Key(each) for each in keys)
 
 

@@ -1,7 +1,7 @@
 """Bracketed roots of smooth functions, one by one and vectorised.
 
-`roots_by_false_position` keeps each root inside its own bracket by the Anderson-Bjorck variant of false position. It
-takes few evaluations if functions are smooth and the values at both ends are known.
+`roots_by_false_position` uses the Anderson-Bjorck variant of false position, which keeps each root inside its bracket.
+It needs few evaluations if functions are smooth and the values at both ends are known.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ def roots_by_false_position(
     at_high: Floats,
     fine: float = 1e-15,
 ) -> Floats:
-    """Find a root of each function between `low` and `high` by the Anderson-Bjorck variant of false position.
+    """Return a root of each function between `low` and `high`, by the Anderson-Bjorck variant of false position.
 
     value(x, which)   function that returns the values at x of the functions with the indices `which`
-    at_low, at_high   values at both ends
+    at_low, at_high   values of the functions at both ends
     fine              step length at which the iteration stops
 
     An iteration that stalls is continued by bisection. A bracket without a change of sign returns its end with the
@@ -71,9 +71,9 @@ _DEEPEST = 40  # bisections of a bracket whose slope keeps changing sign
 
 
 def bracketed_root(value: Function, slope: Function, low: float, high: float) -> float:
-    """Find the root of `value` between `low` and `high`, where it changes sign, by Newton's method with bisection.
+    """Return the root of `value` between `low` and `high`, where it changes sign, by Newton's method with bisection.
 
-    The iteration ends when the bracket consists of two neighbouring floats, or a step no longer moves either end.
+    The iteration ends when the bracket consists of two neighbouring floats, or when a step does not move either end.
     """
     at_low = value(low)
     if at_low == 0:
@@ -107,9 +107,8 @@ def sign_changes(
 ) -> Iterator[tuple[float, float]]:
     """Yield brackets that contain one root each, by bisection with bounds on the slope.
 
-    `bounds(a, b)` returns the minimum and maximum slope. A bracket whose slope has one sign contains at most one root,
-    and others are bisected. Where function and slope vanish together without a change of sign, bisection ends without a
-    bracket.
+    `bounds(a, b)` returns the minimum and maximum slope. A bracket in which the slope has one sign contains at most one
+    root; other brackets are bisected. At a double root without a change of sign, bisection ends without a bracket.
     """
     at_low, at_high = value(low), value(high)
     minimum, maximum = bounds(low, high)
@@ -134,7 +133,7 @@ def sign_changes(
 
 
 def root(value: Function, low: float, high: float, at_low: float, at_high: float) -> float:
-    """Find the root of a continuous `value` between `low` and `high` by Chandrupatla's method, without derivatives.
+    """Return the root of a continuous function between `low` and `high` by Chandrupatla's method, without derivatives.
 
     Steps are by inverse quadratic interpolation where its condition is satisfied, else by bisection. T. R.
     Chandrupatla, Advances in Engineering Software 28 (1997) 145-149.
@@ -160,7 +159,7 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
 
 
 def _quadratic_share(a: float, b: float, c: float, at_a: float, at_b: float, at_c: float) -> float:
-    """Return the root of the inverse quadratic as a fraction of the way from a to b; 1/2 if it is unreliable."""
+    """Return the root of the inverse quadratic as a fraction of the distance from a to b; 1/2 if it is unreliable."""
     if not all(map(isfinite, (at_a, at_b, at_c))) or at_b == at_c or at_a in (at_b, at_c):
         return 0.5
     xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)

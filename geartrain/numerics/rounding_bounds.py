@@ -1,8 +1,8 @@
 """Rounding in float64: error-free transformations of sums and products, and a priori error bounds.
 
-n roundings change a term by at most n u / (1 - n u) of itself (Higham, Accuracy and Stability of Numerical Algorithms,
-section 3.1). The bounds are of first order in u, times `SLACK`. They are valid without underflow and overflow, which
-the caller must ensure.
+The relative error of a term after n roundings is at most n u / (1 - n u) (Higham, Accuracy and Stability of Numerical
+Algorithms, section 3.1). The bounds are of first order in u, times `SLACK`. They are valid without underflow and
+overflow, which the caller must ensure.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 
 def split(a: F) -> tuple[F, F]:
-    """Split a float into a sum of two floats of 26 bits (Dekker 1971; Veltkamp)."""
+    """Split a float into a sum of two floats with 26 bits (Dekker 1971; Veltkamp)."""
     big = SPLITTER * a
     high = big - (big - a)  # overflows beyond about 2^996
     return high, a - high
@@ -48,7 +48,7 @@ SLACK = 1 + 1e-6
 
 
 def sum_error(roundings: int, size: Floats) -> Floats:
-    """Bound the absolute error of a sum.
+    """Return a bound on the absolute error of a sum.
 
     roundings   maximum number of roundings of one term, plus one for each term of the sum
     size        sum of the absolute terms
@@ -57,9 +57,9 @@ def sum_error(roundings: int, size: Floats) -> Floats:
 
 
 def quotient_error(value: Floats, off: Floats, room: Floats, beside: Floats) -> Floats:
-    """Bound the absolute error of a computed quotient `value` whose numerator and denominator have errors.
+    """Return a bound on the absolute error of a computed quotient `value` whose numerator and denominator have errors.
 
     off, beside   bounds on the errors of numerator and denominator
-    room          absolute denominator less its error bound; no digit is certain if it is not positive
+    room          absolute denominator minus its error bound; no digit is certain if it is not positive
     """
     return SLACK * ((off + abs(value) * beside) / room + 2 * UNIT_ROUNDOFF * abs(value))

@@ -1,4 +1,4 @@
-"""Least squares with a matrix that has a few entries per row."""
+"""Least squares with a sparse matrix that has a few entries per row."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _DENSE = 250_000  # entries up to which a dense matrix is used
 
 @dataclass(frozen=True)
 class SparseRows:
-    """A matrix with a fixed small number of entries per row, given by their columns and coefficients."""
+    """Matrix with a fixed small number of entries per row, given by their columns and coefficients."""
 
     columns: Indices
     factors: Floats
     width: int
 
     def small(self, height: int) -> bool:
-        """Return whether a matrix with this number of rows is solved as a dense matrix."""
+        """Return whether a matrix with `height` rows is solved as a dense matrix."""
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
@@ -41,7 +41,7 @@ class SparseRows:
         return (even._dense(right) if self.small(len(right)) else even._gradients(right)) / size
 
     def times(self, x: Floats) -> Floats:
-        """Return the product of the matrix and a vector."""
+        """Return the product of the matrix and a vector x."""
         product: Floats = (self.factors * x[self.columns]).sum(axis=1)
         return product
 

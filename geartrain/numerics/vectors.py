@@ -18,12 +18,12 @@ N = TypeVar("N", int, float, Fraction)
 
 
 def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
-    """Return the scalar product."""
+    """Return the scalar product of two vectors."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return the vector product."""
+    """Return the vector product of two vectors."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
@@ -49,23 +49,23 @@ def plus(u: Vector, v: Vector, factor: float = 1.0) -> Vector:
 
 
 def scaled(u: Vector, factor: float) -> Vector:
-    """Multiply a vector by a number."""
+    """Return a vector multiplied by a number."""
     return u[0] * factor, u[1] * factor, u[2] * factor
 
 
 def turned(u: Vector, way: Vector, angle: float) -> Vector:
-    """Rotate u about a unit vector by an angle [rad], right-handed, by Rodrigues' formula."""
+    """Return u rotated about a unit vector by an angle [rad], right-handed, by Rodrigues' formula."""
     along = scaled(way, dot(way, u) * (1 - cos(angle)))
     return plus(plus(scaled(u, cos(angle)), scaled(cross(way, u), sin(angle))), along)
 
 
 def size(v: Vector) -> float:
-    """Return the length of a vector."""
+    """Return the length (Euclidean norm) of a vector."""
     return sqrt(dot(v, v))
 
 
 def unit(v: Vector) -> Vector:
-    """Normalise a nonzero vector to length 1."""
+    """Return a nonzero vector scaled to length 1."""
     top = max(abs(part) for part in v)  # scale first, so that squares neither overflow nor underflow
     x, y, z = (part / top for part in v)
     length = sqrt(x * x + y * y + z * z)
@@ -78,7 +78,7 @@ def across(v: Vector, n: Vector) -> Vector:
 
 
 def frame(n: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors perpendicular to n that form a right-handed frame with it: x and y where n is z."""
+    """Return two unit vectors perpendicular to n that form a right-handed frame (first, second, n)."""
     # x, unless it is so close to n that its perpendicular component is mostly rounding
     start: Vector = (1.0, 0.0, 0.0) if abs(n[0]) < 0.9 else (0.0, 1.0, 0.0)
     first = unit(across(start, n))
@@ -86,7 +86,7 @@ def frame(n: Vector) -> tuple[Vector, Vector]:
 
 
 def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector, Vector]:
-    """Return the nearest points of two lines that are not parallel, each given by a point and a unit vector."""
+    """Return the nearest points of two lines that are not parallel: a line is given by a point and a unit vector."""
     apart, turn = minus(other, point), dot(way, cut)
     square = 1.0 - turn * turn
     near = (dot(apart, way) - turn * dot(apart, cut)) / square
@@ -95,8 +95,9 @@ def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector
 
 
 def unit_or_z(u: Vector) -> Vector:
-    """Normalise a vector to length 1; return z for a zero vector."""
+    """Return a vector scaled to length 1; z for a zero vector."""
     length = size(u)
+    # a shorter vector is the rounding error of a zero vector
     return scaled(u, 1 / length) if length > 1e-12 else (0.0, 0.0, 1.0)
 
 
@@ -111,5 +112,7 @@ def beside(axis: Vector) -> Vector:
 
 
 def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
-    """Return the angle [rad] of u about the unit vector `axis`, measured from a perpendicular unit vector."""
+    """Return the angle of u about the unit vector `axis` [rad], measured from `reference`, a unit vector perpendicular
+    to it.
+    """
     return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # acos would lose half of the digits near 0

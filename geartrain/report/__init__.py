@@ -1,15 +1,16 @@
 """Results as documents: on a terminal, as Markdown, as one HTML page, and as JSON.
 
 Input is a train (`collect_report`) or a result of another package. Output is a `Document`: titled sections of
-paragraphs and tables, independent of how they are shown. `to_text`, `to_markdown` and `to_html` show it. For each
-result, one function `describe_...` makes the document and the result's own `to_dict` the data, so that a page and its
-JSON have the same source. `answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is computed
-here: speeds follow from the Willis equation (docs/theory.md, equations 4 and 5), and torques and motion from
+paragraphs and tables, independent of the output format. `to_text`, `to_markdown` and `to_html` convert it. For each
+result, one function `describe_...` makes the document and the result's method `to_dict` the data, so that a page and
+its JSON have the same source. `answer_schema` is the JSON Schema of all such data (docs/json.md). No results are
+computed here: speeds follow from the Willis equation (docs/theory.md, equations 4 and 5), and torques and motion from
 `geartrain.dynamics`.
 
 document             `Document`, sections, tables, and their layout within a width
-text, html_page      a document as Markdown, on a terminal, as an HTML page
-json_schema          JSON Schema of all answers and of the declaration
+text, html_page      conversion of a document to Markdown, terminal text and HTML
+json_schema          JSON Schema of all answers
+declaration_schema   JSON Schema of the declaration, and the reference of its keys
 train_data           `TrainReport`, the contents of a report; `train_report` describes it, also as a page to share
 answers              speeds, outputs and targets; `soundness` has the findings of `check`
 formula_report       outputs as formulas in tooth counts

@@ -1,4 +1,4 @@
-"""Document on error against run time of the methods on one train."""
+"""Document on the error and run time of the solution methods for one train."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _HEADER = ("method", "prepared (ms)", "time (ms)", "over the fastest", "error", 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyReport(Result):
-    """Accuracy and run times of the methods on a train in every requested state."""
+    """Errors and run times of the solution methods for a train in every requested state."""
 
     PAGE = "report.accuracy_report:describe_accuracy"
 
@@ -27,18 +27,18 @@ class AccuracyReport(Result):
     title: str
     """Title of the train."""
     states: tuple[TrainAccuracy, ...]
-    """One entry for each state."""
+    """Results for each state."""
 
 
 def describe_accuracy(found: AccuracyReport) -> Document:
-    """Return a document with a section for each stage of each state, and one for the stages that were left out."""
+    """Return a document with a section for each stage of computation in each state, and one for the omitted stages."""
     return Document(
         f"Error against run time: {found.name}", [_LEAD], [s for each in found.states for s in _sections(each)]
     )
 
 
 def accuracy_document(found: TrainAccuracy) -> Document:
-    """Return the output of `geartrain bench` for one state."""
+    """Return the output of `geartrain inspect bench` for one state."""
     return describe_accuracy(
         AccuracyReport("" if found._declaration is None else found._declaration.name, "", (found,))
     )
@@ -46,12 +46,13 @@ def accuracy_document(found: TrainAccuracy) -> Document:
 
 def _sections(found: TrainAccuracy) -> Iterator[Section]:
     state = "" if found.state is None else f"State {found.state}: "
+    # stages in the order in which they were measured
     for stage in dict.fromkeys(row.stage for row in found.methods):
         yield Section(
             f"{state}{stage}", (), [Table(_HEADER, [_cells(row) for row in found.methods if row.stage == stage])]
         )
-    if found.left_out:
-        yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.left_out.items()])
+    if found.neglected:
+        yield Section(f"{state}left out", [f"{stage}: {why}." for stage, why in found.neglected.items()])
 
 
 def _cells(row: MethodAccuracy) -> list[str]:

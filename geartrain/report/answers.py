@@ -1,4 +1,4 @@
-"""Answers of a train in its report: states, speeds, outputs, targets, uncertain tooth counts.
+"""Sections of a train's report on states, speeds, outputs, targets and uncertain tooth counts.
 
 `speeds_text` is the output of `geartrain solve`: the speeds of one state as plain lines, exact and in decimals.
 """
@@ -31,7 +31,7 @@ _SPANS = (
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
-    """Return a section with one row for each state: the engaged elements, and the speeds and ratios of the outputs."""
+    """Return a section with one row for each state: the engaged elements, and the speed and ratio of each output."""
     declared = train.declaration
     clutches = list(declared.clutches)
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
@@ -58,7 +58,9 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the pointers of one state with their targets; then as details all outputs, targets and speeds of links."""
+    """Yield the sections on one state: the pointers with their targets; then, as details, all outputs, targets and
+    speeds.
+    """
     head = f"State {answer.state}: " if answer.state is not None else ""
     if answer.outputs:
         yield _pointers(train, answer, head)
@@ -68,9 +70,9 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
 
 
 def _pointers(train: GearTrain, answer: Answer, head: str) -> Section:
-    """Return speed and period of each output, its target, and by how much it is off.
+    """Return a section with the speed, period, target and error of each pointer.
 
-    If any output has a dial, a target or a printed figure, the others are only counted.
+    If no output has a dial, a target or a printed figure, all outputs are shown. Otherwise the others are only counted.
     """
     pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
     rows = [_pointer_row(train.declaration, result) for result in pointers]
@@ -84,13 +86,12 @@ def _pointers(train: GearTrain, answer: Answer, head: str) -> Section:
 
 
 def _is_pointer(result: OutputResult) -> bool:
-    """Return whether an output has a dial, a target or a printed figure, or is not as expected."""
+    """Return whether an output has a dial, a target or a printed figure, or fails an expectation."""
     output = result.output
     return bool(output.dial or output.published or result.targets or not result.holds)
 
 
 def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
-    """Return the row of an output, with its first target."""
     speed = result.speed
     second = (
         exact(result.ratio) if declared.unit_days is None and result.ratio is not None else _period(declared, speed)
@@ -100,12 +101,12 @@ def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
 
 
 def _is_clock(declared: Train) -> bool:
-    """Return whether speeds are counted in turns a day or a shorter time."""
+    """Return whether the unit of speed is turns per day or per shorter time."""
     return declared.unit_days is not None and declared.unit_days <= 1
 
 
 def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, str, str]:
-    """Return a target in words, and the error in ppm and in days a century or, for clocks, seconds a day."""
+    """Return a target as text, the error in ppm, and the error in days a century (for clocks, in seconds a day)."""
     if target is None:
         return "", "", ""
     wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)
@@ -116,7 +117,7 @@ def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, st
 
 
 def _period(declared: Train, speed: SpeedValue | None) -> str:
-    """Return the time of one turn, years abbreviated; empty for a link at rest."""
+    """Return the time of one turn as text; "" for a link at rest or speeds without a unit of time."""
     if not speed or declared.unit_days is None:
         return ""
     return _span(declared, 1 / magnitude(speed), 6).replace(" years", " y").replace(" year", " y")
@@ -127,7 +128,7 @@ def _error_text(error: float | None) -> str:
 
 
 def _fault(result: OutputResult) -> str:
-    """Return which expectation, printed figure or tolerance an output does not meet."""
+    """Return the expectations, printed figures and tolerances that an output fails, as text."""
     expect, published = result.output.expect, result.output.published
     sign = "; only the sign differs" if result.differs_in_sign else ""
     parts = []
@@ -141,7 +142,7 @@ def _fault(result: OutputResult) -> str:
 
 
 def _targets(answer: Answer, head: str) -> Iterator[Section]:
-    """Yield a section that compares outputs with their targets, the error first; nothing if no output has a target."""
+    """Yield a section on the errors of outputs against their targets; nothing if no output has a target."""
     targets = [
         (
             name,
@@ -177,7 +178,6 @@ def _targets(answer: Answer, head: str) -> Iterator[Section]:
 
 
 def _speed_section(train: GearTrain, answer: Answer, head: str) -> Section:
-    """Return a section with the prescribed speeds, the verdict, and every link's speed."""
     case = train.declaration.case(answer.state)
     given = [*map(case.given, case.inputs)]
     given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
@@ -244,7 +244,7 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 
 def result_words(result: OutputResult) -> str:
-    """Return the computed value that corresponds to a published figure, exact and in decimals."""
+    """Return the computed value that corresponds to a published figure as text, exact and in decimals."""
     if result.found is None:
         ratio = result.output.published is not None and result.output.published.as_ != "speed"
         open_ = result.speed is None or not ratio
@@ -254,9 +254,9 @@ def result_words(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """Return `all 3 expectations and 2 published figures hold`, or how many fail; empty if no figure is declared.
+    """Return a count such as `all 3 expectations and 2 published figures hold`, or how many fail; "" if there are none.
 
-    The tolerance of a target counts as such a figure. A target without tolerance does not.
+    A target with a tolerance is counted; a target without tolerance is not.
     """
     results = [result for answer in answers for result in answer.outputs.values()]
     kinds = {
@@ -273,9 +273,9 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """Return the sense of rotation seen on the dial, and the times of a turn and of a division.
+    """Return the sense of rotation seen on the dial, and the times of one turn and of one division, as text.
 
-    The sense is reversed on a face that looks the other way.
+    The sense is reversed on a face that points away from the viewing side.
     """
     dial = declared.dials.get(result.output.dial or "")
     if dial is None or not result.speed:
@@ -293,9 +293,9 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a time in years if the unit is a year, otherwise in days, hours, minutes or seconds.
+    """Return a time as text: in years if the unit is a year, otherwise in days, hours, minutes or seconds.
 
-    Without a unit of time, return the plain number.
+    Return a plain number if the train has no unit of time.
     """
     if declared.unit_days is None:
         return figure(units, 7)
@@ -307,8 +307,8 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield a section with the change of pointer speeds for one tooth more or less on each wheel of uncertain tooth
-    count.
+    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or
+    less.
     """
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
@@ -345,9 +345,9 @@ def _shift(value: float | None) -> str:
 
 
 def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:
-    """Return the speeds of one state, or of one output, one per line.
+    """Return the speeds of one state, or of one output, as lines of text.
 
-    oblique   links whose speeds are sums of joint speeds
+    oblique   links whose speeds are sums of joint speeds about axes that are not parallel
     """
     state = f" state {answer.state}" if answer.state is not None else ""
     place = "" if answer.verdict else f" ({answer.place})"
@@ -374,14 +374,16 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def answer_text(answer: Answer) -> str:
-    """Return the output of `geartrain solve` for the answer of one state."""
+    """Return the output of `geartrain solve` for one state."""
     declared = answer._declaration
     oblique = frozenset() if declared is None else GearTrain(declared).kinematics.joint_sums
     return speeds_text(answer, answer._output, oblique)
 
 
 def answer_document(answer: Answer) -> Document | None:
-    """Return outputs, targets and speeds of one state as in the report; None if the train is not known."""
+    """Return a document on the outputs, targets and speeds of one state; None if the train of the answer is not
+    known.
+    """
     if answer._declaration is None:
         return None
     train = GearTrain(answer._declaration)
@@ -389,7 +391,7 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Return why a coupled system was solved in floats, the size of the errors, and how to get fractions."""
+    """Return the reason why a system was solved in floats, the estimated error, and how to get exact fractions."""
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
     return (
@@ -403,7 +405,9 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return condition, estimated error and true error of a float, if it has them."""
+    """Return the condition number, estimated error and true error of a speed solved in floats, as text; "" for
+    others.
+    """
     accuracy = answer.accuracy.get(link)
     if accuracy is None:
         return ""

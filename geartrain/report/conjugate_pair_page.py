@@ -1,6 +1,6 @@
-"""Document on one pair of wheels with conjugate teeth, and one that compares several forms with the 20 degree involute.
+"""Documents on one pair of wheels with conjugate teeth, and on tooth forms compared with the 20 degree involute.
 
-Sections are the wheels, the path of contact, losses and stresses, and friction.
+The document on a pair has sections on the wheels, the path of contact, losses and stresses, and friction.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def conjugate_verdict(design: PairDesign) -> str:
-    """Return whether the teeth can run, and if not, each reason with its remedy."""
+    """Return a sentence on whether the teeth can run; if they cannot, add each reason with its remedy."""
     if design.runs and design.locks:
         return "Verdict: the teeth keep the ratio exactly at every instant, but friction locks them."
     if design.runs:
@@ -30,7 +30,7 @@ def conjugate_verdict(design: PairDesign) -> str:
 
 
 def conjugate_sections(design: PairDesign) -> Iterator[Section]:
-    """Yield the sections on a pair; for teeth that cannot run, only wheels and path."""
+    """Yield the sections on a pair. For teeth that cannot run, yield only the wheels and the path of contact."""
     yield from (_wheels(design), _path(design))
     if design.losses_and_stresses is not None:
         yield from (_losses_and_stresses(design.losses_and_stresses), _friction(design))
@@ -38,6 +38,7 @@ def conjugate_sections(design: PairDesign) -> Iterator[Section]:
 
 def _wheels(design: PairDesign) -> Section:
     pitch = design.path.pitch
+    # sizes of bevel wheels are cone angles, of others radii
     size = degrees if pitch.bevel else float
     columns = zip(design.teeth, design.pitch_radii, design.flanks, design.thickness, design.top_lands, strict=True)
     rows = [
@@ -81,6 +82,7 @@ def _path(design: PairDesign) -> Section:
         f"Lengths in {'rad on the unit sphere' if path.pitch.bevel else 'modules'}."
     )
     lines = [text]
+    # contact only before, or only after, the pitch point
     if min(path.arcs) < 0:
         lines.append(
             "A negative arc means that all contact is on the other side of the pitch point, and begins or ends at this "
@@ -118,7 +120,7 @@ def _losses_and_stresses(found: DesignLosses) -> Section:
 
 def _friction(design: PairDesign) -> Section:
     transmission = design.mesh.losses
-    if not design.mesh.rubs:
+    if not design.mesh.has_friction:
         return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     if not design.mesh.tells_losses:
         return Section("Friction", (f"{design.mesh.friction_words}.",))
@@ -142,14 +144,14 @@ def _friction(design: PairDesign) -> Section:
 
 
 def pair_name(path: PathOfContact) -> str:
-    """Return the tooth counts and the kind of a pair."""
+    """Return the tooth counts and the kind of a pair as text, `24/18 spur`."""
     pitch = path.pitch
     kind = f"bevel, {degrees(pitch.R1 + pitch.R2):.6g} deg" if pitch.bevel else "internal" if pitch.R2 < 0 else "spur"
     return f"{pitch.z1}/{pitch.z2} {kind}"
 
 
 def cost(value: float) -> str:
-    """Return a loss or stress figure as text."""
+    """Return a loss or stress as text; `inf` if it is infinite."""
     return f"{value:.9g}" if isfinite(value) else "inf"
 
 
@@ -160,17 +162,17 @@ _HEADERS = {"off_pitch": "stress off pitch"}
 
 
 def describe_form_comparison(found: FormComparison) -> Document:
-    """Return a document that compares tooth forms with the 20 degree involute: tables of ratios, and faults of forms.
+    """Return a document that compares tooth forms with the 20 degree involute and lists the forms that cannot run.
 
     Parameters
     ----------
     found : FormComparison
-        Result of `geartrain.teeth.form_comparison.compare_forms`; its `to_dict()` has the same as data.
+        Result of `geartrain.teeth.form_comparison.compare_forms`; `to_dict()` returns its data.
 
     Returns
     -------
     Document
-        Ratios where one tooth pair carries the load, and where tooth pairs in contact share it; the involute itself.
+        Ratios for load on one tooth pair and for load shared by all pairs in contact; values of the involute.
 
     Examples
     --------
@@ -197,12 +199,11 @@ def describe_form_comparison(found: FormComparison) -> Document:
 
 
 def _header(name: str) -> str:
-    """Return the column title of a measure."""
     return _HEADERS.get(name, name.replace("_", " "))
 
 
 def _sharing(found: FormComparison) -> Section:
-    """Return the section with shared load; a sentence if two tooth pairs are never in contact at once."""
+    """Return the section on load shared by tooth pairs; only a sentence if the contact ratio never exceeds 1."""
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):  # tolerance for a contact ratio of exactly 1

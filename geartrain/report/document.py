@@ -1,4 +1,4 @@
-"""Document: titled sections of paragraphs and tables, independent of how it is shown.
+"""Document: titled sections of paragraphs and tables, independent of the output format.
 
 Tables are fitted into a width: cells wrap at words, and a table that is still too wide is split into strips of columns.
 """
@@ -15,59 +15,59 @@ from typing import Any
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
-from geartrain.numerics.results import Shown, field_docs, picture_maker, summary_line
+from geartrain.numerics.results import Shown, field_docs, imported_function, summary_line
 
 MOST_ROWS = 120
-"""Maximum number of rows shown of a table; the JSON has all rows."""
+"""Maximum number of table rows in a document; the JSON has all rows."""
 
 
 class ExactText(str):
-    """A cell that contains an exact value; `full` is the unabridged text, which a page copies."""
+    """Table cell that shows an exact value abridged; `full` is the complete text, which an HTML page copies."""
 
     __slots__ = ("_value",)
 
     _value: Fraction | Real | str
 
     def __new__(cls, text: str, value: Fraction | Real | None = None) -> ExactText:
-        """Return `text` as shown of `value`; without a value, the text itself is the full text."""
+        """Return a cell that shows `text` for `value`. Without a value, the text itself is complete."""
         made = super().__new__(cls, text)
         made._value = text if value is None else value
         return made
 
     @property
     def full(self) -> str:
-        """Unabridged value; the digits of a very long one are written only on access."""
+        """Unabridged value as text, written only on access because it may have very many digits."""
         return fraction_text(self._value) if isinstance(self._value, Fraction) else str(self._value)
 
 
 class CitedText(str):
-    """A cell that names a source by its key; a page links it to the source."""
+    """Table cell that holds the key of a source; an HTML page links it to the source."""
 
     __slots__ = ()
 
 
 class SceneText(str):
-    """A text that belongs to a numbered scene of the page's viewer; a page shows the scene on request."""
+    """Text that refers to a numbered scene of the viewer in an HTML page; a click on it shows the scene."""
 
     __slots__ = ("_scene",)
 
     _scene: int
 
     def __new__(cls, text: str, scene: int) -> SceneText:
-        """Return `text` that belongs to the scene of this number."""
+        """Return text that refers to the scene with this number."""
         made = super().__new__(cls, text)
         made._scene = scene
         return made
 
     @property
     def scene(self) -> int:
-        """Number of the scene in the viewer, from 1 on."""
+        """Number of the scene in the viewer; the first is 1."""
         return self._scene
 
 
 @dataclass(frozen=True, slots=True)
 class Table(Shown):
-    """Rows of text under a header; the first column names the row.
+    """Table of text cells with a header; the first column names the row.
 
     Examples
     --------
@@ -78,15 +78,17 @@ class Table(Shown):
     """
 
     header: Sequence[str]
-    """Title of each column; "" if none is needed."""
+    """Title of each column; "" for a column without title."""
     rows: Sequence[Sequence[str]]
-    """Cells, as many in each row as in the header."""
+    """Cells by row; each row has one cell for each column."""
     wide: bool = False
-    """True for matrices, which a terminal shows in strips of columns and never wraps."""
+    """True for a matrix, which a terminal shows in strips of columns without wrapping cells."""
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return columns of a result as a document of one table, of which only the first rows are shown."""
+    """Return a document of one table with the first `most` rows of a result's columns, and the number of
+    further rows.
+    """
     count = len(next(iter(columns.values()), ()))
     rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
     more = [f"{count - most:,} more rows."] if count > most else []
@@ -104,16 +106,17 @@ def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: i
 
 
 _UNIT = re.compile(r"\[(.+?)\]")
-"""Regular expression of the unit in the docstring of a field."""
+"""Regular expression that finds the unit in the docstring of a field."""
 _CellColumn = tuple[str, Callable[[Any], str]]
 """Head of a column, and the function that returns its cell for a result."""
 
 
 def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
-    """Return a table of results of one class, one row for each.
+    """Return a table with one row for each result; all results have the same class.
 
-    columns   name of a field, `field:digits` of a number; its head is the name with the unit of the field's docstring,
-              or is given before it, `head=field:digits`; or a head and a function that returns the cell of a result
+    columns   name of a field, or `field:digits` for a number; the head of the column is the name with the unit from the
+              field's docstring, unless it is given as in `head=field:digits`. Or a pair of a head and a function that
+              returns the cell of a result.
     """
     rows = list(results)
     kind: type = type(rows[0]) if rows else object
@@ -137,7 +140,7 @@ def _field_text(value: Any, digits: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A line of a tree, with the lines below it.
+    """Node of a tree of text lines.
 
     See Also
     --------
@@ -147,12 +150,12 @@ class Branch:
     text: str
     """Text of the line."""
     below: Sequence[Branch] = ()
-    """Lines below it."""
+    """Child nodes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Section(Shown):
-    """A heading with paragraphs, a tree, then tables.
+    """Section of a document: a heading with paragraphs, a tree, and tables.
 
     Examples
     --------
@@ -163,18 +166,18 @@ class Section(Shown):
     title: str
     """Heading of the section."""
     paragraphs: Sequence[str] = ()
-    """Plain text; markup in it has no effect."""
+    """Paragraphs of plain text; markup in them has no effect."""
     tables: Sequence[Table] = field(default_factory=tuple)
     """Tables after the paragraphs."""
     branches: Sequence[Branch] = ()
-    """Tree between paragraphs and tables."""
+    """Roots of the tree that is shown between paragraphs and tables."""
     detail: bool = False
-    """True for a section that a report as text omits unless it is requested, and that a page shows folded."""
+    """True for a detail section, which text reports omit unless it is requested and an HTML page shows folded."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picture(Shown):
-    """A picture with a caption, for HTML pages.
+    """Picture with a caption, for HTML pages.
 
     Examples
     --------
@@ -183,14 +186,16 @@ class Picture(Shown):
     """
 
     caption: str
-    """Line below the picture."""
+    """Text below the picture."""
     svg: str
-    """One whole SVG document, included unchanged in the page; its producer must escape what users write."""
+    """Complete SVG document, included unchanged in the page. Its producer must escape text of users."""
 
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """A full reference. A page links `url` if it is an http or https address, and shows any other as text."""
+    """Bibliographic reference. An HTML page links `url` if it is an http or https address, otherwise shows it
+    as text.
+    """
 
     cite: str
     url: str = ""
@@ -199,30 +204,30 @@ class SourceReference:
 
 @dataclass(frozen=True, slots=True)
 class PageExtras:
-    """Parts that only a page shows, in addition to the document."""
+    """Contents that only an HTML page shows, in addition to the document."""
 
     badge: str = ""
-    """Verdict in one or two words; `sound` is True if nothing is wrong."""
+    """Verdict in one or two words. `sound` is True if it is favourable."""
     sound: bool = True
     notes: Sequence[str] = ()
-    """Short remarks below the summary, such as the extra that is needed for pictures."""
+    """Short remarks below the summary, for example the extra to install for pictures."""
     pictures: Sequence[Picture] = ()
     viewer: str = ""
-    """Whole HTML page with the animated train."""
+    """Complete HTML page with the animated train; "" for none."""
     sections: Sequence[Section] = ()
-    """Further sections at the end."""
+    """Sections after those of the document."""
     references: Mapping[str, SourceReference] = field(default_factory=dict)
-    """Sources by key."""
+    """Bibliographic references by key of the source."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Document:
-    """A title, a summary, and sections, independent of how they are shown.
+    """Title, summary and sections, independent of the output format.
 
     See Also
     --------
-    describe_train, describe_torques, describe_motion : Make documents.
-    to_markdown, to_html : Show them.
+    describe_train, describe_torques, describe_motion : Return documents.
+    to_markdown, to_html : Convert documents.
 
     Examples
     --------
@@ -240,7 +245,7 @@ class Document:
     sections: Sequence[Section]
     """Sections in reading order."""
     aside: PageExtras = field(default_factory=PageExtras)
-    """Badge, pictures, viewer and sources, which only an HTML page shows."""
+    """Badge, pictures, viewer and references, which only an HTML page shows."""
 
     def __repr__(self) -> str:
         count = len(self.sections)
@@ -248,7 +253,7 @@ class Document:
 
     def __str__(self) -> str:
         """Return the document as Markdown."""
-        text: str = picture_maker("report", "to_markdown")([self])
+        text: str = imported_function("report", "to_markdown")([self])
         return text
 
     def _repr_markdown_(self) -> str:
@@ -256,11 +261,12 @@ class Document:
 
 
 def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
-    """Return a document without its detail sections, except those requested by words of their titles.
+    """Return a document without its detail sections.
 
-    The last section then lists the titles that were omitted.
+    requested   words of section titles; if given, only the sections whose titles contain one of them are kept
 
-    Raises `QuestionError` if a requested word is in no title.
+    Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a requested
+    word is in no title.
     """
     titles = [section.title for section in document.sections]
     for word in requested:
@@ -283,14 +289,14 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
 
 
 def figure(value: Fraction | Real | None, digits: int = 8) -> str:
-    """Return a number in decimal, or a dash for None."""
+    """Return a number in decimal notation with at most `digits` significant digits; a dash for None."""
     if value is None:
         return "-"
     return decimal(value, digits) if isinstance(value, Fraction) else f"{value:.{digits}g}"
 
 
 def exact(value: Fraction | Real | None) -> str:
-    """Return a number as a fraction, abridged if it is very long; a tilde marks a float."""
+    """Return a number as a fraction, abridged if it is very long; a float has a tilde before it."""
     if value is None:
         return "undetermined"
     if not isinstance(value, Fraction):
@@ -299,7 +305,7 @@ def exact(value: Fraction | Real | None) -> str:
 
 
 def one_to(ratio: Fraction | Real | None) -> str:
-    """Return a ratio output over input as `1 : n`, or as `n : 1` if the output is the faster."""
+    """Return a ratio output over input as text: `1 : n`, or `n : 1` if the output is faster than the input."""
     if not ratio:
         return "-"
     if not -1 < ratio < 1:
@@ -308,15 +314,15 @@ def one_to(ratio: Fraction | Real | None) -> str:
 
 
 def ppm(value: float | None) -> str:
-    """Return parts per million as text with a sign."""
+    """Return parts per million as text with a sign; a dash for None."""
     # a relative error below 1e-15 is rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
-    """Return the first `most` rows of a long table, and a row with the number of further rows.
+    """Return the first `most` rows of a table, and a last row with the number of omitted rows if there are any.
 
-    of   number of all rows, if not all are given
+    of   total number of rows, if `rows` does not hold all of them
     """
     count = len(rows) if of is None else of
     if count <= most:
@@ -328,7 +334,7 @@ def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_R
 
 
 GAP = 2
-"""Blanks between two columns; a matrix has one."""
+"""Number of blanks between two columns of a table; a matrix has one."""
 
 
 def gap_of(table: Table) -> int:
@@ -337,9 +343,9 @@ def gap_of(table: Table) -> int:
 
 
 def strips(table: Table, width: int) -> Iterator[Table]:
-    """Yield a table in strips of columns that fit the width, each with the first column; the whole table if it fits.
+    """Yield a table as strips of columns that fit the width, each with the first column.
 
-    Words are broken only if one word is wider than the available width.
+    A table that fits is yielded unchanged. A word is broken only if it is wider than the available width.
 
     width   characters per line
     """
@@ -358,10 +364,10 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
 
 def column_widths(table: Table, width: int) -> list[int]:
-    """Return the width of each column in characters, at most its longest cell.
+    """Return the width of each column in characters, at most the length of its longest cell.
 
-    Columns that need the fewest characters beyond their longest word get them first. The sum exceeds the available
-    width only if the longest words together do.
+    The columns that need the fewest characters in addition to their longest word are widened first. The sum exceeds
+    `width` only if the longest words do not fit.
     """
     columns = _columns(table)
     full = [max(map(len, column)) for column in columns]
@@ -383,9 +389,9 @@ _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 
 def aligned_rows(table: Table) -> list[list[str]]:
-    """Return the rows with numbers shifted so that the decimal points of each numeric column are aligned.
+    """Return the rows with the numbers of each numeric column shifted so that their decimal points are aligned.
 
-    A column is numeric if all of its cells are decimal numbers, empty, or a dash.
+    A column is numeric if each of its cells is a decimal number, empty, or a dash.
     """
     if table.wide:
         return [list(row) for row in table.rows]
@@ -395,8 +401,10 @@ def aligned_rows(table: Table) -> list[list[str]]:
 
 def _aligned(column: Sequence[str]) -> Sequence[str]:
     numbers = [cell for cell in column if cell not in ("", "-")]
+    # a single number needs no alignment
     if len(numbers) < 2 or not all(_NUMBER.fullmatch(cell) for cell in numbers):
         return column
+    # characters before the decimal point or exponent
     widths = [len(re.split(r"[.e]", cell)[0]) for cell in column]
     widest = max(width for width, cell in zip(widths, column, strict=True) if cell in numbers)
     return [" " * (widest - width) + cell if cell else cell for width, cell in zip(widths, column, strict=True)]

@@ -19,23 +19,23 @@ _HEAD = "z_NAME is the tooth count of the wheel NAME; the name of a link denotes
 
 @dataclass(frozen=True)
 class RatioElasticity(Result):
-    """Elasticity of a ratio with respect to a tooth count."""
+    """Elasticity of a speed ratio with respect to a tooth count."""
 
     state: str | None
     """Name of the state; None for a train without states."""
     output: str
-    """Output of the ratio."""
+    """Output whose speed is the numerator of the ratio."""
     input: str
-    """Input of the ratio."""
+    """Input whose speed is the denominator of the ratio."""
     wheel: str
-    """Wheel whose tooth count varies."""
+    """Wheel with respect to whose tooth count the elasticity is taken."""
     elasticity: ClosedForm
     """Elasticity (z/f) df/dz: relative change of the ratio f per relative change of the tooth count z."""
 
 
 @dataclass(frozen=True)
 class FormulaReport(Result):
-    """Formulas of outputs in each requested state.
+    """Formulas of the outputs in each requested state.
 
     See Also
     --------
@@ -51,13 +51,13 @@ class FormulaReport(Result):
     formulas: tuple[OutputFormula, ...]
     """Formulas of the outputs, state by state."""
     sensitivities: tuple[RatioElasticity, ...] = ()
-    """Elasticities with respect to all tooth counts, if requested."""
+    """Elasticities of each ratio with respect to each tooth count; empty unless requested."""
 
 
 def collect_formulas(
     train: GearTrain, states: Sequence[str | None], outputs: Sequence[str] = (), sensitivities: bool = False
 ) -> FormulaReport:
-    """Return the formulas of a train in some states.
+    """Return the formulas of a train's outputs in some states.
 
     Parameters
     ----------
@@ -93,12 +93,11 @@ def collect_formulas(
 
 
 def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    """Yield the formulas of some outputs, by default of all that the inputs determine."""
     return speed_formulas(train.declaration, train.declaration.single_state(state), outputs)
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Return a document with each output's formula, value and locking condition, and elasticities if requested.
+    """Return a document with the formula, value and locking condition of each output, and elasticities if requested.
 
     Parameters
     ----------
@@ -112,7 +111,7 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
     Returns
     -------
     Document
-        Speeds in the train's unit.
+        Document with one section for each state; speeds are in the train's unit.
 
     Examples
     --------
@@ -128,10 +127,11 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
 
 
 def formula_section(train: GearTrain, state: str | None, explained: bool = True) -> Iterator[Section]:
-    """Yield a section with the formulas of one state, without outputs that are inputs themselves.
+    """Yield a section with the formulas of one state, without those of outputs that are inputs.
 
     explained   whether the section begins with an explanation of the notation
     """
+    # a formula without tooth counts would only repeat a given speed
     shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
     if shown:
         lines = (text for each in shown for text in _lines(each, False))

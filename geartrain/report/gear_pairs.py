@@ -1,4 +1,4 @@
-"""Real teeth and pins as sections of a train's report, and as plain data."""
+"""Sections and data on the real teeth and pins of a train."""
 
 from __future__ import annotations
 
@@ -22,42 +22,42 @@ _OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "m
 
 @dataclass(frozen=True)
 class DrivenPair(Result):
-    """A pair with real teeth, driven by one of its wheels."""
+    """Pair with real teeth, driven by one of its wheels."""
 
     KEYS = (Key("pair", "mesh.name"), Key("", "mesh.who"), "states", *_OF_PAIR)
 
     mesh: GearMesh
     states: tuple[str, ...] = ()
-    """States in which it is driven by this wheel."""
+    """Names of the states in which this wheel drives."""
 
     @cached_property
     def account(self) -> PairAccount:
-        """Figures, text and tables of the mesh."""
+        """Results on the mesh as figures, text and tables."""
         return self.mesh.account()
 
     @property
     def figures(self) -> PairFigures:
-        """Figures of the mesh."""
+        """Sizes, transmission function and losses of the mesh."""
         return self.account.figures
 
 
 @dataclass(frozen=True)
 class DrivenPin(Result):
-    """A coupling with dimensions, its pin driving."""
+    """Coupling with dimensions whose pin drives."""
 
     KEYS = ("coupling", Key("ratio", "figures.speed_ratio.mean"), Key("", "figures"))
 
     coupling: str
     """Name of the coupling."""
     figures: PinFigures
-    """Figures of the coupling with the pin driving."""
+    """Transmission function and losses of the coupling with the pin driving."""
 
 
 _MOST_PAIRS = 12  # with more, a report as text omits their tables
 
 
 def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence[DrivenPin]) -> Iterator[Section]:
-    """Yield sections on the real teeth and pins of a train; nothing if none are declared."""
+    """Yield sections on the real teeth and on the pins of a train; nothing if it has none."""
     if pairs:
         yield _teeth(train, pairs)
     if pins:
@@ -67,6 +67,7 @@ def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair], pins: Sequence
 def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     accounts: dict[str, list[PairAccount]] = {}
     for pair in pairs:
+        # pairs with the same description share their tables
         accounts.setdefault(pair.account.words, []).append(pair.account)
     lines = list(accounts)
     tables = [
@@ -79,17 +80,16 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
 
 
 def joined_table(rows: Sequence[AccountTable]) -> Table:
-    """Return one table of all pairs of a kind."""
+    """Return one table with the rows of several pairs of the same tooth form."""
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 
 def fault_text(fault: Problem) -> str:
-    """Return what is wrong, why, and the remedy, as sentences."""
+    """Return the fault, its cause and its remedy as sentences."""
     return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."
 
 
 def _drivers(pairs: Sequence[DrivenPair]) -> Table:
-    """Return a table of the driving wheel of each pair and the basis of this conclusion."""
     rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
     return filled_table(("pair", "driving wheel", "basis", "states"), rows, 3, wide=True)
 
@@ -116,7 +116,7 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Return the pairs with real teeth, once for each wheel that drives; empty if none are declared."""
+    """Return the pairs with real teeth, one entry for each wheel that drives in some state; empty if there are none."""
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 

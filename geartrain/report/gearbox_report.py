@@ -1,4 +1,4 @@
-"""Documents on gearboxes: states by rows, elements and links by columns; and all possible gears."""
+"""Documents on gearboxes: the declared states with elements and links in columns, and all possible gears."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_series import GearSearch, GearSeries, PossibleGear
     from geartrain.analysis.gearbox import Gearbox, GearState, ShiftElement
 
-_DIGITS = 5
+_DIGITS = 5  # significant digits of ratios, torques and efficiencies
 _MOST = 12  # combinations of closed elements that are listed
 _RATIOS = (
     "Ratio: input speed over output speed; step: ratio over that of the next state. Recirculating: power that "
@@ -26,7 +26,7 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """Return a document on states, speeds, slip and torques of shift elements, and the maximum load of each element.
+    """Return a document on the states of a gearbox, its speeds, slip and torques, and the maximum load of each element.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def describe_gearbox(found: Gearbox) -> Document:
     Returns
     -------
     Document
-        Speeds and torques relative to those of the input.
+        Document with speeds and torques relative to those of the input.
 
     Examples
     --------
@@ -60,6 +60,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
     double = [f"{each.before} to {each.after}" for each in found.shifts if each.is_double]
     lines.append(f"Double-transition shifts: {', '.join(double) or 'none'}.")
     yield Section("Gears", lines, (Table(header, [_gear(each, names) for each in found.states]),))
+    # links in the order of their first occurrence
     known = dict.fromkeys(link for each in found.states for link in each.speeds)
     links = [link for link in known if _moves(found, link)]
     yield Section("Speeds", (f"Exact. {_unit(found)}",), (_speeds(found.states, links),))
@@ -71,7 +72,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
 
 
 def _unit(found: Gearbox) -> str:
-    """Return the unit of the speeds in a table, with the states whose input is at rest."""
+    """Return a sentence on the unit of speeds, with the states whose speeds refer to another link than the input."""
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
     return "Relative to the input speed" + (f"; relative to another link's in {named}." if named else ".")
@@ -122,7 +123,7 @@ def _elements(found: Gearbox) -> Table:
 
 
 def describe_gear_search(found: GearSearch) -> Document:
-    """Return a document on all gears, then on the requested series.
+    """Return a document on all possible gears, and on the requested series of gears.
 
     Parameters
     ----------
@@ -132,7 +133,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     Returns
     -------
     Document
-        Ratios are input over output.
+        Document in which ratios are input over output.
 
     Examples
     --------
@@ -156,6 +157,7 @@ def describe_gear_search(found: GearSearch) -> Document:
     ]
     if found.widest is not None and found.evenest is not None:
         both = [("The widest series", found.widest), ("The most even series", found.evenest)]
+        # one series is both, so it is printed once
         if found.widest == found.evenest:
             both = [("The widest series, and the most even", found.widest)]
         head = (
@@ -165,12 +167,13 @@ def describe_gear_search(found: GearSearch) -> Document:
         )
         sections += [Section(title, (head, *_series(series)), (_series_table(series),)) for title, series in both]
     elif found.requested:
-        sections.append(Section("Series", (f"No series of {found.requested} gears has all its steps in the window.",)))
+        sections.append(
+            Section("Series", (f"No series of {found.requested} gears has all its steps in the requested range.",))
+        )
     return Document(f"Gears of {found.name}", (found.title,) if found.title else (), tuple(sections))
 
 
 def _combinations_text(ways: Sequence[Sequence[str]]) -> str:
-    """Return combinations of closed elements as text, abridged if there are many."""
     more = f" and {len(ways) - _MOST} more" if len(ways) > _MOST else ""
     return "; ".join(", ".join(way) for way in ways[:_MOST]) + more
 

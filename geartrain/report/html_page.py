@@ -1,4 +1,7 @@
-"""Documents as one self-contained HTML page: it loads nothing from the network, and no text of a user is executed."""
+"""Conversion of documents to one self-contained HTML page.
+
+The page loads nothing from the network and executes no text of a user.
+"""
 
 from __future__ import annotations
 
@@ -18,17 +21,19 @@ from geartrain.report.document import CitedText, Document, Table, strips
 from geartrain.scene.palette import THEMES
 
 ON_PAPER = 110
-"""Characters per line on a sheet of A4 or letter paper, in the typeface of printed tables."""
+"""Characters per line of a printed table on A4 or letter paper."""
 WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
-_LONG = re.compile(r"(\.\d\d)\d+")
+_LONG = re.compile(r"(\.\d\d)\d+")  # digits of a decimal number after the second place
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
-"""Policy for pages with a viewer: a frame inherits the page's policy, and the viewer's scripts are not known here."""
+"""Content security policy for pages with a viewer: its frame inherits the policy, and hashes of its scripts are
+unknown.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class _Anchors:
-    """Anchor names in one document of a page; `contents` has the anchors of its headings with their titles."""
+    """Anchor names in one document of a page. `contents` has the anchor and title of each heading."""
 
     contents: Sequence[tuple[str, str]]
     sections: Sequence[str]
@@ -49,7 +54,7 @@ def to_html(documents: Sequence[Document]) -> str:
     Returns
     -------
     str
-        Whole page. Texts are escaped, pictures are included as SVG, and a viewer is in a sandboxed frame.
+        Complete page. Texts are escaped, pictures are included as SVG, and a viewer is in a sandboxed frame.
 
     Raises
     ------
@@ -106,7 +111,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
 
 
 def check_pages() -> None:
-    """Raise `MissingExtraError` if pages cannot be made, before their contents are computed."""
+    """Raise `MissingExtraError` if jinja2 is not installed, before the contents of a page are computed."""
     try:
         import jinja2  # noqa: F401
     except ImportError:
@@ -115,7 +120,7 @@ def check_pages() -> None:
 
 @cache
 def _template(name: str) -> Any:
-    """Return a compiled template, cached because compiling takes longer than rendering."""
+    """Return a compiled template. It is cached because compiling takes longer than rendering."""
     from jinja2 import Environment, FunctionLoader
 
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, loader=FunctionLoader(_resource))
@@ -130,20 +135,20 @@ def _template(name: str) -> Any:
 
 
 def _on_paper(table: Table) -> list[Table]:
-    """Return the strips in which a table wider than a sheet is printed; none for other tables."""
+    """Return the strips of columns in which a table wider than a sheet is printed; an empty list for other tables."""
     parts = list(strips(table, ON_PAPER))
     return parts if len(parts) > 1 else []
 
 
 def _with_code(line: str) -> Any:
-    """Return a line as HTML in which text between backticks is marked as code; everything else is escaped."""
+    """Return a line as HTML, with text between backticks as code and everything else escaped."""
     from markupsafe import Markup, escape
 
     return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(line))))
 
 
 def is_web(url: str) -> bool:
-    """Return whether an address may become a link: an http or https address with a host."""
+    """Return whether an address may become a link, which is true for http and https addresses with a host."""
     try:
         parts = urlsplit(url)
     except ValueError:
@@ -152,9 +157,9 @@ def is_web(url: str) -> bool:
 
 
 def inline(svg: str, number: int) -> str:
-    """Return an SVG document as an element of a page, with ids made unique by `number` and without fixed sizes.
+    """Return an SVG document as an element of a page, with ids made unique by `number` and without a fixed size.
 
-    Lengths in paths are cut to two decimals. A hundredth of a point is finer than any screen or printer resolves.
+    Lengths in paths are cut to two decimals, because no screen or printer resolves a hundredth of a point.
     """
     element = re.sub(r'(?<=\sd=")[^"]*', lambda path: _LONG.sub(r"\1", path[0]), svg[svg.index("<svg") :])
     names = set(re.findall(r'\bid="([^"]+)"', element))
@@ -187,7 +192,7 @@ def _anchors(document: Document, prefix: str) -> _Anchors:
 
 
 def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
-    """Yield an anchor for each title: its words joined by hyphens, numbered if repeated."""
+    """Yield a unique anchor for each title: its words joined by hyphens, with a number if repeated."""
     seen: dict[str, int] = {}
     for title in titles:
         name = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "section"
@@ -196,7 +201,7 @@ def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
 
 
 def _policy(script: str, framed: bool) -> str:
-    """Return the content security policy: nothing is loaded, and only the page's own script runs, identified by its
+    """Return the content security policy of a page: it loads nothing and runs only its own script, identified by a
     hash.
     """
     if framed:
@@ -205,7 +210,7 @@ def _policy(script: str, framed: bool) -> str:
 
 
 def _colours() -> str:
-    """Return the CSS variables of the palette, light or dark according to the reader's system."""
+    """Return the CSS variables of the light and dark palettes; the reader's system selects one."""
     light, dark = THEMES["light"].css, THEMES["dark"].css
     return f":root {{ {light} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n"
 

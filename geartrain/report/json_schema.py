@@ -1,8 +1,7 @@
-"""JSON Schema (draft 2020-12) of the answers of all commands, and of the declaration.
+"""JSON Schema (draft 2020-12) of the answers of all commands.
 
-Keys of an answer follow from `geartrain.numerics.results`, kinds of values from annotations, and descriptions from
-docstrings. Additions of commands to a result are written by hand. The reference of the declaration is generated from
-its models.
+The keys of an answer are those of its result class (`geartrain.numerics.results`), the kinds of values follow from
+annotations, and descriptions are the docstrings of fields. Keys that a command adds to a result are written by hand.
 """
 
 from __future__ import annotations
@@ -11,7 +10,6 @@ import ast
 import builtins
 import inspect
 import math
-import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
@@ -27,7 +25,6 @@ from geartrain.numerics.long_float import LongFloat
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.numerics.results import Key, Result, field_docs, keys_of, whole
 from geartrain.report.document import Document, Section, Table
-from geartrain.train import Train
 from geartrain.wings import WINGS, WingResult, has_wing, wing
 
 Schema = dict[str, Any]
@@ -36,12 +33,11 @@ FLAG: Schema = {"type": "boolean"}
 
 
 def _list(item: Schema) -> Schema:
-    """Return the schema of a list whose items have one schema."""
     return {"type": "array", "items": item}
 
 
 def _has(keys: Schema) -> Schema:
-    """Return the schema of an object with all of these keys; a later version may add others."""
+    """Return the schema of an object that has at least these keys, because a later version may add others."""
     return {"type": "object", "required": list(keys), "properties": keys}
 
 
@@ -52,7 +48,7 @@ OBJECT: Schema = {"type": "object"}
 
 @cache
 def answers() -> dict[str, Schema]:
-    """Return the schema of each answer by question."""
+    """Return the schema of each JSON answer, by the name of the command or of the use of a command."""
     found = {**_of_trains(), **_of_spheres(), **_of_pairs()}
     for name in filter(has_wing, WINGS):
         found |= {question: shape_of(kind) for question, kind in wing(f"{name}.answers").answers().items()}
@@ -78,14 +74,14 @@ def _of_trains() -> dict[str, Schema]:
         "solve": shape_of(TrainAnswers),
         "report": _list(report),
         "compare": _list(report),
-        "formula": shape_of(FormulaReport),
+        "inspect formula": shape_of(FormulaReport),
         "gearbox": shape_of(Gearbox),
         "gearbox --search": shape_of(GearSearch),
         "torques": shape_of(TorqueReport),
         "motion": shape_of(MotionFigures),
-        "bench": shape_of(AccuracyReport),
-        "graph --as matrix": shape_of(LabelledArray),
-        "graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
+        "inspect bench": shape_of(AccuracyReport),
+        "inspect graph --as matrix": shape_of(LabelledArray),
+        "inspect graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
     }
 
 
@@ -102,7 +98,7 @@ def _of_spheres() -> dict[str, Schema]:
 
 
 def _of_any_form(kind: type) -> Schema:
-    """Return the schema of a result on a pair with any tooth form, with the figures of each form."""
+    """Return the schema of a result on a pair of any tooth form: one alternative for each form's figures."""
     from geartrain.teeth.any_tooth_form import tooth_forms
 
     pair = shape_of(kind)
@@ -121,11 +117,11 @@ def _of_pairs() -> dict[str, Schema]:
     from geartrain.teeth.pair_results import PinFigures
 
     return {
-        "mesh triangular": shape_of(TriangularPair),
-        "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
-        "mesh pin": shape_of(PinFigures),
-        "mesh FORM": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
-        "mesh compare": shape_of(FormComparison),
+        "mesh --form triangular": shape_of(TriangularPair),
+        "mesh --form triangular --vary": shape_of(list[dict[str, float | str | None]]),
+        "pin": shape_of(PinFigures),
+        "mesh": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
+        "mesh --compare": shape_of(FormComparison),
     }
 
 
@@ -135,8 +131,8 @@ def answer_schema() -> Schema:
     Returns
     -------
     dict
-        Keys and kinds of values follow from the classes of the results, descriptions from the docstrings of their
-        fields. A question is a command, or a use of a command whose answer has another shape.
+        Keys and kinds of values are those of the result classes, and descriptions are the docstrings of their
+        fields. QUESTION is a command, or a use of a command whose answer has another shape.
 
     Examples
     --------
@@ -153,7 +149,7 @@ def answer_schema() -> Schema:
 
 
 def describe_answer(question: str) -> Document:
-    """Return the keys of one question's JSON answer as a table: key, kind of value, meaning.
+    """Return a table of the keys of one JSON answer: key, kind of value, and meaning.
 
     `states[]` are the entries of a list, `outputs.*` the values of an object with arbitrary keys.
 
@@ -213,7 +209,12 @@ _PLAIN: dict[Any, Schema] = {
 
 
 def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
-    """Return the schema of values of a kind as plain data; `to` and `keys` as in `Key`."""
+    """Return the JSON Schema of values with a type annotation.
+
+    kind   annotation of the values
+    to     function that converts a value to plain data
+    keys   keys to include, by default those of the class
+    """
     origin, parts = get_origin(kind), get_args(kind)
     if origin is Annotated and isinstance(parts[1], WingResult):
         result = parts[1].kind()
@@ -236,7 +237,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
 
 
 def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, ...]) -> Schema:
-    """Return the schema of a kind that is not a mapping, list or None."""
+    """Return the schema of a single value, as opposed to a union, mapping or list."""
     if to is not None:
         return shape_of(to) if isinstance(to, type) or to in _PLAIN else shape_of(_returned(to))
     if keys:
@@ -247,6 +248,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
         return _PLAIN[kind]
     if is_typeddict(kind):
         return _typed_dict(kind)
+    # a pydantic model
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
     if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # a class with its own `to_dict`
@@ -255,7 +257,7 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
 
 
 def _typed_dict(kind: Any) -> Schema:
-    """Return the schema of a dictionary with known keys, some of which may be optional."""
+    """Return the schema of a `TypedDict`, some of whose keys may be optional."""
     kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
     needed = {Required: True, NotRequired: False}
     required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
@@ -263,14 +265,15 @@ def _typed_dict(kind: Any) -> Schema:
 
 
 def _one_of(shapes: list[Schema]) -> Schema:
-    """Return the schema of a union without duplicates; a single schema is returned as it is."""
+    """Return the schema of a union without duplicate alternatives; a single alternative is returned unchanged."""
+    # nested unions become one list of alternatives
     flat = [each for shape in shapes for each in shape.get("anyOf", [shape])]
     different = [each for at, each in enumerate(flat) if each not in flat[:at]]
     return different[0] if len(different) == 1 else {"anyOf": different}
 
 
 def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
-    """Return the schema of a result: its keys, and the keys of the parts that are merged into it."""
+    """Return the schema of a result class: its own keys, and the keys of the parts that are merged into it."""
     properties: dict[str, Schema] = {}
     required = []
     for key in keys:
@@ -290,7 +293,7 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """Return the docstring of a field or property, `part.attribute` for one of a part; "" without docstring."""
+    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; "" without docstring."""
     first, _, rest = path.partition(".")
     if rest:
         parts = (part for part in _parts(attribute_kind(kind, first)) if part is not NoneType)
@@ -299,12 +302,11 @@ def meaning_of(kind: Any, path: str) -> str:
 
 
 def _parts(kind: Any) -> list[Any]:
-    """Return the members of a union, or a kind that is not a union as the only entry."""
+    """Return the members of a union; for any other annotation, a list with only itself."""
     return list(get_args(kind)) if get_origin(kind) in (Union, UnionType) else [kind]
 
 
 def _fields(properties: Mapping[str, Schema], required: Any, kind: type) -> Schema:
-    """Return the schema of an object whose keys are the fields of a class."""
     meanings = field_docs(kind)
     described = {name: _described(each, meanings.get(name, "")) for name, each in properties.items()}
     return _object(described, required, kind)
@@ -320,7 +322,7 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 
 def _summary(what: Any) -> str:
-    """Return the first paragraph of a docstring on one line; "" for an object without a docstring of its own."""
+    """Return the first paragraph of a docstring as one line; "" for an object without a docstring of geartrain."""
     maker = getattr(what, "func", what)  # the function of a cached property
     own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
     text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
@@ -331,7 +333,9 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """Return the annotation of a field or property, `part.attribute` for one of a part. Raise `AttributeError`."""
+    """Return the annotation of a field or property, given as `attribute` or `part.attribute`. Raise
+    `AttributeError`.
+    """
     for name in path.split("."):
         kind = _own_kind(kind, name)
     return kind
@@ -354,11 +358,12 @@ def _returned(function: Any) -> Any:
 def _evaluated(annotation: Any, module: ModuleType) -> Any:
     if isinstance(annotation, ForwardRef):
         annotation = annotation.__forward_arg__
+    # annotations are strings, because modules import `annotations` from `__future__`
     return eval(annotation, {}, _Names(module)) if isinstance(annotation, str) else annotation
 
 
 class _Names(dict[str, Any]):
-    """Names in a module, including those that it imports only for annotations."""
+    """Names that are defined in a module, including those that it imports only for annotations."""
 
     def __init__(self, module: ModuleType) -> None:
         super().__init__(vars(builtins) | vars(module))
@@ -371,132 +376,16 @@ class _Names(dict[str, Any]):
 
 @cache
 def _imports(module: ModuleType) -> dict[str, str]:
-    """Return the module of origin of each name that a module imports, including imports only for annotations."""
+    """Return the source module of each name that a module imports, including imports only for annotations."""
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
 
 
 class DefaultsAsWritten(GenerateJsonSchema):
-    """Schema generator that writes numbers and quantities as in a declaration, not as pydantic's fields."""
+    """JSON Schema generator that writes default numbers and quantities as in a declaration file."""
 
     def encode_default(self, dft: Any) -> Any:
         """Return a default value as JSON data."""
         if isinstance(dft, tuple):
             return [self.encode_default(each) for each in dft]
         return str(dft) if isinstance(dft, Figure | Quantity) else super().encode_default(dft)
-
-
-# ---------------------------------------------------------------------------------------------------------- declaration
-
-
-_URL = "https://json-schema.org/draft/2020-12/schema"
-_SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
-"""Regular expression of the sections of a numpydoc docstring, from the first section on."""
-
-_MERGED = (
-    "Wheel",
-    "GearPair",
-    "Revolute",
-    "PinAndSlot",
-    "PinFollower",
-    "PinsInHoles",
-    "Parallel",
-    "Source",
-    "Published",
-)
-"""Parts that a child of `extends` may declare incompletely, so that an editor must not require all their keys."""
-
-
-def schema() -> dict[str, Any]:
-    """Return the JSON Schema of a declaration for editors."""
-    found = {key: part for key, part in _models().items() if key not in ("title", "required")}
-    for name in _MERGED:
-        part = found["$defs"][name]
-        body = next((option for option in part.get("anyOf", ()) if "properties" in option), part)
-        body["required"] = [key for key in body.pop("required", ()) if key == "kind"]
-    whole = {"if": {"required": ["extends"]}, "then": {}, "else": {"required": ["links"]}}
-    return {"$schema": _URL, "title": "geartrain declaration"} | found | whole
-
-
-def _models() -> dict[str, Any]:
-    found: dict[str, Any] = _without_sections(Train.model_json_schema(schema_generator=DefaultsAsWritten))
-    return found
-
-
-def _without_sections(schema: Any) -> Any:
-    """Return a schema whose descriptions omit the numpydoc sections of docstrings."""
-    if isinstance(schema, list):
-        return [_without_sections(part) for part in schema]
-    if not isinstance(schema, dict):
-        return schema
-    found = {key: _without_sections(part) for key, part in schema.items()}
-    if isinstance(text := found.get("description"), str):
-        found["description"] = _SECTIONS.sub("", text)
-    return found
-
-
-def declaration_reference() -> str:
-    """Return tables of keys for the train and for each of its parts, as Markdown."""
-    found = _models()
-    parts: dict[str, Any] = found["$defs"]
-    lines = [
-        "# The declaration, key by key",
-        "",
-        "Written by `geartrain schema --as markdown` from the models that read the files.",
-        "",
-        *_part("Train", found),
-    ]
-    for name, part in parts.items():
-        lines += _part(name, part)
-    return "\n".join(lines)
-
-
-def _part(name: str, part: Mapping[str, Any]) -> Iterator[str]:
-    short = [option for option in part.get("anyOf", ()) if "properties" not in option]
-    body = next((option for option in part.get("anyOf", ()) if "properties" in option), part)
-    if "properties" not in body:
-        return
-    yield from (f"## {name}", "")
-    if text := body.get("description"):
-        yield from (" ".join(text.split()), "")
-    if short:
-        yield from (f"Short form: {' or '.join(_kind(option) for option in short)}.", "")
-    yield "| key | what | value |"
-    yield "|---|---|---|"
-    required = body.get("required", ())
-    for key, field in body["properties"].items():
-        need = " (required)" if key in required else ""
-        default = (
-            f"; default `{field['default']}`"
-            if isinstance(field.get("default"), str | int) and field["default"] != ""
-            else ""
-        )
-        yield f"| `{key}`{need} | {_text(field)} | {_kind(field)}{default} |".replace("\n", " ")
-    yield ""
-
-
-def _text(field: Mapping[str, Any]) -> str:
-    return " ".join(str(field.get("description", "")).split()).replace("|", "\\|")
-
-
-def _kind(field: Mapping[str, Any]) -> str:
-    """Return the permitted values of a field in a few words."""
-    if "$ref" in field:
-        name = field["$ref"].rsplit("/", 1)[-1]
-        return f"[{name}](#{name.lower()})"
-    if "enum" in field:
-        return ", ".join(f"`{value}`" for value in field["enum"])
-    if "const" in field:
-        return f"`{field['const']}`"
-    options = field.get("anyOf") or field.get("oneOf")
-    if options:
-        return " or ".join(dict.fromkeys(_kind(option) for option in options if option.get("type") != "null"))
-    kind = field.get("type", "anything")
-    if kind == "object":
-        inside = field.get("additionalProperties")
-        return f"mapping of names to {_kind(inside)}" if isinstance(inside, dict) else "mapping"
-    if kind == "array":
-        items: Mapping[str, Any] = field.get("items") or next(iter(field.get("prefixItems", ())), {})
-        count = f"{len(field['prefixItems'])} times " if "prefixItems" in field else "list of "
-        return count + _kind(items)
-    return " or ".join(kind) if isinstance(kind, list) else str(kind)

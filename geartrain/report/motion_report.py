@@ -1,4 +1,4 @@
-"""Anomalies, transmission errors and speeds of outputs over a run: figures for JSON, and the document."""
+"""Data and document on the transmission errors or anomalies and the speeds of a train's outputs over a run."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _TURNS, _POSITIONS = 20.0, 20_001  # turns and positions of the run in a report
 
 
 class PhaseRange(NamedTuple):
-    """Minimum and maximum deviation of one output over runs with random phases of the teeth."""
+    """Range of one output's deviation over runs with random tooth phases."""
 
     peak_to_peak: tuple[float, float]
     """Minimum and maximum peak-to-peak deviation [rad]."""
@@ -33,50 +33,50 @@ class PhaseRange(NamedTuple):
 
 
 class PhaseSets(NamedTuple):
-    """Number of sets of random phases, and their seed."""
+    """Number of sets of random tooth phases that were tried, and the random seed."""
 
     sets: int
-    """Number of sets of random phases."""
+    """Number of sets of random tooth phases."""
     seed: int | None
-    """Seed of the random phases."""
+    """Random seed; None if none was given."""
 
 
 class PartialRun(NamedTuple):
     """Progress of an interrupted run."""
 
     done: int
-    """Positions computed."""
+    """Number of positions that were computed."""
     of: int
-    """Positions requested."""
+    """Number of positions that were requested."""
 
 
 @dataclass(frozen=True)
 class OutputMotion:
-    """Motion of one output over a run; what was not requested is None."""
+    """Motion of one output over a run. Results that were not requested are None."""
 
     KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "estimates", "spectrum")
 
     tally: RunningStatistics
-    """Peaks and moments of the run."""
+    """Extreme values and moments of the deviation and of the speed over the run."""
     setting: float
-    """Angle by which the pointer is turned on its wheels so that at turn 0 its teeth do not displace it [rad]."""
+    """Constant offset of the pointer that makes its deviation 0 at turn 0 [rad]."""
     sensitivity: Mapping[str, float]
-    """Rotation of the output per rotation error of a pair's driven side [rad/rad], by pair."""
+    """Rotation of the output per rotation error of the driven side of each pair [rad/rad], by pair."""
     phases: PhaseRange | None
-    """Deviations over runs with random phases; None unless requested."""
+    """Range of the deviation over runs with random tooth phases; None unless requested."""
     estimates: ErrorEstimates | None
-    """Estimates of the deviation without composition; None unless requested."""
+    """Approximations of the deviation by sums over the pairs; None unless requested."""
     spectrum: Sequence[SpectrumLine] | None
-    """Lines of the spectrum by exact orders of the input; None unless requested."""
+    """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None unless requested."""
 
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of a train with real teeth and pins in one state, over a run; angles in rad.
+    """Deviations and speeds of a train with real teeth or pins in one state over a run. Angles are in rad.
 
     See Also
     --------
-    collect_motion : Return the figures of a run.
+    collect_motion : Return the results of a motion run.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -87,38 +87,40 @@ class MotionFigures(Result):
     )
 
     run: MotionRun
-    """Run that was evaluated; not part of the data."""
+    """Run from which the results are taken; not part of the data."""
     name: str
     """Name of the train."""
     state: str | None
     """Name of the requested state; None if none was named."""
     input: str
-    """Link whose turns are counted."""
+    """Name of the driving link, whose turns are counted."""
     turns: float
-    """Turns of the input; negative for backward motion."""
+    """Turns of the driving link over the run; negative for backward motion."""
     positions: int
     """Number of positions at which the motion was computed."""
     period: Fraction | None
-    """Turns of the input after which everything repeats; None if every output moves uniformly."""
+    """Turns of the driving link after which the motion repeats; None if every output moves uniformly."""
     drivers: Mapping[str, MeshDriver]
-    """Driving wheel of each pair whose ratio varies."""
+    """Driving wheel of each pair whose speed ratio varies."""
     reversing_drivers: Sequence[str]
-    """Pairs whose driver temporarily turns against its mean sense."""
+    """Pairs whose driving wheel temporarily turns against its mean sense of rotation."""
     rigid: Sequence[str]
-    """Pairs with real teeth that keep their ratio at every instant and contribute no error."""
+    """Pairs with real teeth whose speed ratio is constant, so that they contribute no transmission error."""
     outputs: Mapping[str, OutputMotion]
-    """Deviation, speed and all other requested results, by output."""
+    """Deviation, speed and requested further results, by name of the output."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
-    """Rates of the input up to which this motion is valid; None if no inertia is declared."""
+    """Speeds of the driving link at which teeth first separate, which limit this motion; None if no inertia is
+    declared.
+    """
     phases: PhaseSets | None
-    """Random phases that were tried."""
+    """Random tooth phases that were tried; None unless requested."""
     partial: PartialRun | None
-    """Progress of an interrupted run; None for a complete one."""
+    """Progress of an interrupted run; None for a complete run."""
 
 
 @dataclass(frozen=True)
 class UnfollowedMotion:
-    """A state in which the motion cannot be computed, and the reason."""
+    """State whose motion cannot be computed, with the reason."""
 
     KEYS = ("name", "state", "error")
 
@@ -131,28 +133,28 @@ class UnfollowedMotion:
 
     @property
     def error(self) -> str:
-        """Reason as text."""
+        """Reason why the motion cannot be computed, as text."""
         return str(self.why)
 
 
 def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any = None) -> MotionFigures:
-    """Return the figures of a run, by output.
+    """Return the results of a motion run by output.
 
     Parameters
     ----------
     run : MotionRun
-        Run after its `run`, and after `run_random_phases`, `find_estimates` or `find_spectra` if these are wanted.
+        Run on which `run` was called, and if required `run_random_phases`, `find_estimates` or `find_spectra`.
     name : str
         Name of the train.
     state : str or None
         Name of the requested state.
     separation : geartrain.simulation.SeparationRates, optional
-        Rates of the input up to which this motion is valid.
+        Speeds of the input at which teeth first separate.
 
     Returns
     -------
     MotionFigures
-        Figures whose `to_dict` is the answer of `geartrain motion --json`.
+        Results whose `to_dict` is the answer of `geartrain motion --json`.
 
     Examples
     --------
@@ -166,6 +168,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any
     '254/95'
     """
     motion = run.motion
+    # pairs that drive no output are not reported
     used = {source.id for source in motion._forward.used}
     outputs = {
         tally.name: OutputMotion(
@@ -204,7 +207,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state; nothing for a train without real teeth or dimensioned pins."""
+    """Yield the motion in every state. Yield nothing if the train has neither real teeth nor pins with dimensions."""
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -221,10 +224,10 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
 
 
 def separation_rates(train: GearTrain, state: str | None, without: Sequence[str] = ()) -> Any:
-    """Return the `geartrain.simulation.SeparationRates` of a state.
+    """Return the speeds of the input at which teeth first separate in a state (`geartrain.simulation.SeparationRates`).
 
-    Return None if nothing driven by the input has an inertia, if torques have no units, or without the optional package
-    `simulation`.
+    Return None if no link driven by the input has an inertia, if torques have no units, or if the optional package
+    `simulation` is not installed.
     """
     if not (train.declaration.has_inertia and has_wing("simulation")):
         return None
@@ -235,7 +238,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 
 def ripples(train: GearTrain) -> bool:
-    """Return whether the ratio of any pair or pin varies within a turn."""
+    """Return whether the speed ratio of any gear pair or pin varies within a turn."""
     return bool(train.mechanics.pins) or any(not mesh.rigid for mesh in train.meshes)
 
 
@@ -251,7 +254,7 @@ def deviation_name(motion: Motion) -> str:
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
-    """Return a document on the deviation and speed of each output of a run, and on all other requested results.
+    """Return a document on the deviation and speed of each output over a run, with the requested further results.
 
     Parameters
     ----------
@@ -294,7 +297,9 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
-    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None before the run."""
+    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if it has not been
+    run.
+    """
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import MotionRun
 
@@ -308,7 +313,7 @@ def motion_document(found: Motion | MotionRun) -> Document | None:
 
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
-    """Yield sections on outputs, on the pairs that cause their deviations, and on all other requested results."""
+    """Yield sections on the outputs, on the pairs that cause their deviations, and on the requested further results."""
     yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.statistics, deviation_name(run.motion)),))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
@@ -326,7 +331,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Yield the motion in every state of a train with real teeth or pins.
+    """Yield a section on the motion in each state of a train with real teeth or pins.
 
     toothed   whether the train has real teeth
     """
@@ -346,7 +351,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence on the pairs that contribute to no deviation, by tooth form."""
+    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" if there are none."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -354,7 +359,7 @@ def _rigid(meshes: Iterable[GearMesh]) -> str:
     if not forms:
         return ""
     words = "; ".join(f"{', '.join(names)} ({form})" for form, names in forms.items())
-    return f"These pairs keep their ratio at every instant and contribute no error: {words}."
+    return f"These pairs keep their ratio at every instant and contribute no transmission error: {words}."
 
 
 def _rippling(run: MotionRun) -> list[RunningStatistics]:
@@ -394,11 +399,10 @@ def _remarks(run: MotionRun) -> Iterator[str]:
 
 
 def _uncertainty_text(tally: RunningStatistics) -> str:
-    """Return the uncertainty of an output's extremes as text."""
     error, speed = tally.error_within, tally.speed_within
     if error is None or speed is None:
         return f"{tally.name} may exceed the printed ones by any amount"
-    scale = abs(tally.mean) or 1.0
+    scale = abs(tally.mean) or 1.0  # for a mean speed of 0, relative to the input speed
     by = f"{degrees(error):.2g} deg and {speed / scale:.2g} in speed"
     return f"{tally.name} may exceed the printed ones by up to {by}"
 
@@ -411,14 +415,15 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
     text = [f"Contribution of each pair to an output: the range of its own {own} times the output's sensitivity to it."]
     if still := [name for name in motion.outputs if name not in moved]:
         text.append(f"No pair affects {', '.join(still)}.")
-    if left_out := moved[len(shown) :]:
-        text.append(f"Not shown: {', '.join(left_out)}; `--wide` or `--output` shows them.")
+    if neglected := moved[len(shown) :]:
+        text.append(f"Not shown: {', '.join(neglected)}; `--wide` or `--of` shows them.")
+    # a table with all outputs would be too wide
     blocks = [shown[at : at + _ABREAST] for at in range(0, len(shown), _ABREAST)]
     return Section("Pairs", tuple(text), tuple(_shares(motion, outputs) for outputs in blocks or [[]]))
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """Return a table of each pair's contribution to some outputs [deg, peak to peak]."""
+    """Return a table of the peak-to-peak contribution of each pair to some outputs [deg]."""
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]

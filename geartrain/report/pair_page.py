@@ -1,6 +1,6 @@
 """Documents on one pair of wheels with any tooth form, and on one pin in a slot.
 
-A pair with triangular teeth has sizes, clearance, path of contact, transmission function, impacts and losses.
+The document on triangular teeth has sizes, clearance, path of contact, transmission function, impacts and losses.
 `conjugate_pair_page` describes conjugate teeth.
 """
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FormedPair(Result):
-    """A pair of any tooth form, with the figures of its mesh."""
+    """Pair of wheels with any tooth form, with the results on its mesh."""
 
     KEYS = (
         *(Key("form", "mesh.form"), Key("driver", "mesh.driver"), Key("gears", "mesh.gears"), Key("note", "mesh.note")),
@@ -44,17 +44,19 @@ class FormedPair(Result):
     mesh: GearMesh
     """Mesh with its driving wheel."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels that were cut."""
+    """Outlines of the wheels that were constructed."""
 
     @property
     def figures(self) -> PairFigures:
-        """Figures of the mesh."""
+        """Sizes, transmission function and losses of the mesh."""
         return self.mesh.account().figures
 
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """A pair with triangular teeth outside a train, with the effects of its impacts if its operation is given."""
+    """Pair of wheels with triangular teeth outside a train, with the effects of impacts if operating conditions are
+    given.
+    """
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
@@ -62,29 +64,29 @@ class TriangularPair(Result):
     course: ContactCourse
     """Speed ratio, instant centre and moment arms over one pitch."""
     impacts: PairImpacts | None
-    """Energies and limits of its impacts; None unless its operation is given."""
+    """Energies of the impacts and limits of speed; None unless operating conditions are given."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels that were cut."""
+    """Outlines of the wheels that were constructed."""
 
 
 def collect_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> PairDesign | TriangularPair | FormedPair:
-    """Return the data of one pair outside a train: its design, or the figures of its tooth form.
+    """Return the data on one pair of wheels outside a train.
 
     Parameters
     ----------
     mesh : GearMesh
         Mesh with its driving wheel.
     outlines : sequence of WheelOutline
-        Outlines of the wheels that were cut.
+        Outlines of the wheels that were constructed.
     operation : PairOperation, optional
         Operating conditions of the pair, for the impacts of triangular teeth.
 
     Returns
     -------
     PairDesign, TriangularPair or FormedPair
-        Conjugate teeth at their design distance; triangular teeth; any others. `to_dict()` returns the data.
+        Result class of conjugate teeth at their design distance, of triangular teeth, and of all others.
 
     Examples
     --------
@@ -102,21 +104,21 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """Return a document on one pair outside a train: verdict, design or figures, motion, losses, and outlines.
+    """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
     Parameters
     ----------
     mesh : GearMesh
         Mesh with its driving wheel.
     outlines : sequence of WheelOutline
-        Outlines of the wheels that were cut.
+        Outlines of the wheels that were constructed.
     operation : PairOperation, optional
         Operating conditions of the pair, for the impacts of triangular teeth.
 
     Returns
     -------
     Document
-        The data of `collect_pair`, with the limits of a friction or a clearance factor that is out of range.
+        Results of `collect_pair`, with the permitted range of a friction or clearance factor that is out of range.
 
     Examples
     --------
@@ -160,7 +162,9 @@ def _triangular_page(
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
-    """Return the design of conjugate teeth; None for other teeth, and at a distance where they are not conjugate."""
+    """Return the design of conjugate teeth; None for other tooth forms, and at a centre distance where the ratio
+    varies.
+    """
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
@@ -216,7 +220,7 @@ def describe_pin(transmission: PinTransmission) -> Document:
     Returns
     -------
     Document
-        One section; its data are those of `geartrain.teeth.pair_results.pin_figures`.
+        One section with the results of `geartrain.teeth.pair_results.pin_figures`.
 
     Examples
     --------
@@ -249,7 +253,7 @@ def describe_pin(transmission: PinTransmission) -> Document:
 
 
 def _share(efficiency: float | None) -> str:
-    """Return an efficiency as text; `-` where friction locks, or where no work is done on a constant load."""
+    """Return an efficiency as text; `-` if friction locks the pin or no work is done on a constant load."""
     return "-" if efficiency is None else f"{efficiency:.9f}"
 
 
@@ -257,7 +261,9 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """Yield the sections on a pair; for teeth that never touch, only sizes and clearance."""
+    """Yield the sections on a pair with triangular teeth. For teeth that never touch, yield only sizes and
+    clearance.
+    """
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
     if window is not None:
@@ -274,7 +280,7 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
-    """Return whether the pair can turn, and if not, the reason and the remedy."""
+    """Return a sentence on whether the pair can turn; if it cannot, add the reason and the remedy."""
     transmission, found = mesh.transmission, mesh.transmission.verdict
     words = [f"Verdict: {found.kind}: {found.text}."]
     if not found:
@@ -323,6 +329,7 @@ def _clearance(transmission: TriangularTransmission, window: ClearanceWindow) ->
         )
     if transmission.intervals:
         backlash = transmission.verdict.backlash
+        # pitch radius of the driven wheel: R2 = D z2 / (z1 + z2)
         arc = backlash * sizes.D * sizes.z2 / sizes.pitch_sum
         lines.append(
             f"Minimum backlash over a pitch: {degrees(backlash):.6g} deg of the driven wheel, an arc of {arc:.6g} on "
@@ -344,7 +351,7 @@ def _path(transmission: TriangularTransmission) -> Section:
             transmission.contact.speed(interval, interval.start),
             transmission.contact.speed(interval, interval.end),
         )
-        share = interval.width / sizes.p1
+        share = interval.width / sizes.p1  # width of the interval in pitches
         rows.append(
             (interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", figure(first), figure(last))
         )
@@ -353,7 +360,9 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return speed ratio, instant centre and moment arms at the ends of every interval and between them."""
+    """Return a section on speed ratio, instant centre and moment arms at the ends and inside of every contact
+    interval.
+    """
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     columns = (found.speed_ratio, found.instant_centre, found.driver_arm, found.driven_arm, found.efficiency)
     rows = [
@@ -406,7 +415,6 @@ def _collisions(transmission: TriangularTransmission) -> Section:
 
 
 def _friction_lock(mesh: TriangularMesh) -> tuple[str, str, str]:
-    """Return what, why and remedy of friction that locks."""
     declared = mesh.wheels.friction_law
     if declared is None:
         return explain_friction_lock(mesh.transmission)
@@ -416,7 +424,7 @@ def _friction_lock(mesh: TriangularMesh) -> tuple[str, str, str]:
 
 def _losses(mesh: TriangularMesh) -> Section:
     transmission = mesh.losses
-    if not mesh.rubs:
+    if not mesh.has_friction:
         return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     if not mesh.tells_losses:
         return Section("Friction", (f"{mesh.friction_words}.",))
@@ -441,12 +449,13 @@ def _impacts(transmission: TriangularTransmission, operation: PairOperation | No
         return
     lines = []
     if found.work is not None:
+        # [W]: work per pitch x pitches per second
         watts = found.work * (operation.rate or 0) * transmission.sizes.z1
         lines.append(
             f"At {operation.rate:g} turns of the driver per second, the impacts of one pitch transfer "
             f"{found.handed:.6g} J to the driven side and dissipate {found.dissipated:.6g} J. The driver supplies "
-            f"their sum, {found.work:.6g} J, or {watts:.6g} W. The source counts the first as lost; inelastic teeth "
-            "lose the second."
+            f"their sum, {found.work:.6g} J, or {watts:.6g} W. Sorge counts the transferred energy as lost; "
+            "inelastic impacts lose only the dissipated energy."
         )
         lines.append(
             f"The driven inertia stays in contact as tau falls if the load torque is at least {found.minimum_load:.6g} "

@@ -1,4 +1,4 @@
-"""Document that compares alternative reconstructions side by side."""
+"""Document that compares alternative reconstructions of a train side by side."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geartrain.report.document import Document, ExactText, Section, Table, exact
 
 
 def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -> Document:
-    """Return the outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ.
+    """Return a document that compares trains in columns: output speeds, errors against targets, and tooth counts.
 
     Parameters
     ----------
@@ -82,6 +82,7 @@ def _speed(answer: Answer, name: str) -> str:
     if speed is None:
         return "" if answer.verdict else answer.verdict.kind
     decimal = figure(speed, 7)
+    # an exact value that equals its decimal is printed once
     shown = exact(speed) if exact(speed) == decimal else f"{exact(speed)} = {decimal}"
     return ExactText(shown + (" FAILS" if result is not None and not result.holds else ""), speed)
 
@@ -105,7 +106,7 @@ def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str
 
 
 def _error(target: TargetResult) -> str:
-    """Return an error in ppm, or the difference in speed if the target is 0."""
+    """Return the error against a target in ppm, or the difference in speed if the target speed is 0."""
     return ppm(target.ppm) if target.speed else f"off by {figure(target.error, 7)}"
 
 
@@ -114,6 +115,7 @@ def _teeth(trains: Sequence[GearTrain]) -> list[tuple[str, ...]]:
     rows = []
     for wheel in wheels:
         counts = [str(found[1].count) if (found := train.declaration.wheels.get(wheel)) else "" for train in trains]
+        # wheels with equal counts in all trains are omitted
         if len(set(counts)) > 1:
             rows.append((wheel, *counts))
     return rows

@@ -1,4 +1,4 @@
-"""Judgement of a train: failures and remarks, as lines that begin with a place in a file."""
+"""Verdict of `geartrain check` on a train: failures and remarks as lines that begin with a place in a file."""
 
 from __future__ import annotations
 
@@ -22,21 +22,26 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """Findings on a train in a file; true if nothing fails."""
+    """Findings on a train in a file; true as a boolean without failures."""
 
     train: GearTrain
     file: str
     answers: Sequence[Answer]
     failures: tuple[str, ...]
-    """Verdicts that leave speeds open, unmet expectations, parts that cannot be built, and teeth that cannot turn."""
+    """Undetermined speeds, unmet expectations, parts that cannot be built, and teeth that cannot turn, one line for
+    each.
+    """
     whole: bool = True
-    """True if checks that need numpy are included: teeth, loads, and closure of loops."""
+    """True if the checks of teeth, loads and closure of loops, which need numpy, are included."""
 
     def __bool__(self) -> bool:
         return not self.failures
 
     def lines(self, quiet: bool = False) -> Iterator[str]:
-        """Yield the lines of `geartrain check`; `quiet` omits remarks on trains that are sound."""
+        """Yield the lines of `geartrain check`.
+
+        quiet   whether remarks on trains without failures are omitted
+        """
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
         if whole:
@@ -48,7 +53,7 @@ class Soundness:
             for remark in train.kinematics.remarks:
                 yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
             if self.whole:
-                yield from (f"note {self.file}: {line}" for line in _left_out(train))
+                yield from (f"note {self.file}: {line}" for line in _neglected(train))
                 yield from (f"note {line}" for line in _too_fast(train))
             yield from (f"note {line}" for line in _off_beat(train, self.answers))
         if self and not quiet:
@@ -56,7 +61,7 @@ class Soundness:
 
 
 def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness:
-    """Judge every state of a train read from a file. Raise `GearTrainError` for teeth that cannot be made."""
+    """Check every state of a train that was read from a file. Raise `GearTrainError` for teeth that cannot be made."""
     answers = list(train.answers())
     failures = [line for answer in answers for line in _failures(train, answer, file)]
     failures += map(str, build_errors(train.build_findings))
@@ -72,7 +77,9 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the verdict if it leaves speeds open, or each unmet expectation, with its place in the file."""
+    """Yield the failures of one state: its verdict if that is not the expected one, otherwise each unmet
+    expectation.
+    """
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
@@ -87,18 +94,20 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
         yield f"{head}:{state} output '{result.name}' is {exact(result.speed)}{_wanted(result)}{tail}"
 
 
-def _left_out(train: GearTrain) -> Iterator[str]:
-    """Yield the effects that the torques of loaded states neglect; nothing for teeth that cannot turn."""
+def _neglected(train: GearTrain) -> Iterator[str]:
+    """Yield the effects that the computed torques neglect, for each loaded state; nothing for teeth that cannot
+    turn.
+    """
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:
         if train.declaration.is_loaded(state):
             where = f"state {state}: " if state is not None else ""
-            yield from (f"{where}torques do not include {each}: {each.why}" for each in train.torques(state).left_out)
+            yield from (f"{where}torques do not include {each}: {each.why}" for each in train.torques(state).neglected)
 
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
-    """Yield the states whose rate exceeds the rate at which teeth first separate."""
+    """Yield the states in which the input is faster than the speed at which teeth first separate."""
     from geartrain.report.motion_report import separation_rates
 
     for state in train.kinematics.usable_states:
@@ -117,9 +126,10 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 
 
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
-    """Yield the states in which the escape wheel's speed does not match its beat.
+    """Yield the states in which the escape wheel's speed does not match the declared beat.
 
-    Pallets are carried by the link that bears the escape wheel. Therefore the speed relative to that link counts.
+    The beat depends on the speed of the escape wheel relative to the link that bears it, because that link carries the
+    pallets.
     """
     declared = train.declaration
     escapement = declared.escapement
@@ -128,6 +138,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     bearer = train.kinematics.tree.top[escapement.link]
     seen = "" if bearer == declared.frame else f" relative to '{bearer}'"
     for answer in answers:
+        # beats are in seconds, so speeds need a unit of time
         second = _turns_a_second(declared, answer)
         if not answer.verdict or second is None:
             continue
@@ -144,7 +155,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Return turns per second in the unit of a train's speeds; None if speeds are plain numbers."""
+    """Return the unit of a train's speeds in turns per second; None if speeds are plain numbers without a rate."""
     if declared.unit_speed is not None:
         return declared.unit_speed
     case = declared.case(answer.state)

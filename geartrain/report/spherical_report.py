@@ -1,4 +1,4 @@
-"""Documents on gears on a sphere: one set, a survey of polyhedra, and suggested tooth counts."""
+"""Documents on gears on a sphere: one configuration, a survey of polyhedra, and suggested tooth counts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def describe_sphere(found: GearSphere) -> Document:
-    """Return a document on whether a set turns, closes and fits, and on its sizes."""
+    """Return a document on a set of gears on a sphere: mobility, phase closure, kinds of gear and mesh, and sizes."""
     configuration = found.configuration
     summary = [
         f"{len(configuration.names)} gears, {len(configuration.meshes)} meshes, on a sphere of radius "
@@ -93,16 +93,20 @@ def _pitch(found: GearSphere) -> Iterator[str]:
             )
             if text := impossibility_theorem(found.configuration):
                 yield f"One pitch is impossible here: {text}."
+        # one collision repeats for every symmetric pair of gears
         for collision in sizing.collisions[:6]:
             yield f"Too close: {collision}."
         for kind, count in sizing.undercut.items():
             yield f"Kind {kind} is undercut: {count:.1f} virtual teeth."
+    # ratios are only defined for a set that turns
     for window in ratio_windows(found.configuration) if found.moves else ():
         yield f"Neighbours do not overlap while {window}."
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """Return a table of polyhedra: which turn, how many meshes to remove, and the angles between axes."""
+    """Return a table of polyhedra: which sets turn, how many meshes must be removed otherwise, and the angles between
+    axes.
+    """
     table = result_table(
         rows,
         *("faces of=solid", "gears", "meshes", ("turns", lambda row: "yes" if row.bipartite else "no")),
@@ -120,7 +124,9 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return tooth counts for which loops close and tips clear, best first, and the reasons for other rejections."""
+    """Return a document on tooth counts for which loops close and tips clear, best first, with counts of
+    rejected sets.
+    """
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = [
         (

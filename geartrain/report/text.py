@@ -1,4 +1,4 @@
-"""Conversion of a document to Markdown, to plain text, or to a terminal."""
+"""Conversion of documents to Markdown, plain text, and terminal output."""
 
 from __future__ import annotations
 
@@ -41,7 +41,6 @@ def to_markdown(documents: Sequence[Document]) -> str:
 
 
 def _line(text: str) -> str:
-    """Return text on one line, for a heading or a cell."""
     from geartrain.numerics.markdown_text import markdown_text
 
     return " ".join(markdown_text(text).split())
@@ -65,7 +64,7 @@ def _markdown(document: Document) -> Iterator[str]:
 
 
 def _list(branches: Sequence[Branch], depth: int = 0) -> Iterator[str]:
-    """Yield a tree as the lines of a nested list."""
+    """Yield the lines of a nested Markdown list for a tree."""
     for branch in branches:
         yield f"{'  ' * depth}- {_line(branch.text)}"
         yield from _list(branch.below, depth + 1)
@@ -73,6 +72,7 @@ def _list(branches: Sequence[Branch], depth: int = 0) -> Iterator[str]:
 
 def _pipes(table: Table) -> Iterator[str]:
     rows = [[_line(cell).replace("|", "\\|") for cell in row] for row in (table.header, *table.rows)]
+    # a Markdown table needs at least three dashes per column
     widths = [max(3, *(len(cell) for cell in column)) for column in zip(*rows, strict=True)]
     lines = [
         "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows
@@ -121,7 +121,7 @@ def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
 def to_terminal(documents: Sequence[Document], console: Console, marks: str = "") -> None:
     """Print documents on a console, within its width.
 
-    marks   characters that underline headings of the two levels where colours cannot distinguish them
+    marks   characters that underline headings of the first and second level if colours cannot distinguish them
     """
     for document in documents:
         if document.title:
@@ -136,6 +136,7 @@ def to_terminal(documents: Sequence[Document], console: Console, marks: str = ""
                 console.print(_shown(paragraph))
             for branch in section.branches:
                 console.print(_rich_tree(branch))
+            # a table wider than the console becomes several tables
             shown = [strip for table in section.tables for strip in strips(table, console.width)]
             for at, strip in enumerate(shown):
                 if at or (marks and section.paragraphs):
@@ -145,7 +146,6 @@ def to_terminal(documents: Sequence[Document], console: Console, marks: str = ""
 
 
 def _heading(title: str, style: str, console: Console, mark: str) -> None:
-    """Print a heading, underlined where its style may not be visible."""
     shown = _shown(title, style=style)
     console.print(shown)
     if mark:
@@ -162,7 +162,6 @@ def _shown(text: str, style: str = "") -> Text:
 
 
 def _rich_tree(branch: Branch) -> Tree:
-    """Return a line with the lines below it as a tree."""
     from rich.tree import Tree
 
     shown = Tree(_shown(branch.text))

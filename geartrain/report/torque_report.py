@@ -1,4 +1,6 @@
-"""Torques, power flow and losses of a train, and torque over some turns of the input: figures, and the document."""
+"""Data and document on the torques, power flow and losses of a train, and on its torque over some turns of the
+input.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Impact(NamedTuple):
-    """Power [W] that the impacts of a pair dissipate."""
+    """Power that the impacts of a pair dissipate."""
 
     impact: float
     """Power that the impacts of the pair dissipate [W]."""
@@ -30,7 +32,7 @@ class Impact(NamedTuple):
 
 @dataclass(frozen=True)
 class LossFigures:
-    """Loss of a pair or bearing; for a pair whose impacts are known, also their `impact`."""
+    """Power loss of a pair or bearing, with the power of the pair's impacts if it is known."""
 
     KEYS = (Key("", "loss"), Key("", "collisions"))
 
@@ -40,11 +42,11 @@ class LossFigures:
 
 @dataclass(frozen=True)
 class DrivenFigures:
-    """Efficiency of a train driven in one direction; None if it is not determined."""
+    """Efficiency of a train driven in one direction."""
 
     KEYS = (
         *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),
-        Key("left_out", "way.torques.left_out"),
+        Key("neglected", "way.torques.neglected"),
     )
 
     way: DrivenWay
@@ -61,12 +63,12 @@ class DrivenFigures:
 
     @property
     def exact_efficiency(self) -> Fraction | None:
-        """Efficiency as a fraction; None if it is a float."""
+        """Efficiency as an exact fraction; None if it was computed as a float."""
         return self.efficiency if isinstance(self.efficiency, Fraction) else None
 
 
 class DrivenWays(NamedTuple):
-    """Efficiencies when driven from the input, and from the output."""
+    """Efficiency when driven from the input (`forward`) and from the output (`backward`)."""
 
     forward: DrivenFigures
     backward: DrivenFigures
@@ -74,24 +76,24 @@ class DrivenWays(NamedTuple):
 
 @dataclass(frozen=True)
 class TorqueFigures(Result):
-    """Torques, power flow and losses of one state."""
+    """Torques, power flow and losses of a train in one state."""
 
     KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
 
     torques: Torques
     drives: DrivenWays | None
-    """Efficiencies in both directions; None if the output is ambiguous."""
+    """Efficiencies in both directions; None if the train has not exactly one output."""
     watts_per_unit: float | None
-    """Watts per unit of power; None if torques or speeds are plain numbers."""
+    """Watts per unit of power (torque unit times speed unit); None if torques or speeds are plain numbers."""
     in_newton_metres: bool
-    """True if torques have a unit."""
+    """True if torques are in N m, False if they are in the unit of the loads."""
     flow: PowerFlow
     impact_power: Mapping[str, float]
-    """Power [W] that the impacts of each pair dissipate, if inertias and a rate are declared."""
+    """Power that the impacts of each pair dissipate [W], by pair; empty unless inertias and a rate are declared."""
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
-        """Loss of each pair and bearing."""
+        """Power loss of each pair and bearing."""
         struck = {name: Impact(power) for name, power in self.impact_power.items()}
         return tuple(
             LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None)
@@ -105,7 +107,7 @@ class TorqueReport(Result):
 
     See Also
     --------
-    collect_torque_report : Return a torque report.
+    collect_torque_report : Return the torques of a train in some states.
     """
 
     PAGE = "report.torque_report:describe_torques"
@@ -115,11 +117,11 @@ class TorqueReport(Result):
     title: str
     """Title of the train."""
     states: tuple[TorqueFigures, ...]
-    """Torques, powers, flow and losses of each state, in the requested order."""
+    """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
-    """Torque over some turns of the one requested state; None unless requested."""
+    """Torque over some turns of the input in one state; None unless requested."""
     friction_trials: Annotated[Any, WingResult("workshop", "FrictionTrials")] | None = None
-    """Torque over some turns in trials of friction; None unless requested."""
+    """Torque over some turns for random values of friction; None unless requested."""
 
 
 def collect_torque_report(
@@ -128,7 +130,7 @@ def collect_torque_report(
     over_turn: TorqueCycle | None = None,
     friction_trials: Any = None,
 ) -> TorqueReport:
-    """Return torques of some states of a train with their power flow, losses, and the efficiency in both directions.
+    """Return the torques of a train in some states, with power flow, losses, and the efficiency in both directions.
 
     Parameters
     ----------
@@ -195,7 +197,7 @@ _UNITS_IN_WATTS = (
 
 
 def describe_torques(found: TorqueReport) -> Document:
-    """Return a document on torques by state: verdict, efficiency in both directions, links, pairs, flow and losses.
+    """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
 
     The torque over some turns and trials of its friction follow if requested.
 
@@ -207,7 +209,7 @@ def describe_torques(found: TorqueReport) -> Document:
     Returns
     -------
     Document
-        Torques in the unit of the loads; powers in watts if loads and speeds have units.
+        Document with torques in the unit of the loads, and powers in watts if loads and speeds have units.
 
     Examples
     --------
@@ -230,7 +232,7 @@ def describe_torques(found: TorqueReport) -> Document:
 
 
 def torques_document(found: Torques | TorqueCycle) -> Document | None:
-    """Return the output of `geartrain torques` for the torques of one state; None if the train is not known."""
+    """Return the output of `geartrain torques` for one state; None if the train of the result is not known."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
 
@@ -243,21 +245,21 @@ def torques_document(found: Torques | TorqueCycle) -> Document | None:
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
-    """Yield sections on the loaded states of a train."""
+    """Yield sections on the torques in each loaded state of a train; the first explains the units."""
     sections = (section for each in found for section in torque_sections(each))
     for at, section in enumerate(sections):
         yield section if at else replace(section, paragraphs=(_units(found), *section.paragraphs))
 
 
 def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
-    """Yield links, pairs and verdict of one state, then its power flow and losses."""
+    """Yield a section on the verdict, links and pairs of one state, then a section on its power flow and losses."""
     found, flow = figures.torques, figures.flow
     state = found.state
     head = "Torques" if state is None else f"State {state}: torques"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"Possible verdicts: {', '.join(found.verdict.candidates)}.")
-    lines += [f"Not included: {each}: {each.why}." for each in found.left_out]
+    lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     lines += _both_directions(figures.drives)
     if not found.verdict:
         yield Section(head, lines)
@@ -265,7 +267,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     amounts = _Amounts(figures)
     efficiency, circulating = found.efficiency, found.circulating
     if efficiency is not None and circulating is not None:
-        kept = f"efficiency {figure(efficiency, 6)}{uncounted_words(found)}" if efficiency else "nothing is taken out"
+        kept = f"efficiency {figure(efficiency, 6)}{uncounted_words(found)}" if efficiency else "no power is taken out"
         lines.append(
             f"Power in {amounts.text(found.power_in, 6)}, lost {amounts.text(found.loss, 6)}, {kept}; "
             f"the maximum power through a pair is {figure(circulating, 5)} times the power in."
@@ -281,7 +283,7 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
 
 
 class _Amounts:
-    """Conversion of powers and torques to text, in watts and N m if the units are known."""
+    """Conversion of powers and torques to text, in W and N m if units are declared."""
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit
@@ -313,7 +315,7 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _held(found: Torques) -> Iterator[Table]:
-    """Yield a table of brakes and locks with the torques they exert on the links they hold."""
+    """Yield a table of brakes and locks with the torques that they exert on the links they hold."""
     rows = []
     for held in found.held:
         torques = ["open"] * len(held.links) if held.torques is None else [figure(each, 6) for each in held.torques]
@@ -326,9 +328,9 @@ def _held(found: Torques) -> Iterator[Table]:
 
 
 def uncounted_words(found: Torques) -> str:
-    """Return the effects that an efficiency neglects, as a suffix of its figure."""
+    """Return the effects that an efficiency neglects, as a suffix to its value; "" if none."""
     uncounted = ", ".join(map(str, found.uncounted))
-    return f" without {uncounted}" if uncounted else ", mean over a turn" if found.left_out else ""
+    return f" without {uncounted}" if uncounted else ", mean over a turn" if found.neglected else ""
 
 
 def _pairs(found: Torques, amounts: _Amounts) -> Table:
@@ -349,7 +351,7 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
-    """Yield sentences on the pairs and shafts through which power circulates, and its amount."""
+    """Yield sentences on the amount of recirculating power and the pairs and shafts that transmit it."""
     if flow.loops:
         yield "Here power is torque times absolute speed, so that it is balanced at every shaft and pair."
     for loop in flow.loops:
@@ -361,7 +363,9 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """Yield a table of the losses of each pair and bearing, the total last; impacts have columns of their own."""
+    """Yield a table of the losses of each pair and bearing, with the total in the last row; impacts have separate
+    columns.
+    """
     if not flow.losses and not impact_power:
         return
     struck = [node for node in flow.nodes if node.kind == "pair" and node.name in impact_power]
@@ -373,6 +377,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
             flow, amounts, flow.losses.get(node, Fraction(0)), impact_power.get(node.name) if pair else None
         )
         rows.append((node.name if pair else f"bearing of {node.name}", *row))
+    # subtotals are shown only if pairs and bearings both have losses
     teeth = sum((loss for node, loss in flow.losses.items() if node.kind == "pair"), Fraction(0))
     if 0 < teeth < flow.loss:
         sums = {"all pairs": teeth, "all bearings": flow.loss - teeth}
@@ -385,7 +390,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a loss with its shares, then the power that impacts dissipate and its share."""
+    """Return a loss with its shares of the power in and of all losses, then the power of impacts and its share."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")
@@ -394,14 +399,14 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Return the efficiency, or why it is not determined, and the losses by cause."""
+    """Return the efficiency and the losses by cause as text, or why the efficiency is not determined."""
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     teeth = torques.loss - torques.bearing_loss
     lost = {"teeth": teeth, "bearings": torques.bearing_loss}
     named = [f"{percent_text(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
     out = percent_text(1 - torques.loss / torques.power_in)
-    uncounted = [f"not included: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
+    uncounted = [f"not included: {', '.join(map(str, torques.neglected))}"] if torques.neglected else []
     return "; ".join([f"efficiency {out}", *named, *uncounted])
 
 
@@ -426,10 +431,10 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
-    """Yield sections on crank torque over a run, energies, and the losses of each pair, pin and bearing."""
+    """Yield sections on the crank torque over a run, on energies, and on the losses of each pair, pin and bearing."""
     head = "Torque over a turn" if found.state is None else f"State {found.state}: torque over a turn"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
-    lines += [f"Not included: {each}: {each.why}." for each in found.left_out]
+    lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
     if found.turns is None:
         yield Section(head, lines)
         return
@@ -444,7 +449,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
 
 
 def turns_text(turns: float) -> str:
-    """Return a number of turns as text, `1 turn` or `2.5 turns`."""
+    """Return a number of turns as text, for example `1 turn` or `2.5 turns`."""
     return f"{turns:g} turn{'' if turns == 1 else 's'}"
 
 
@@ -461,7 +466,9 @@ def _run(found: TorqueCycle) -> str:
 
 
 def _shares(found: TorqueCycle) -> Iterator[str]:
-    """Yield the shares of the run in which the train locks, is driven from both sides, or is ambiguous."""
+    """Yield sentences on the fractions of the run in which the train locks, all energy is lost, or results are
+    ambiguous.
+    """
     shares = {
         "no torque balances: the train locks": found.locked_share,
         "loads and the crank both put power in, and all of it is lost": found.held_share,
@@ -487,7 +494,7 @@ def _remarks(found: TorqueCycle) -> Iterator[str]:
         yield f"The torque reverses and backlash is crossed: {words}."
     if found.recirculating:
         words = ", ".join(f"{figure(share, 4)} times at {name}" for name, share in found.recirculating.items())
-        yield f"The power passed on exceeds the power put in: {words}."
+        yield f"Transmitted power exceeds the power put in: {words}."
     if not found.complete:
         yield "Not all patterns of power flow were tried."
 
@@ -523,7 +530,7 @@ def _energy_unit(found: TorqueCycle) -> str:
 def _energies(found: TorqueCycle) -> Table:
     assert found.energy is not None
     energy = found.energy
-    whole = energy.put_in + energy.loads_put_in
+    whole = energy.put_in + energy.loads_put_in  # loads that drive put in energy too
     amounts = {
         f"put in at {found.link}": energy.put_in,
         f"given back at {found.link}": energy.returned,
@@ -537,7 +544,7 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return energies over a run with their shares of all energy put in; values that are rounding are left out."""
+    """Return a table of energies over a run with their shares of all energy put in, without rounding errors."""
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()
@@ -547,9 +554,10 @@ def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: 
 
 
 def _parts(found: TorqueCycle) -> Iterator[Table]:
-    """Yield a table of losses and transmitted energy of each pair, pin and bearing, the largest loss first."""
+    """Yield a table of the lost and transmitted energy of each pair, pin and bearing, the largest loss first."""
     assert found.energy is not None
     lost = found.energy.lost
+    # stable, so that equal losses keep the declared order
     ranked = sorted(found.parts.items(), key=lambda each: -each[1].loss)
     rows = [
         (
@@ -563,7 +571,7 @@ def _parts(found: TorqueCycle) -> Iterator[Table]:
         if part.loss > _MINIMUM * lost or part.passed
     ]
     if rows:
-        yield Table(("where", "lost", "of all lost", "passed on", "flank changes"), cut(rows))
+        yield Table(("where", "lost", "of all lost", "transmitted", "flank changes"), cut(rows))
 
 
 def _share(part: float, whole: float) -> str:

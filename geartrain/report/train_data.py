@@ -1,4 +1,4 @@
-"""Data on one train: only its answers, and the contents of a report."""
+"""Data on one train: its speeds and outputs (`solve`), and the contents of its report."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ _MOST_LINKS = 500  # maximum number of links of a train whose adjacency matrix i
 
 @dataclass(frozen=True)
 class TrainAnswers(Result):
-    """A train and its answers, one for each requested state."""
+    """Speeds and outputs of a train in each requested state."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = ("name", "title", "unit", "mobility", "states")
 
     train: GearTrain
-    """The train, which is not part of the data."""
+    """Train to which the answers belong; not part of the data."""
     mobility: Mobility | None
-    """Mobility of the train; None if only one output was requested, as mobility takes all circuits."""
+    """Mobility of the train; None if only one output was requested, because mobility needs all circuits."""
     states: tuple[Answer, ...]
-    """Answers; a train without states has one, whose `state` is None."""
+    """Answer for each state. A train without states has one answer, whose `state` is None."""
 
     @property
     def name(self) -> str:
@@ -53,40 +53,40 @@ class TrainAnswers(Result):
 
     @property
     def unit(self) -> str:
-        """Unit of speeds; empty for plain numbers."""
+        """Unit of the speeds; "" for plain numbers."""
         return self.train.declaration.unit_name
 
 
 def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
-    """Return the data of `geartrain solve`: answers of a train, with its mobility if it is solved as a whole."""
+    """Return the data of `geartrain solve`: the answers of a train, and its mobility if it is solved as a whole."""
     return TrainAnswers(train, train.mobility if whole else None, tuple(answers))
 
 
 @dataclass(frozen=True)
 class AdjacencyLetters:
-    """Adjacency matrix of links with letters for turning pairs, gear pairs and couplings."""
+    """Adjacency matrix of the links, with letters for turning pairs, gear pairs and couplings."""
 
     links: tuple[str, ...]
-    """Names of the rows and columns, in order."""
+    """Names of the links, in the order of rows and columns."""
     cells: list[list[str]]
-    """Letters of the joints between two links, row by row: R a turning pair, G a gear pair, C a coupling."""
+    """Connections between two links, row by row: R is a turning pair, G a gear pair, C a coupling."""
 
 
 @dataclass(frozen=True)
 class StateSensitivity:
-    """Effect of one tooth on a wheel of uncertain tooth count on an output in a state."""
+    """Change of an output in one state if a wheel of uncertain tooth count has one tooth more or less."""
 
     KEYS = ("state", Key("", "change"))
 
     state: str | None
     """Name of the state; None for a train without states."""
     change: Sensitivity
-    """Changes of the output with one tooth less and one tooth more."""
+    """Relative changes of the output with one tooth less and one tooth more."""
 
 
 @dataclass(frozen=True)
 class TrainReport(TrainAnswers):
-    """Contents of a report on a train; `to_dict` returns its JSON data, `describe_train` its document.
+    """Contents of the report on a train. `to_dict` returns its JSON data, and `describe_train` its document.
 
     See Also
     --------
@@ -104,44 +104,44 @@ class TrainReport(TrainAnswers):
     )
 
     gridlock: Gridlock
-    """Links that are locked together, and the minimum set of meshes to remove."""
+    """Links that lock each other, and a minimum set of meshes whose removal frees them."""
     closure: MeshPhasing | None
-    """Phase closure: whether the teeth of all loops meet; None if axes have no positions."""
+    """Phase closure: whether the teeth of every loop mesh at the declared positions; None if axes have no positions."""
     sources: Mapping[str, str]
-    """Citations by key."""
+    """Citations by key of the source."""
     circuits: tuple[Circuit, ...]
     """Fundamental circuit of each gear pair and coupling."""
     adjacency: AdjacencyLetters | None
-    """Adjacency matrix of the links; None for very large trains."""
+    """Adjacency matrix of the links; None for a train of more than 500 links."""
     build_findings: tuple[BuildFinding, ...]
-    """Errors and warnings on whether the train can be built."""
+    """Errors and warnings on the buildability of the train."""
     remarks: tuple[Problem, ...]
     """Conventions on which the answers are based."""
     sensitivity: tuple[StateSensitivity, ...]
-    """Effects of one tooth more or less on each wheel of uncertain tooth count."""
+    """Changes of the outputs if a wheel of uncertain tooth count has one tooth more or less."""
     teeth: tuple[DrivenPair, ...]
-    """Pairs with real teeth, once for each wheel that drives."""
+    """Pairs with real teeth, one entry for each wheel of a pair that drives in some state."""
     pins: tuple[DrivenPin, ...]
-    """Couplings with dimensions."""
+    """Couplings whose dimensions are declared."""
     torques: tuple[TorqueFigures, ...]
-    """Torques of every state with loads, or with friction of bearings."""
+    """Torques in every state with loads or bearing friction."""
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
-    """Strength in every state with loads in units, if the train declares materials of its wheels."""
+    """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Motion in every state of a train with real teeth or pins; the `error` if it cannot be computed."""
+    """Motion in every state of a train with real teeth or pins; an entry with `error` if it cannot be computed."""
     errata: tuple[Erratum, ...]
-    """Errors of the sources, as declared."""
+    """Declared errors of the sources."""
 
 
 def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
-    """Return the contents of a report: answers, structure, teeth, torques, motion, uncertain tooth counts and errata.
+    """Return the contents of the report on a train: answers, structure, teeth, torques and motion.
 
     Parameters
     ----------
     train : GearTrain
-        Train, reported in all its states. What it does not declare, such as teeth or loads, is not computed.
+        Train to report in all its states. Teeth, loads and motion are computed only if declared.
     whole : bool
-        Whether to include what needs numpy: teeth, pins, torques, strength, motion, and closure of loops.
+        Whether to include teeth, pins, torques, strength, motion and closure of loops, which need numpy.
 
     Returns
     -------
@@ -167,7 +167,8 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     own = train.kinematics
-    doubts = ((answer, change) for answer in answers if answer.verdict for change in own.sensitivity(answer))
+    # sensitivities exist only for determined speeds
+    uncertainties = ((answer, change) for answer in answers if answer.verdict for change in own.sensitivity(answer))
     loaded = tuple(state for state in own.usable_states if whole and declared.is_loaded(state))
     return TrainReport(
         **vars(collect_answers(train, answers)),
@@ -178,7 +179,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
         adjacency=AdjacencyLetters(tuple(declared.links), adjacency_labels(declared)) if small else None,
         build_findings=train.build_findings,
         remarks=own.remarks,
-        sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
+        sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in uncertainties),
         **_teeth_and_motion(train, whole),
         torques=_torques(train, loaded),
         strength=tuple(train.strength(state) for state in loaded if _has_strength(declared, state)),
@@ -195,7 +196,6 @@ def _torques(train: GearTrain, loaded: Sequence[str | None]) -> tuple[TorqueFigu
 
 
 def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
-    """Return the fields on real teeth and pins, empty for a train that has none."""
     if not (whole and (train.mechanics.teeth or train.mechanics.pins)):
         return {"teeth": (), "pins": (), "motion": ()}
     from geartrain.report.gear_pairs import driven_pairs, driven_pins
@@ -205,7 +205,9 @@ def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
 
 
 def _has_strength(declared: Train, state: str | None) -> bool:
-    """Return whether a state has loads in units, a wheel declares its material, and `simulation` is installed."""
+    """Return whether the state has loads in units, some wheel has a material, and the package `simulation` is
+    installed.
+    """
     if not has_wing("simulation"):
         return False
     if declared.material is None and all(wheel.material is None for _, wheel in declared.wheels.values()):

@@ -1,4 +1,4 @@
-"""Report on one train, section by section; its graph as tables; and the report as a page to share.
+"""Document on one train, its graph as tables, and the document as an HTML page to share.
 
 A page to share shows the verdict as a badge, pictures, wheels with their sources, and the animated train. Teeth, loads
 and motion are described in separate modules, which are imported only if a train declares them.
@@ -44,18 +44,18 @@ if TYPE_CHECKING:
     from geartrain.kinematics.speeds import Mobility
 
 
-_CIRCUITS_ABREAST = 6
+_CIRCUITS_ABREAST = 6  # columns of circuits that fit into one table
 _MOST_SPACED, _MOST_LETTERS = 32, 72  # maximum links of a matrix with blanks between columns, and of any matrix
 _MOST_CARRIERS = 4  # maximum number of carriers named in a summary
 _LETTERS = {"": ".", "revolute": "R", "gear": "G", "several": "+"}
 SOURCES = "Sources"
-"""Title of the section of references; a page has a list with links instead."""
+"""Title of the section of references; an HTML page has a list of links instead."""
 
 _SIDES = ("above", "below", "behind")  # viewing sides that are written without an article
 
 
 def describe_train(found: TrainReport) -> Document:
-    """Return the report on one train: outputs, speeds, torques, strength, motion; then structure, circuits, errata.
+    """Return the report on a train: outputs, speeds, torques, strength and motion, then structure, circuits and errata.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def describe_train(found: TrainReport) -> Document:
     Returns
     -------
     Document
-        Answers first, then the structure from which they follow; sections without declared content are left out.
+        Answers, then the structure from which they follow. Sections without declared content are omitted.
 
     Examples
     --------
@@ -93,12 +93,12 @@ def describe_train(found: TrainReport) -> Document:
 
 
 def describe_answers(found: TrainReport) -> Document:
-    """Return the report on one train without formulas, circuits, structure, errata and sources."""
+    """Return the report on a train without its detail sections (formulas, circuits, structure, errata, sources)."""
     return without_details(describe_train(found))
 
 
 def _details(found: TrainReport) -> Iterator[Section]:
-    """Yield the sections that text reports omit: formulas, structure, circuits, matrix by names, errata, sources."""
+    """Yield the detail sections: formulas, structure, circuits, phase closure, matrix by names, errata and sources."""
     train, declared = found.train, found.train.declaration
     explained = True  # the notation of formulas is explained once
     for answer in found.states:
@@ -120,7 +120,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield the outputs, targets and speeds of each state, after tables of all states for a gearbox."""
+    """Yield the outputs, targets and speeds of each state, preceded by tables of all states if there are several."""
     box = _gearbox(train)
     if box is not None:
         from geartrain.report.gearbox_report import gearbox_sections
@@ -137,7 +137,6 @@ def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
 
 
 def _findings(train: GearTrain) -> Iterator[Section]:
-    """Yield sections on parts of the train that cannot be built, and on remarks."""
     if train.build_findings:
         head = "An error prevents building as declared; a note is a warning or names an undeclared detail."
         findings = [(each.rule, each.level, each.problem.text) for each in train.build_findings]
@@ -150,7 +149,6 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 
 def _teeth(found: TrainReport) -> Iterator[Section]:
-    """Yield sections on real teeth and pins; nothing if none are declared."""
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
@@ -158,7 +156,6 @@ def _teeth(found: TrainReport) -> Iterator[Section]:
 
 
 def _torques(found: TrainReport) -> Iterator[Section]:
-    """Yield sections on torques of states with loads; nothing if none are declared."""
     if found.torques:
         from geartrain.report.torque_report import loaded_sections
 
@@ -166,7 +163,6 @@ def _torques(found: TrainReport) -> Iterator[Section]:
 
 
 def _motion(found: TrainReport) -> Iterator[Section]:
-    """Yield sections on motion of states with real teeth or pins; nothing if none are declared."""
     if found.motion or found.teeth:
         from geartrain.report.motion_report import moving_sections
 
@@ -174,19 +170,17 @@ def _motion(found: TrainReport) -> Iterator[Section]:
 
 
 def _strength(found: TrainReport) -> Iterator[Section]:
-    """Yield sections on strength of states with loads; nothing if no material is declared."""
     for strength in found.strength:
         yield from wing("simulation.strength.strength_report").strength_sections(strength)
 
 
 def _sources(declared: Train) -> Iterator[Section]:
-    """Yield a section with all references of the declaration."""
     if declared.sources:
         yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
-    """Return the train as a gearbox, or None if it is not one."""
+    """Return the train as a gearbox; None if it has no shift elements and states or is not a valid gearbox."""
     try:
         return train.gearbox() if train.declaration.clutches and train.states else None
     except GearTrainError:
@@ -221,7 +215,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def source_line(key: str, source: Source) -> str:
-    """Return the full reference of a source with its key."""
+    """Return the full reference of a source with its key as one line of text."""
     return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
 
 
@@ -242,7 +236,7 @@ def _structure(train: GearTrain) -> Iterator[Section]:
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
-    """Yield the adjacency matrix with one character for each cell, if it fits into a line."""
+    """Yield the adjacency matrix with one letter in each cell; nothing if it is wider than a line."""
     links = list(train.declaration.links)
     if len(links) > _MOST_LETTERS:
         return
@@ -256,7 +250,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
 
 
 def _note(link: Link) -> str:
-    """Return the declared note of a link, after the number of its copies."""
+    """Return the number of copies of a link and its declared note as text."""
     number = f"{link.copies} equal copies" if link.copies > 1 else ""
     return "; ".join(filter(None, (number, link.note or "")))
 
@@ -271,8 +265,8 @@ def _mark(wheel: Wheel) -> str:
         words.append(f"helical {abs(degrees(wheel.helix)):.6g} deg {wheel.hand or ''}".rstrip())
     if wheel.internal:
         words.append("ring")
-    if wheel.doubt:
-        words.append(f"{min(wheel.doubt.allowed)}-{max(wheel.doubt.allowed)}")
+    if wheel.uncertainty:
+        words.append(f"{min(wheel.uncertainty.allowed)}-{max(wheel.uncertainty.allowed)}")
     if wheel.status in ("reconstructed", "hypothetical"):
         words.append(wheel.status)
     return f" ({', '.join(words)})" if words else ""
@@ -303,11 +297,11 @@ _ENDS = {
     "pins_in_holes": ("holes", "pins"),
     "parallel": ("1", "1"),
 }
-"""Names of the two sides of couplings, which have no wheels."""
+"""Names of the two sides of a coupling, which has no wheels."""
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return circuits side by side, with rows for bodies, carrier, teeth and ratio."""
+    """Return a table with one column for each circuit and rows for bodies, carrier, tooth counts and ratio."""
     wheels = declared.wheels
 
     def teeth(circuit: Circuit, side: int) -> str:
@@ -333,9 +327,9 @@ def _mobility(train: GearTrain) -> Section:
 
 
 def _circuits_in_short(train: GearTrain) -> str:
-    """Return the number of fundamental circuits, and their carriers."""
     carriers = Counter(circuit.carrier for circuit in train.circuits).most_common()
     named = ", ".join(f"{count} with carrier '{link}'" for link, count in carriers[:_MOST_CARRIERS])
+    # carriers that are not named are only counted
     rest = sum(count for _, count in carriers[_MOST_CARRIERS:])
     number = plural(len(train.circuits), "fundamental circuit")
     return f"{number}: {named}{f', {rest} with other carriers' if rest else ''}." if carriers else f"{number}."
@@ -351,6 +345,7 @@ def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
     if found.redundant:
         many = "circuit" if found.redundant == 1 else "circuits"
         yield f"{found.redundant} redundant {many}, implied by the others."
+    # large trains have hundreds of redundant loops
     yield from (f"Redundant: {_loop(loop)}." for loop in found.loops[:12])
     if len(found.loops) > 12:
         yield f"... and {len(found.loops) - 12} more redundant loops."
@@ -363,18 +358,18 @@ def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
 
 
 def phasing_document(closure: MeshPhasing) -> Document:
-    """Return the section of the report on phase closure as a document."""
+    """Return a document on the phase closure of a train's loops."""
     sections = list(_phasing(closure)) or [Section("Phase closure", ("The train has no loop to check.",))]
     return Document("Phase closure", (), sections)
 
 
 def mobility_document(found: Mobility) -> Document:
-    """Return the section of the report on mobility as a document, without the causes of a locked train."""
+    """Return a document on the mobility of a train, without the causes of locking."""
     return Document("Mobility", (), [Section("Mobility", list(_mobility_lines(found)))])
 
 
 def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
-    """Yield phase closure of a train whose axes have positions and whose pairs form loops; nothing for others."""
+    """Yield a section on phase closure; nothing if axes have no positions or the pairs form no loop."""
     if closure is None or closure.kind == "open":
         return
     rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
@@ -392,19 +387,19 @@ def _loop(loop: Loop) -> str:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return the adjacency matrix of links: R(axis) for a turning pair, ids for gear pairs and couplings."""
+    """Return the adjacency matrix of links as a table: R(axis) for a turning pair, ids for gear pairs and couplings."""
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
 
 
 def describe_adjacency(train: GearTrain) -> Document:
-    """Return a document of only the adjacency matrix."""
+    """Return a document with only the adjacency matrix of a train."""
     return Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (adjacency_table(train),)),))
 
 
 def describe_edges(train: GearTrain) -> Document:
-    """Return a document of the edge list, with a row for each joint, gear pair and coupling."""
+    """Return a document with the edge list of a train: one row for each turning pair, gear pair and coupling."""
     table = Table(("link", "link", "joined by", "axis or pair"), edge_rows(train.graph))
     return Document(f"Edges of {train.name}", (), (Section("Edges", (), (table,)),))
 
@@ -415,7 +410,7 @@ def describe_edges(train: GearTrain) -> Document:
 def describe_shared_page(
     found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """Return the report on a train with all extras of a page; its sources are links.
+    """Return the report on a train as a document for an HTML page, with pictures, viewer, badge and linked sources.
 
     Parameters
     ----------
@@ -424,7 +419,7 @@ def describe_shared_page(
     pictures : sequence of Picture
         Pictures before the sections.
     viewer : str
-        Whole HTML page with the animated train, embedded unchanged; "" for none.
+        Complete HTML page with the animated train, embedded unchanged; "" for none.
     notes : sequence of str
         Remarks on the page, below the summary.
 
@@ -476,16 +471,17 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Yield a table of every wheel with its source, status and note; nothing if only tooth counts are declared."""
+    """Yield a table of wheels with sources, status and notes; nothing if only tooth counts are declared."""
     rows = []
     for name, (link, wheel) in declared.wheels.items():
-        doubt = wheel.teeth if not isinstance(wheel.teeth, int) else None
-        source = wheel.source or (doubt.source if doubt else None) or ""
-        counts = doubt.allowed if doubt else ()
+        uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None
+        source = wheel.source or (uncertainty.source if uncertainty else None) or ""
+        counts = uncertainty.allowed if uncertainty else ()
         allowed = "" if not counts else f"{min(counts)}-{max(counts)}"
-        note = "; ".join(filter(None, (wheel.note, doubt.note if doubt else None)))
+        note = "; ".join(filter(None, (wheel.note, uncertainty.note if uncertainty else None)))
         rows.append((name, link, str(wheel.count), allowed, wheel.status or "", CitedText(source), note))
     header = ("wheel", "link", "teeth", "allowed", "status", "source", "note")
     table = filled_table(header, rows, 3)
+    # the first three columns are in the structure already
     if len(table.header) > 3:
         yield Section("Wheels and their sources", (), (replace(table, rows=cut(table.rows)),))

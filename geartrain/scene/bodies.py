@@ -278,8 +278,8 @@ def find_profiles(stage: SceneContext) -> ToothProfiles:
 
 
 def _profile(stage: SceneContext, toothed: TrainTeeth, wheel: str) -> ToothProfile:
-    found = toothed.wheels.get(wheel) or toothed.likenesses.get(wheel)
-    return _likeness(stage, toothed, wheel) if found is None else _section(found)
+    found = toothed.wheels.get(wheel) or toothed.approximations.get(wheel)
+    return _approximation(stage, toothed, wheel) if found is None else _section(found)
 
 
 def _section(toothing: WheelTeeth) -> ToothProfile:
@@ -292,7 +292,7 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
             first = problems[0]
-            by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.likenesses), []).append(wheel)
+            by_reason.setdefault((first.what, first.why, first.fix, wheel in toothed.approximations), []).append(wheel)
     for (what, why, fix, of_first), wheels in by_reason.items():
         names = " and ".join(f"'{wheel}'" for wheel in wheels)
         drawn = "drawn as for their first pairs" if of_first else "drawn approximately"
@@ -305,7 +305,7 @@ def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
             yield Problem(f"flexible wheel '{name}' is drawn undeformed", why, fix)
 
 
-def _likeness(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfile:
+def _approximation(stage: SceneContext, toothed: TrainTeeth, name: str) -> ToothProfile:
     _, wheel = stage.train.declaration.wheels[name]
     place, z = stage.layout.wheels[name], wheel.count or 1
     if wheel.kind == "worm":
@@ -371,7 +371,7 @@ def _wheel(
     radii = [place.radius * r for r, _ in profile.points]
     inner, outer = min(radii), max(radii)
     same = flip(stage, place)
-    doubt = wheel.doubt
+    uncertainty = wheel.uncertainty
     return SceneWheel(
         id=place.wheel,
         body=stage.body[link],
@@ -391,9 +391,9 @@ def _wheel(
         profile=number,
         layer=place.layer,
         status=wheel.status or "",
-        source=wheel.source or (doubt.source if doubt and doubt.source else "") or "",
-        note=wheel.note or (doubt.note if doubt and doubt.note else "") or "",
-        doubt=_doubt(wheel),
+        source=wheel.source or (uncertainty.source if uncertainty and uncertainty.source else "") or "",
+        note=wheel.note or (uncertainty.note if uncertainty and uncertainty.note else "") or "",
+        doubt=_uncertainty(wheel),
         circuits=tuple(circuits),
         loss=loss,
         helix=_helix(wheel, place),
@@ -419,14 +419,14 @@ def as_placed(stage: SceneContext, wheel: str) -> float:
     return place.turn * flip(stage, place)
 
 
-def _doubt(wheel: Declared) -> str:
+def _uncertainty(wheel: Declared) -> str:
     """Return the tooth counts that the evidence allows, as text; empty for a certain count."""
-    doubt = wheel.doubt
-    if doubt is None:
+    uncertainty = wheel.uncertainty
+    if uncertainty is None:
         return ""
-    if doubt.range is not None:
-        return f"{doubt.range[0]} to {doubt.range[1]} teeth"
-    return f"{', '.join(map(str, doubt.allowed[:-1]))} or {doubt.allowed[-1]} teeth"
+    if uncertainty.range is not None:
+        return f"{uncertainty.range[0]} to {uncertainty.range[1]} teeth"
+    return f"{', '.join(map(str, uncertainty.allowed[:-1]))} or {uncertainty.allowed[-1]} teeth"
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:

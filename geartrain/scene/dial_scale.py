@@ -116,7 +116,7 @@ class DialScale:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
-    def told(self, turned: Fraction) -> str:
+    def reading_text(self, turned: Fraction) -> str:
         """Return the reading as text, such as `Leo, degree 14`, with the glyph in that cell; empty without divisions.
 
         The scale around this one is not read, because no declaration specifies which pointer is read on it.

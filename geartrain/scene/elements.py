@@ -140,7 +140,7 @@ class ToothProfile(Shown):
     form: str
     """Tooth form: triangular, involute, cycloidal, ...
 
-    It is `standard` if none is declared, and `likeness` for nominal teeth of a wheel without a flat outline.
+    It is `standard` if none is declared, and `approximation` for nominal teeth of a wheel without a flat outline.
     """
     points: Sequence[tuple[float, float]]
     """Radius relative to the pitch radius, and angle [rad], of each point, from -pi/z to pi/z by increasing angle.

@@ -2,26 +2,26 @@
 
 Input is a ratio, a train with unknown tooth counts, a type of epicyclic gear set, the periods of an orrery, surviving
 wheels, or uncertain tooth counts. Output is a ranked list of the tooth counts that satisfy the conditions, with a
-statement whether the search was complete, or their posterior probabilities. Tooth counts are compared in integers
-and ratios in `Fraction`s, so rounding errors cannot change a result.
+statement whether the search was complete, or their posterior probabilities. Tooth counts are compared as integers and
+ratios as `Fraction`s, so rounding errors cannot change a result.
 
 ratio          one ratio by stages of gear pairs: meet in the middle on sorted products (`find_stages`)
-train          the free wheels of a declared train: an exact weighted join (`search_train`)
+train          the wheels of a declared train whose tooth counts are varied: an exact weighted join (`search_train`)
 epicyclic      sets of sun, planets and ring: the Willis equation over all coaxial sets (`find_sets`)
-orrery         many periods that share wheels: branch and bound, beam search (`find_orrery`)
+orrery         many periods with shared wheels: branch and bound, beam search (`find_orrery`)
 reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
 posterior      the posterior of uncertain counts by Bayes' theorem, exact or from a sample (`infer_counts`)
-join           the exact join behind `train` and `posterior`: bucket elimination on lists of products
+join           the exact join used by `train` and `posterior`: bucket elimination on lists of products
 constraints    further conditions on tooth counts: assembly, planets, interference
 
-target_ratio, tooth_count_ranges   parsers of ratios and ranges of tooth counts (`read_ratio`, `read_counts`)
+target_ratio, tooth_count_ranges   parsers of ratios and of ranges of tooth counts (`read_ratio`, `read_counts`)
 search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates
 stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`)
 weighted_alternatives   totals, marginals and random samples by the inside-outside algorithm; information in bits
 integer_columns         ranges of integers as arrays
 teeth_verb, approximants_verb      the command `teeth`, and the options that its searches share
 tooth_numbers_report    tooth counts as documents and tables
-answers                 results that commands print as JSON
+answers                 result types that commands print as JSON
 """
 
 from __future__ import annotations

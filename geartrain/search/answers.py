@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return a dictionary from a command, or one of its uses, to the type of its result."""
+    """Return the result type of each search command, or of each use of a command whose result has another type."""
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
     from geartrain.search.orrery.orrery_search import Orrery
     from geartrain.search.posterior.posterior_result import ToothCountPosterior

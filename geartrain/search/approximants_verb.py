@@ -8,7 +8,6 @@ from geartrain.cli.common import Force, Json, Out
 from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
-    Csv,
     Per,
     Pinions,
     Range,
@@ -28,18 +27,20 @@ def run(
     wheels: Wheels = None,
     pinions: Pinions = None,
     per: Per = None,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """List fractions that approximate a ratio: convergents of its continued fraction and intermediate fractions."""
+    """List fractions that approximate a ratio: convergents of its continued fraction and intermediate fractions.
+
+    Example: `geartrain teeth approximants 13.368267`.
+    """
     from geartrain.search.stern_brocot import Approximants, approximants
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import approximant_rows, describe_approximants
 
-    answer = SearchAnswer.of(csv, json, out, force)
+    answer = SearchAnswer.of(json, out, force)
     wanted = read_ratio(check_number(context, ratio), per)
     most = max(read_counts(text or counts).most for text in (wheels, pinions))
     found = Approximants(wanted, most, tuple(approximants(wanted.value, most)))

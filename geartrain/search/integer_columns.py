@@ -1,4 +1,4 @@
-"""Ranges of integers as arrays, all at once or block by block, and distinct quotients of two integer arrays."""
+"""Ranges of integers as arrays, in one piece or in blocks, and the distinct quotients of two integer arrays."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Integers = NDArray[Any]
 def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
     """Return all integers of some half-open ranges as two arrays: the index of the range, and the integer.
 
-    No range may end before it starts.
+    No range may have an end below its start.
     """
     sizes = ends - starts
     owner = np.repeat(np.arange(len(sizes)), sizes)

@@ -13,11 +13,11 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Numbers of rejected candidates by reason: the infeasibility certificate of an empty or short list.
+    """Number of rejected candidates by reason, which explains an empty or short list of solutions.
 
     See Also
     --------
-    geartrain.search.find_stages, geartrain.search.find_sets : searches whose findings include one.
+    geartrain.search.find_stages, geartrain.search.find_sets : Searches that report it.
     """
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
@@ -25,20 +25,22 @@ class Shortfall(Result):
     considered: int = 0
     """Number of candidates before any constraint is applied."""
     removed: Mapping[str, int] | None = None
-    """Reason -> number of candidates it rejected. A candidate is counted under the first reason that rejects it."""
+    """Number of candidates rejected for each reason. A candidate is counted under the first reason that rejects it."""
     nearest: str = ""
-    """Description of the nearest miss with its tooth counts and its error; empty if there is a solution."""
+    """Description of the candidate with the smallest violation, with its tooth counts and error; "" if there is a
+    solution.
+    """
     advice: str = ""
-    """Constraints to relax and the result of doing so; empty if there is a solution."""
+    """Suggestions of constraints to relax, with the effect of each; "" if there is a solution."""
 
     @property
     def removals(self) -> Mapping[str, int]:
         """Mapping `removed`, or an empty mapping if rejected candidates were not counted."""
-        return self.removed or {}
+        return self.removed or {}  # None means that rejected candidates were not counted
 
 
 class CountSizes(ABC):
-    """Summary figures of a collection of tooth counts: sum, maximum, number of distinct counts."""
+    """Base class of tooth counts with their sum, maximum, and number of distinct counts."""
 
     __slots__ = ()
 
@@ -54,7 +56,7 @@ class CountSizes(ABC):
 
     @property
     def largest(self) -> int:
-        """Maximum tooth count, 0 without counts."""
+        """Maximum tooth count; 0 without counts."""
         return max(self.counts, default=0)
 
     @property
@@ -69,7 +71,7 @@ class GearStages(CountSizes, Result):
 
     See Also
     --------
-    find_stages : finds them.
+    find_stages : Search for one ratio by stages.
     """
 
     KEYS = (
@@ -93,7 +95,7 @@ class GearStages(CountSizes, Result):
     error: Fraction
     """Relative error: `ratio` over the magnitude of the requested ratio, minus 1; exact."""
     pairs: tuple[tuple[int, int], ...]
-    """Stages of the best pairing: (numerator count, denominator count)."""
+    """Tooth counts (numerator, denominator) of each stage in the best pairing."""
 
     def _summary(self) -> str:
         teeth = " ".join(f"{top}/{beneath}" for top, beneath in self.pairs)

@@ -24,7 +24,7 @@ ApproximantKind = Literal["convergent", "best", "intermediate"]
 IntegerPair = tuple[int, int]
 """Numerator and denominator; (1, 0) represents infinity."""
 
-_MOST_LISTED = 10**5
+_MOST_LISTED = 10**5  # a single run may have as many fractions as the bound
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ class Approximant(Result):
 
     See Also
     --------
-    approximants : lists them.
+    approximants : List the fractions that approximate a number.
     """
 
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
@@ -136,7 +136,7 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
     Returns
     -------
     tuple of Approximant
-        The last one is `value` itself if that is within the bound. If it is not, and all fractions are listed, the last
+        The last one is `value` if that is within the bound. If it is not, and all fractions are listed, the last
         fraction on either side is the nearest on that side of all fractions within the bound.
 
     Raises
@@ -230,7 +230,7 @@ def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: in
     """Return the minimum k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, at most `length` + 1.
 
     The fractions of a run approach the number monotonically, and all fractions between them and the number have larger
-    denominators. Each therefore has to be compared only with the end on the opposite side. Zero and infinity are
+    denominators. It is therefore sufficient to compare each with the end on the opposite side. Zero and infinity are
     excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
     denominator.
     """

@@ -17,8 +17,8 @@ from geartrain.train.periods import period_table, suggested_period
 
 TargetKind = Literal["number", "things", "time", "speed", "count"]
 
-_MOST_CHARACTERS = 2000
-_SHOWN = 60
+_MOST_CHARACTERS = 2000  # more than two numbers of 400 characters with words
+_SHOWN = 60  # characters of a given text in a message
 _FARTHEST = Fraction(10**30)  # about fifteen stages of 1:100
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _WITH_WORD = re.compile(rf"({_NUMBER}(?:\s*[/:]\s*{_NUMBER})?)\s*(?![eE][+-]?\d)([^\W\d_].*)")
@@ -78,7 +78,7 @@ class TargetRatio(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """One side of a quotient or a single term: kind, exact value (times in days), word of the unit, note."""
+    """One term of a ratio: kind, exact value (times in days), word of the unit, and note on its origin."""
 
     kind: TargetKind
     value: Fraction
@@ -144,7 +144,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 
 def _parts(text: str, label: str) -> list[str]:
-    """Split a text at its division sign into one or two parts; a sign between blanks takes precedence."""
+    """Split a text at its division sign into one or two parts. A sign between blanks takes precedence."""
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)
         if len(parts) == 2:
@@ -181,7 +181,7 @@ def _term(text: str, label: str) -> _Term:
 
 
 def _with_word(number: str, word: str) -> _Term:
-    """Parse a number with a word: a time, or a count of objects."""
+    """Parse a number with a word, which is a unit of time or names counted objects."""
     shown = f"{number} {word}"
     if word in period_table():
         raise _problem(
@@ -221,7 +221,9 @@ def _figure(text: str) -> Fraction:
         if "why" in (context := error.context or {}):
             raise _problem(why, context["why"], context["fix"]) from None
         if text[:1].isalpha():
-            raise _problem(what, "no period has this name either", suggested_period(text)) from None
+            raise _problem(
+                what, "`geartrain periods` lists no period of this name either", suggested_period(text)
+            ) from None
         if text[:1].isdigit() and "is not a number" in why:
             why = "a number has at most 400 characters, and an exponent three digits"
         raise _problem(what, why, f"write {_WAYS}") from None
@@ -251,7 +253,7 @@ def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, st
 
 
 def _per_period(per: str, term: _Term) -> tuple[Fraction, str]:
-    """Return the number of revolutions of a period during one period `per`, and its note."""
+    """Return the number of revolutions of a period during one period `per`, and a note on the origin of both."""
     whole = _term(" ".join(per.split()), per)
     if whole.kind != "time":
         raise _problem(

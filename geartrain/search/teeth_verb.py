@@ -24,6 +24,7 @@ from geartrain.cli.common import (
     Sink,
     as_json,
     emit,
+    option_error,
     read_share,
     show,
     sink,
@@ -53,7 +54,8 @@ class SearchGroup(LazyGroup):
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
             requested = shlex.join(["geartrain", "teeth", word, *rest])
-            ctx.fail(f"the kind of search is missing, one of {', '.join(self.verbs)}; did you mean `{requested}`?")
+            what, why = "the kind of search is missing", f"it is one of {', '.join(self.verbs)}"
+            raise option_error(args[0], what, f"did you mean `{requested}`?", why)
         return super().resolve_command(ctx, args)
 
 
@@ -76,7 +78,8 @@ app = typer.Typer(
     add_completion=False,
     no_args_is_help=True,
     context_settings={"ignore_unknown_options": True},  # arguments without a command name may begin with an option
-    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.",
+    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.\n\n"
+    "Example: `geartrain teeth ratio 235/19`.",
 )
 
 
@@ -89,7 +92,10 @@ def _group() -> None:
 
 
 Ratio = Annotated[
-    str, typer.Argument(help="Requested ratio: 13.368, 235/19, 'A / B' with two periods, or the name of a period.")
+    str,
+    typer.Argument(
+        help="Requested ratio: 13.368, 235/19, 'A / B' with two periods, or the name of a period.", metavar="RATIO"
+    ),
 ]
 Range = Annotated[str, typer.Option("--range", help="Admissible tooth counts, such as 15:120 or 30,36,48.")]
 Wheels = Annotated[str | None, typer.Option("--wheels", help="Tooth counts of the larger wheel of each pair.")]
@@ -100,7 +106,6 @@ Per = Annotated[
 Tolerance = Annotated[str | None, typer.Option("--tolerance", help="Maximum relative error: 1e-6, 20 ppm, 0.001 %.")]
 Best = Annotated[int, typer.Option("--best", min=1, max=100_000, help="Number of solutions to list.")]
 Pick = Annotated[int, typer.Option("--pick", min=1, help="Number of the solution that -o writes as a declaration.")]
-Csv = Annotated[bool, typer.Option("--csv", help="Print the solutions as CSV.")]
 
 ANY_COUNT = "12:120"
 NEGATIVE_NUMBERS = {"ignore_unknown_options": True}
@@ -111,9 +116,9 @@ _WIDEST = 10**12
 
 
 def check_number(ctx: typer.Context, text: str) -> str:
-    """Raise `typer.BadParameter` if a text that begins with a minus sign is not a negative number."""
+    """Raise `QuestionError` if a text that begins with a minus sign is not a negative number."""
     if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
-        raise typer.BadParameter(f"unknown option '{text}'; `{ctx.command_path} -h` lists the options")
+        raise option_error(text, "unknown option", f"`{ctx.command_path} --help` lists the options")
     return text
 
 
@@ -123,7 +128,7 @@ def read_tolerance(text: str | None) -> Fraction | None:
         return None
     found = read_share(text, "--tolerance")
     if not 0 <= found <= _WIDEST:
-        raise typer.BadParameter(f"a relative error must be from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
+        raise option_error("--tolerance", f"{text} is out of range", f"give a relative error from 0 to {_WIDEST:.0e}")
     return found
 
 
@@ -131,8 +136,6 @@ def read_tolerance(text: str | None) -> Fraction | None:
 class SearchAnswer:
     """Destination and format of the solutions of a search."""
 
-    csv: bool
-    """True to print CSV."""
     json: bool
     """True to print JSON."""
     out: Sink
@@ -140,9 +143,9 @@ class SearchAnswer:
     """Number of the solution that is written as a declaration, from 1."""
 
     @classmethod
-    def of(cls, csv: bool, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
+    def of(cls, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
         """Build the destination from the options; a file that may not be written is rejected before the search."""
-        return cls(csv, json, sink(out, force, _FORMS), pick)
+        return cls(json, sink(out, force, _FORMS), pick)
 
     def give(
         self,
@@ -159,9 +162,9 @@ class SearchAnswer:
         suffix = self.out.suffix
         if suffix in _YAML:
             self._declare(declared, len(rows))
-        form = suffix or (".json" if self.json else ".csv" if self.csv else ".md")
+        form = suffix or (".json" if self.json else ".md")
         requested = {form} if self.out != STANDARD and form not in _YAML else set[str]()
-        requested |= {".json"} if self.json else {".csv"} if self.csv else set()
+        requested |= {".json"} if self.json else set()
         for each in sorted(requested or {""}):
             out = self.out if each == form else STANDARD
             if each == ".json":
@@ -178,10 +181,9 @@ class SearchAnswer:
         from geartrain.train.yaml_nodes import as_yaml
 
         if declared is None:
-            raise typer.BadParameter(
-                "these solutions cannot be written as a declaration; use .md, .html, .json or .csv", param_hint="-o"
-            )
+            what = "these solutions cannot be written as a declaration"
+            raise option_error("-o", what, "use .md, .html, .json or .csv")
         if self.pick <= found:
             emit(as_yaml(declared(self.pick - 1)), self.out)
         elif found:
-            raise typer.BadParameter(f"the list has {found} solutions", param_hint="--pick")
+            raise option_error("--pick", f"the list has {found} solutions", f"give a number from 1 to {found}")

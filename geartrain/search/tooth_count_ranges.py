@@ -1,4 +1,4 @@
-"""Admissible tooth counts of a wheel: "15:120", "30,36,48" or "12:40,48,60", of any length, stored as runs."""
+"""Admissible tooth counts of a wheel, such as "15:120", "30,36,48" or "12:40,48,60", stored as runs of integers."""
 
 from __future__ import annotations
 
@@ -88,12 +88,12 @@ class CountRuns(Sequence[int]):
 
     @property
     def minimum(self) -> int:
-        """Smallest tooth count."""
+        """Minimum tooth count."""
         return self.spans[0][0]
 
     @property
     def most(self) -> int:
-        """Largest tooth count."""
+        """Maximum tooth count."""
         return self.spans[-1][1]
 
     @property
@@ -109,6 +109,7 @@ class CountRuns(Sequence[int]):
         count : int
             Any integer.
         """
+        # index of the first run that begins above `count`
         at = bisect_right(self.spans, count, key=_first)
         return min(self._before[at], self._before[at - 1] + count - self.spans[at - 1][0] + 1) if at else 0
 
@@ -160,6 +161,7 @@ class CountRuns(Sequence[int]):
         return self._at(places)
 
     def _at(self, place: int) -> int:
+        # last run with at most `place` counts before it
         run = bisect_right(self._before, place) - 1
         return self.spans[run][0] + place - self._before[run]
 
@@ -201,6 +203,7 @@ def read_counts(text: str) -> CountRuns:
 
 def _span(part: str) -> tuple[int, int]:
     shown = part.strip() if len(part) <= 40 else f"{part.strip()[:37]}..."
+    # longer texts cannot be counts up to 10^12
     match = _PART.fullmatch(part) if len(part) <= 100 else None
     if match is None:
         raise _problem(f"'{shown}' is not a tooth count", "a count is an integer, a range is first:last")

@@ -21,14 +21,14 @@ _MANY = 3  # with more outputs a table of assignments shows only the maximum err
 
 
 def error_text(value: Fraction) -> str:
-    """Format a relative error: in ppm below 0.1 %, in per cent above, "0" if exactly zero."""
+    """Format a relative error: in ppm below 0.1 %, otherwise in per cent; "0" if it is exactly zero."""
     if abs(value) < Fraction(1, 1000):
         return "0" if not value else f"{float(value) * 1e6:+.6g} ppm"
     return f"{float(value) * 100:+.6g} %"
 
 
 def stage_rows(found: StageFindings) -> list[dict[str, Any]]:
-    """Return the solutions of a ratio as a flat table."""
+    """Return the solutions for a ratio as rows of a table."""
     return [
         {
             "top": _product(one.top),
@@ -50,7 +50,7 @@ def _product(counts: Sequence[int]) -> str:
 
 
 def describe_stages(found: StageFindings) -> Document:
-    """Build the document of the solutions of a ratio by stages."""
+    """Build the document of the solutions for a ratio by stages of gear pairs."""
     summary = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
     if found.tolerance is not None:
         within = "exact" if not found.tolerance else f"within {figure(float(found.tolerance), 4)}"
@@ -83,7 +83,7 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
 
 
 def approximant_rows(found: Approximants) -> list[dict[str, Any]]:
-    """Return the fractions as a flat table."""
+    """Return the fractions that approximate a ratio as rows of a table."""
     return [each.to_dict() for each in found.solutions]
 
 
@@ -97,9 +97,7 @@ def describe_approximants(found: Approximants) -> Document:
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
-    """Return the section of rejected candidates, nearest miss and suggestions; an empty list if there is nothing to
-    report.
-    """
+    """Return a section on rejected candidates, nearest miss and suggestions; an empty list if there are none."""
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []
     removed = {reason: count for reason, count in (shortfall.removed or {}).items() if count}
@@ -113,7 +111,7 @@ def _shortfall(shortfall: Shortfall) -> list[Section]:
 
 
 def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
-    """Return the solutions of the whole train as a flat table."""
+    """Return the solutions for a train as rows of a table: the tooth counts and the error of each output."""
     return [
         {**one.teeth, **{f"error of {name}": float(each.error) for name, each in one.outputs.items()}}
         for one in found.solutions
@@ -121,7 +119,7 @@ def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
 
 
 def describe_assignments(found: TrainFindings) -> Document:
-    """Build the document of the tooth counts of a train, part by part."""
+    """Build the document of the tooth counts found for a train, with a section for each independent part of it."""
     summary = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} satisfy all requirements."]
     summary += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
@@ -131,7 +129,7 @@ def describe_assignments(found: TrainFindings) -> Document:
 
 
 def _part(part: PartFindings) -> list[Section]:
-    """Return the sections of one independent part: its requirements, the number of solutions, and the best."""
+    """Return the sections on one independent part: its requirements, the number of solutions, and the best of them."""
     requested = "; ".join([*part.demands, *part.rules])
     lines = [f"Required: {requested}." if requested else "No requirements."]
     within = "" if part.tolerance is None else f" within {figure(float(part.tolerance), 4)}"
@@ -181,7 +179,7 @@ def _ranks(standings: Sequence[Standing]) -> Section:
 
 
 def set_rows(found: SetFindings) -> list[dict[str, Any]]:
-    """Return the epicyclic sets as a flat table."""
+    """Return the epicyclic sets that were found as rows of a table."""
     return [
         {
             "mode": one.mode.key,
@@ -196,7 +194,7 @@ def set_rows(found: SetFindings) -> list[dict[str, Any]]:
 
 
 def describe_sets(found: SetFindings) -> Document:
-    """Build the document of the epicyclic sets for a ratio."""
+    """Build the document of the epicyclic sets found for a ratio."""
     summary = [
         f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in either sense by default.",
         f"{found.count} combinations of set and mode run"
@@ -234,12 +232,12 @@ def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
 
 
 def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
-    """Return the gear pairs of an orrery as a flat table."""
+    """Return the gear pairs of an orrery as rows of a table."""
     return [pair.to_dict() for pair in found.pairs]
 
 
 def describe_orrery(found: Orrery) -> Document:
-    """Build the document of an orrery: its pairs, the period of each arbor, and the proved bounds."""
+    """Build the document of an orrery: its gear pairs, the period of each arbor, and the proved lower bounds."""
     proof = "proved minimum" if found.complete else f"lower bound {found.minimum_wheels}"
     limits = {"proved": "proof of the minimum", "effort": "effort limit", "time": "time limit"}
     summary = [

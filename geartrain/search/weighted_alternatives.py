@@ -1,13 +1,13 @@
-"""Totals, marginals and random samples of weighted derivations: the inside-outside algorithm.
+"""Totals, marginals and random samples of weighted derivations by the inside-outside algorithm.
 
 A derivation chooses one alternative at a node, and again one at each node that this alternative refers to. Its weight
 is the product of the weights of all chosen alternatives. The inside sum of a node is the total weight of all ways to
-complete a derivation from it; the outside sum is the total weight of all contexts in which the node occurs. Their
-product is the weight of all derivations that include the node. With integer weights all sums are exact. Sources:
-Baker 1979; for chains the forward-backward algorithm, Baum 1970.
+complete a derivation from it. The outside sum is the total weight of all contexts in which the node occurs. Their
+product is the weight of all derivations that include the node. With integer weights all sums are exact. Sources: Baker
+1979; for chains the forward-backward algorithm, Baum 1970.
 
-A node may also be a table, where each row is a node and the alternatives of all rows are arrays; this is used where
-there are millions of nodes. `relative_entropy` and `entropy` measure the information in probabilities in bits.
+A node may also be a table in which each row is a node and the alternatives of all rows are arrays. This form is used
+for millions of nodes. `relative_entropy` and `entropy` measure the information in probabilities in bits.
 """
 
 from __future__ import annotations
@@ -31,21 +31,21 @@ Node = TypeVar("Node", bound=Hashable)
 
 @dataclass(frozen=True, slots=True)
 class Alternative(Generic[Node]):
-    """One alternative of a node."""
+    """One of the alternatives at a node."""
 
     weight: int
-    """Weight of this alternative without its parts, not negative."""
+    """Weight of this alternative without the weights of its parts, not negative."""
     tells: tuple[Hashable, ...] = ()
     """Facts that are true if the alternative is chosen. No derivation contains the same fact twice."""
     parts: tuple[Node, ...] = ()
-    """Nodes at each of which one alternative is chosen independently."""
+    """Nodes that the alternative refers to; one alternative is chosen independently at each."""
 
     def below(self, inside: Mapping[Node, int]) -> list[int]:
         """Return the inside sum of each part."""
         return [inside[part] for part in self.parts]
 
     def around(self, outside: int) -> int:
-        """Return the outside sum of the node that the alternative belongs to."""
+        """Return the outside sum of the alternative's own node."""
         return outside
 
     def sum_at_node(self, values: int) -> int:
@@ -57,7 +57,9 @@ class Alternative(Generic[Node]):
         return values
 
     def tell(self, found: dict[Hashable, Any], around: int, below: int) -> None:
-        """Add the weight of all derivations that include the alternative to the sums of its facts in `found`."""
+        """Add the weight of all derivations that include this alternative to the entry of each of its facts in
+        `found`.
+        """
         if through := around * below:
             for told in self.tells:
                 found[told] = found.get(told, 0) + through
@@ -65,18 +67,19 @@ class Alternative(Generic[Node]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AlternativeRows(Generic[Node]):
-    """Alternatives of all rows of a table, one for each row of arrays of length m."""
+    """Alternatives of all rows of a table, stored as arrays with one entry for each of m alternatives."""
 
     weight: Any
-    """Weights of the alternatives, (m,), or one weight for all; of either sign."""
+    """Weights of the alternatives, of either sign: an array of shape (m,), or one number for all."""
     size: int
     """Number of rows of the table."""
     owners: Ints | None
-    """Row of the table that each alternative belongs to, (m,); None if alternative i belongs to row i."""
+    """Row of the table that each alternative belongs to, shape (m,); None if alternative i belongs to row i."""
     leads: tuple[tuple[Node, Ints], ...] = ()
-    """Parts of the alternatives: pairs of a table and the row in it, (m,)."""
+    """Parts of the alternatives: pairs of a table and the row in it, shape (m,)."""
     tells: tuple[tuple[Hashable, int, Ints], ...] = ()
-    """Variables with their number of values, and the index of the value that each alternative fixes, (m,)."""
+    """Variables, each with its number of values and the index of the value that each alternative assigns, shape (m,).
+    """
 
     @property
     def parts(self) -> tuple[Node, ...]:
@@ -84,24 +87,24 @@ class AlternativeRows(Generic[Node]):
         return tuple(part for part, _ in self.leads)
 
     def below(self, inside: Mapping[Node, NDArray[Any]]) -> list[NDArray[Any]]:
-        """Return the inside sums of each part, (m,) each."""
+        """Return the inside sums of each part, shape (m,) each."""
         return [inside[part][rows] for part, rows in self.leads]
 
     def around(self, outside: NDArray[Any]) -> NDArray[Any]:
-        """Return the outside sum of the row that each alternative belongs to, (m,)."""
+        """Return the outside sum of the row that each alternative belongs to, shape (m,)."""
         return outside if self.owners is None else outside[self.owners]
 
     def sum_at_node(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Return the sums of the values over the alternatives of each row, (size,)."""
+        """Return the sum of the values over the alternatives of each row, shape (size,)."""
         return values if self.owners is None else sums_by(self.owners, values, self.size)
 
     def sum_at_part(self, at: int, values: NDArray[Any], inside: NDArray[Any]) -> NDArray[Any]:
-        """Return the sums of the values over the alternatives that refer to each row of part number `at`."""
+        """Return the sum of the values over the alternatives that refer to each row of part number `at`."""
         return sums_by(self.leads[at][1], values, len(inside))
 
     def tell(self, found: dict[Hashable, Any], around: NDArray[Any], below: NDArray[Any]) -> None:
-        """Add the weights of all derivations that include each alternative to the arrays in `found`, one entry per
-        value.
+        """Add the weights of all derivations that include each alternative to the arrays in `found`, by value of a
+        variable.
         """
         for told, size, answers in self.tells:
             found[told] = found.get(told, 0) + sums_by(answers, around * below, size)
@@ -146,7 +149,7 @@ class WeightedAlternatives(Generic[Node]):
 
     @cached_property
     def marginals(self) -> dict[Hashable, Any]:
-        """Fact -> total weight of all derivations in which it is true. Facts of no derivation are absent.
+        """Total weight of all derivations in which each fact is true. Facts that are in no derivation are absent.
 
         If nodes are tables, the key is a variable and the value is an array with the weight of each of its values.
         """
@@ -162,27 +165,31 @@ class WeightedAlternatives(Generic[Node]):
                     outside[part] = outside[part] + way.sum_at_part(at, beside, self._inside[part])
         return found
 
-    def draw(self, chance: Random) -> list[Hashable]:
-        """Return the facts of one derivation, drawn with a probability proportional to its weight; not for tables."""
+    def draw(self, probability: Random) -> list[Hashable]:
+        """Return the facts of one derivation, drawn with a probability proportional to its weight. Nodes must not be
+        tables.
+        """
         found: list[Hashable] = []
         waiting = [self.root]
         while waiting:
             node = waiting.pop()
-            chosen = self._ways[node][draw_index(self._below[node], chance)]
+            chosen = self._ways[node][draw_index(self._below[node], probability)]
             found += chosen.tells
             waiting += chosen.parts
         return found
 
 
-def draw_index(weights: list[int], chance: Random) -> int:
-    """Draw an index with a probability proportional to its integer weight, exactly; at least one weight is positive."""
+def draw_index(weights: list[int], probability: Random) -> int:
+    """Draw an index with a probability proportional to its integer weight, without rounding. One weight must be
+    positive.
+    """
     # integers, because floats would round the probabilities of large weights
-    left = chance.randrange(sum(weights))
+    left = probability.randrange(sum(weights))
     return next(at for at, reached in enumerate(accumulate(weights)) if left < reached)
 
 
 def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Return the sums of the values by owner, (size,). Python integers are added exactly."""
+    """Return the sum of the values of each owner, shape (size,). Python integers are added exactly."""
     found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
     np.add.at(found, owners, values)
     return found
@@ -195,12 +202,14 @@ def relative_entropy(after: Iterable[float], before: Iterable[float | Fraction])
     """Return the Kullback-Leibler divergence of the probabilities `after` from the probabilities `before` [bit]."""
     pairs = zip(after, before, strict=False)
     # rounding may make it slightly negative
-    return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
+    return max(0.0, sum(probability * log2(probability / prior) for probability, prior in pairs if probability))
 
 
-def entropy(chances: Iterable[float]) -> float:
+def entropy(probabilities: Iterable[float]) -> float:
     """Return the Shannon entropy of a distribution [bit], the expected information of observing its outcome.
 
     It is the mean relative entropy of the distributions after and before the observation.
     """
-    return sum((chance * relative_entropy((1.0,), (chance,)) for chance in chances if chance), 0.0)
+    return sum(
+        (probability * relative_entropy((1.0,), (probability,)) for probability in probabilities if probability), 0.0
+    )

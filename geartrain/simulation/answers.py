@@ -1,4 +1,4 @@
-"""Types of the simulation results that commands print as JSON."""
+"""Types of the results that the simulation commands print as JSON."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return the type of the result of each command of this package that prints JSON."""
+    """Return the result type of each simulation command that prints JSON, by name of the command."""
     from geartrain.simulation.strength.strength_report import StrengthReport
     from geartrain.simulation.time.time_report import TimeReport
 

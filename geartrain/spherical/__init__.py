@@ -1,11 +1,13 @@
 """Gears on a sphere: axes through one point, on the faces, vertices and edges of polyhedra or on planar graphs.
 
 Inputs are a solid, by name or by its vertices, or a graph of meshing gears, and the tooth number of each kind of gear.
-The result is a `Configuration` of axes, meshes and kinds. Functions check whether it turns and whether its teeth meet
-round every loop, compute its sizes, search tooth numbers that nearly share one pitch, and convert it to a gear train.
+The result is a `Configuration` of axes, meshes and kinds. Functions check whether the set turns and whether its teeth
+mesh around every loop, compute sizes, search for tooth numbers with nearly one pitch, and convert the set to a gear
+train.
 
-Pitch cones obey rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i (docs/sphere.md, equation
-1), and speeds about outward axes z_i w_i = -z_j w_j. Teeth meet where the phases of every loop close (docs/closure.md).
+Pitch cones have the half-angles rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i
+(docs/sphere.md, equation 1), and speeds about outward axes satisfy z_i w_i = -z_j w_j. The teeth of a loop mesh if its
+phases close (docs/closure.md).
 
 polyhedra                                    solids from vertices and by name, with their symmetries
 polyhedron_gears                             sets of gears on a solid (axes, kinds, names); a survey of solids

@@ -1,4 +1,4 @@
-"""Adjustment of gear axes until all meshes have one pitch (Levenberg's method), or all loops close (Newton's
+"""Adjustment of gear axes until all meshes have one pitch (Levenberg's method), or until all loops close (Newton's
 method).
 """
 
@@ -21,20 +21,22 @@ if TYPE_CHECKING:
 Meshes = Sequence[tuple[int, int]]
 _MOST_STEPS = 80  # maximum number of steps of either method
 _EXACT = 1e-11
-"""Residual (rad, or pitches) under which a fit counts as exact: rounding leaves about 1e-15."""
+"""Residual below which a fit is exact [rad, or pitch]; rounding causes about 1e-15."""
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)
-"""Standard deviations [rad] of random moves that break a symmetry at which the tangencies are not independent."""
+"""Standard deviations [rad] of random displacements, which make tangencies independent that depend on each other by
+symmetry.
+"""
 _MOST_DENSE = 600  # meshes; the time of a dense singular value decomposition grows with the cube of their number
 _PHASE_DAMPING = 1e-4  # keeps axes that neither loops nor pitches determine
 _LONGEST = 0.1
-"""Largest move of an axis in one step (rad)."""
+"""Maximum displacement of an axis in one step [rad]."""
 
 
 def tangency(axes: Floats, meshes: Meshes, teeth: Floats, pitch: float) -> tuple[Floats, csr_array]:
-    """Compute the tangency residual S_ij - asin(l z_i) - asin(l z_j) of every mesh [rad] and its Jacobian.
+    """Return the tangency residual S_ij - asin(l z_i) - asin(l z_j) of every mesh [rad], and its Jacobian.
 
-    The columns of the Jacobian are two steps of each axis along its `frames`, then the pitch l [radii of the sphere].
-    Teeth may be any positive numbers: with teeth = sin rho and pitch 1 this is the tangency of pitch cones.
+    The columns of the Jacobian are two displacements of each axis along its `frames`, then the pitch l [radii of the
+    sphere]. Tooth numbers may be any positive numbers: `teeth` = sin rho and pitch 1 give the tangency of pitch cones.
     """
     from scipy.sparse import csr_array as sparse
     from scipy.sparse import hstack
@@ -50,9 +52,10 @@ def tangency(axes: Floats, meshes: Meshes, teeth: Floats, pitch: float) -> tuple
 
 
 def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats, csr_array]:
-    """Compute sum (-1)^k z_k alpha_k / 2 pi of every loop [pitches] and its derivative by the steps of the axes.
+    """Return the sum of (-1)^k z_k alpha_k / 2 pi over every loop [pitch], and its derivative by displacements of the
+    axes.
 
-    alpha_k in (0, 2 pi) is the angle at gear k from its next to its previous contact, counterclockwise.
+    The angle alpha_k, 0 to 2 pi, at gear k is measured counterclockwise from its next to its previous contact.
     """
     from scipy.sparse import coo_array
 
@@ -66,9 +69,9 @@ def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats
 
 
 def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr_array]:
-    """Compute the logarithm of the operating pitch of every mesh and its derivative by the steps of the axes.
+    """Return the logarithm of the operating pitch of every mesh, and its derivative by displacements of the axes.
 
-    d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 + z_j^2 + 2 z_i z_j cos S).
+    The derivative by the axis angle is d ln lambda / dS = cot S + z_i z_j sin S / (z_i^2 + z_j^2 + 2 z_i z_j cos S).
     """
     from scipy.sparse import diags_array
 
@@ -82,7 +85,7 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
 def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
     """Return the step x that minimises |x|^2 + |error + J x|^2 / damping.
 
-    As the damping goes to 0 it becomes the minimum-norm solution of J x = -error.
+    For `damping` towards 0 it tends to the minimum-norm solution of J x = -error.
     """
     from scipy.sparse import block_array, eye_array
     from scipy.sparse.linalg import splu
@@ -97,7 +100,7 @@ def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
 
 @dataclass(frozen=True)
 class LoopCorners:
-    """Corners of loops as parallel arrays: gear, next and previous contact, sign, and index of the loop."""
+    """Contacts of the gears in loops as parallel arrays: gear, next and previous gear, sign, and index of the loop."""
 
     gear: Ints
     following: Ints
@@ -108,7 +111,7 @@ class LoopCorners:
 
 
 def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
-    """Return the corners of loops of gears; `side` is +1 or -1 for each gear, and meshing gears have opposite signs."""
+    """Return the corners of loops of gears; `side` is 1 or -1 for each gear, and opposite for meshing gears."""
     rows = [
         (gear, loop[(k + 1) % len(loop)], loop[k - 1], side[gear], at)
         for at, loop in enumerate(loops)
@@ -120,7 +123,7 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
 
 @dataclass(frozen=True)
 class AxisAdjustment:
-    """Axes after a fit, the pitch [radii of the sphere], and the residuals: final, and after each step."""
+    """Adjusted axes, the pitch [radii of the sphere], and the residual at the end and after each step."""
 
     axes: Floats
     pitch: float
@@ -134,11 +137,12 @@ class AxisAdjustment:
 
 
 def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int = 0) -> AxisAdjustment:
-    """Fit axes near the given ones so that all meshes have one pitch, by Levenberg's method with minimum-norm steps.
+    """Return axes near the given ones at which all meshes have one pitch, by Levenberg's method with minimum-norm
+    steps.
 
     Solutions are not unique; the fit returns a nearby one. If the tangencies depend on each other (symmetric solids)
-    and the fit fails, the axes are first moved at random by a few degrees. A result that is not `exact` means that no
-    solution was found nearby.
+    and the fit fails, it is repeated after random displacements of the axes by a few degrees. If the result is not
+    `exact`, no solution was found nearby.
     """
     z = np.asarray(teeth, dtype=float)
     random = np.random.default_rng(seed)
@@ -157,11 +161,11 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
 
 
 def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
-    """Return whether the tangencies of cones about these axes are linearly dependent; False, unchecked, above 600
+    """Return whether the tangencies of cones about these axes are linearly dependent; False, without a test, above 600
     meshes.
 
-    The rank is that of the derivative of the angles by the axes and by one more unknown, the pitch, which widens all
-    cones.
+    The test computes the rank of the derivative of the angles by the axes and by one more unknown, the pitch, which
+    changes all cones.
     """
     if len(meshes) > _MOST_DENSE:
         return False
@@ -173,6 +177,7 @@ def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
 
 def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals: list[float]) -> AxisAdjustment:
     error, J = tangency(axes, meshes, z, pitch)
+    # with almost no damping the first steps are those of Newton's method
     size, damping = float(np.abs(error).max()), 1e-12
     stalled = 0
     for _ in range(_MOST_STEPS):
@@ -190,13 +195,14 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
         # Levenberg: less damping after a success, more after a failure
         damping = max(damping / 10, 1e-12) if better else damping * 100
         residuals.append(float(np.abs(error).max()))
+        # converged to rounding, no further progress, or no descent at any damping
         if size < 1e-15 or stalled > 12 or (stalled and size < 1e-13) or damping > 1e6:
             break
     return AxisAdjustment(axes, pitch, float(np.abs(error).max()), ())
 
 
 def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> float:
-    """Predict the standard deviation of ln lambda after the first step of `fit_phases`."""
+    """Return the predicted standard deviation of ln lambda after the first step of `fit_phases`."""
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
     logs, A = pitch_rows(axes, meshes, z)
@@ -204,10 +210,11 @@ def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorn
 
 
 def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> AxisAdjustment:
-    """Fit axes near the given ones at which all loops close, minimising the variance of the logarithm of the pitch.
+    """Return axes near the given ones at which all loops close, and the variance of the logarithm of the pitch is
+    minimised.
 
-    Newton's method for the loops and the Gauss-Newton method for the pitches share one sparse system. The integers of
-    the loops are those nearest to their sums at the given axes.
+    Newton's method for the loops and the Gauss-Newton method for the pitches share one sparse system. The sum of
+    each loop becomes the integer that is nearest to the sum at the given axes.
     """
     z = np.asarray(teeth, dtype=float)
     sums, _ = loop_sums(axes, corners, z)
@@ -248,7 +255,7 @@ def _phase_steps(
 
 
 def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping: float) -> Floats:
-    """Solve least squares under equality constraints by one sparse Karush-Kuhn-Tucker system.
+    """Return the step of a least squares problem with equality constraints, by one sparse Karush-Kuhn-Tucker system.
 
     The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s.
     """

@@ -1,8 +1,9 @@
 """Circle packing on the sphere: a circle for each gear and each region of a planar map, tangent or orthogonal.
 
 Every 3-connected planar graph has such a packing, unique up to Moebius maps (Koebe, Andreev, Thurston). The radii in
-the plane follow by Newton's method on a convex function (A. Bobenko and B. Springborn, Trans. AMS 356 (2004) 659), the
-centres by a breadth-first layout. On the sphere the packing is centred by B. Springborn, Math. Z. 249 (2005) 513.
+the plane are computed by Newton's method on a convex function (A. Bobenko and B. Springborn, Trans. AMS 356 (2004)
+659), and the centres by a breadth-first layout. On the sphere the packing is centred by the method of B. Springborn,
+Math. Z. 249 (2005) 513.
 """
 
 from __future__ import annotations
@@ -26,10 +27,11 @@ if TYPE_CHECKING:
 
 
 def angle_excess(u: Floats, i: Ints, j: Ints, target: Floats) -> Floats:
-    """Return the angle sum 2 atan(r_j/r_i) over the neighbours minus its target, at every node [rad]; u = log r.
+    """Return at every node the sum of the angles 2 atan(r_j/r_i) over its neighbours minus its target [rad]; u = log
+    r.
 
-    i, j are the ends of every orthogonal pair, in both orders; target is 2 pi less pi for each neighbour of infinite
-    radius. The result is the gradient of a convex function of u (Bobenko and Springborn, Euclidean radii).
+    `i` and `j` are the nodes of every orthogonal pair, in both orders. The target is 2 pi, minus pi for each neighbour
+    of infinite radius. The result is the gradient of a convex function of u (Bobenko and Springborn, Euclidean radii).
     """
     return np.asarray(np.bincount(i, 2 * np.arctan(np.exp(u[j] - u[i])), len(u)) - target, dtype=float)
 
@@ -40,17 +42,19 @@ def stiffness(u: Floats, i: Ints, j: Ints) -> Floats:
 
 
 def circle_vector(centre: complex, radius: float) -> Floats:
-    """Map a circle of the plane to (n, cos rho) / sin rho on the sphere by stereographic projection.
+    """Return a circle of the plane as the vector (n, cos rho) / sin rho of its stereographic projection to the sphere.
 
-    The result is a vector of Minkowski space: <w, w> = 1, <w_i, w_j> = -1 for tangent circles, 0 for orthogonal ones.
-    With k = |c|^2 - r^2 it is (c, (k - 1)/2, (k + 1)/2) / r.
+    It is a vector of Minkowski space: <w, w> = 1, <w_i, w_j> = -1 for tangent circles, 0 for orthogonal circles. For
+    centre c, radius r and k = |c|^2 - r^2 it is (c, (k - 1)/2, (k + 1)/2) / r.
     """
     k = abs(centre) ** 2 - radius**2
     return np.array([centre.real, centre.imag, (k - 1) / 2, (k + 1) / 2]) / radius
 
 
 def line_vector(normal: complex, offset: float) -> Floats:
-    """Map the half-plane normal.x >= offset to a vector like that of a circle: (m, d, d)."""
+    """Return the half-plane normal.x >= offset as a vector of the same kind as for a circle: (normal, offset,
+    offset).
+    """
     return np.array([normal.real, normal.imag, offset, offset])
 
 
@@ -69,7 +73,7 @@ def _no_packing(residual: float) -> RangeError:
 
 
 class PlanarPacking:
-    """Circle packing in the plane, with the pitch point of one mesh at infinity."""
+    """Circle packing in the plane, in which the pitch point of one mesh is at infinity."""
 
     def __init__(self, gears: int, regions: Sequence[Sequence[int]]) -> None:
         self.gears, self.regions = gears, [tuple(region) for region in regions]
@@ -83,7 +87,7 @@ class PlanarPacking:
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Return the regions round each gear and the gears round each region, counterclockwise, as node numbers."""
+        """Return the regions around each gear and the gears around each region, counterclockwise, as node numbers."""
         before = {}
         for walk in self.regions:
             for at, gear in enumerate(walk):
@@ -98,7 +102,7 @@ class PlanarPacking:
         return around + [list(walk) for walk in self.regions]
 
     def _far_mesh(self) -> tuple[int, int]:
-        """Return the mesh with the most neighbours, so that many circles touch the lines to infinity."""
+        """Return the mesh with the most neighbours as the mesh at infinity, because many circles then touch lines."""
         size = [len(beside) for beside in self.around]
         return max(
             self.meshes,
@@ -106,10 +110,10 @@ class PlanarPacking:
         )
 
     def radii(self, on_step: Callable[[], None] = lambda: None) -> tuple[Floats, tuple[float, ...]]:
-        """Compute the log radii of all nodes, inf for the four at infinity, by sparse Newton steps on a convex
-        function.
+        """Return the logarithms of all radii by Newton's method on a convex function; inf for the four circles through
+        infinity.
 
-        on_step   called after each step; the largest residual [rad] of each step is returned too
+        on_step   function called after each step; the maximum residual of each step [rad] is returned too
         """
         from scipy.sparse import coo_array
         from scipy.sparse.linalg import splu
@@ -148,7 +152,9 @@ class PlanarPacking:
         return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
-        """Place all circles on the sphere from radii in the plane, by breadth-first search from circle to circle."""
+        """Return the vectors of all circles on the sphere, placed in the plane by breadth-first search from circle to
+        circle.
+        """
         r = np.exp(u)
         # the layout starts at the largest finite circle
         start = int(np.argmax(np.where(np.isinf(u), -inf, u)))
@@ -167,7 +173,7 @@ class PlanarPacking:
         return self._on_sphere(r, centre, lines)
 
     def _directions(self, r: Floats, node: int, first: int, towards: complex) -> list[tuple[int, complex]]:
-        """Return unit directions from a node to its neighbours, counterclockwise from the first."""
+        """Return the unit directions from a node to its neighbours, counterclockwise from the neighbour `first`."""
         beside = self.around[node]
         at = beside.index(first)
         beside = beside[at:] + beside[:at]
@@ -177,7 +183,7 @@ class PlanarPacking:
         return [(other, towards * complex(np.exp(1j * turn))) for other, turn in zip(beside, turns, strict=True)]
 
     def _on_sphere(self, r: Floats, centre: dict[int, complex], lines: dict[int, tuple[complex, complex]]) -> Floats:
-        """Return vectors of all circles, after centring the rectangle between the four lines on the origin."""
+        """Return the vectors of all circles, after the rectangle of the four lines is moved to the origin."""
         offsets = {node: (m, (m.conjugate() * p).real) for node, (m, p) in lines.items()}
         middle, scale = 0j, 0.0
         # opposite sides of the rectangle of lines
@@ -201,12 +207,12 @@ class PlanarPacking:
 _MOST_STEPS = 100  # Newton steps; four or five suffice on usual graphs
 _MOST_POLISH = 12  # Newton steps; two or three suffice because the layout is nearly right
 _LONGEST = 2.0
-"""Largest rapidity of one boost, and largest change of a log radius in one Newton step."""
+"""Maximum rapidity of one boost, and maximum change of the logarithm of a radius in one Newton step."""
 
 
 def boost(v: Floats) -> Floats:
-    """Return the Lorentz boost of rapidity |v| along v, acting on (x, t), that moves points of the sphere
-    away from v.
+    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v| along v, which moves points of the sphere away
+    from v.
     """
     rapidity = float(np.linalg.norm(v))
     if rapidity == 0:
@@ -220,15 +226,17 @@ def boost(v: Floats) -> Floats:
 
 
 def centring_step(points: Floats) -> Floats:
-    """Compute Newton's rapidity towards the frame where the points sum to 0: H v = sum p, H = sum (I - p p^T)."""
+    """Return the Newton step (a rapidity vector) to the frame in which points sum to 0: H v = sum p, H = sum (I - p
+    p^T).
+    """
     H = len(points) * np.eye(3) - points.T @ points
     return np.asarray(np.linalg.solve(H, points.sum(axis=0)), dtype=float)
 
 
 def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
-    """Compute the centred circle packing of a 3-connected planar map.
+    """Return the centred circle packing of a 3-connected planar map.
 
-    regions   the gears round each region, all in the same sense; every mesh lies between two of them
+    regions   gears around each region, all in the same sense; every mesh separates two regions
     """
     plane = PlanarPacking(gears, regions)
     u, residuals = plane.radii()
@@ -245,32 +253,36 @@ def _vectors(axes: Floats, cones: Floats) -> Floats:
 
 
 def _circles(vectors: Floats) -> tuple[Floats, Floats]:
-    """Return the axes and half-angles [rad] of circles given as vectors."""
+    """Return the axes and half-angles [rad] of circles that are given as vectors."""
     length = np.linalg.norm(vectors[:, :3], axis=1)
     # the last entry is the cotangent, accurate for small and for large circles
     return vectors[:, :3] / length[:, None], np.arctan2(1.0, vectors[:, 3])
 
 
 def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
-    """Transform the packing by damped Newton steps to the frame where the pitch points sum to 0."""
+    """Return the packing transformed to the frame in which the pitch points sum to 0, by damped Newton steps."""
     i, j = np.array(meshes).T
     for _ in range(_MOST_STEPS):
         touch = vectors[i] + vectors[j]
         points = touch[:, :3] / np.linalg.norm(touch[:, :3], axis=1)[:, None]
         v = centring_step(points)
         length = float(np.linalg.norm(v))
+        # centred to rounding; a zero step has no direction
         if length < 1e-15:
             break
         # a long boost would lose digits
         v *= min(1.0, _LONGEST / length, _descent_fraction(points, v))
         vectors = vectors @ boost(v)
+        # convergence is quadratic, so this was the last step that changes anything
         if length < 1e-14:
             break
     return vectors
 
 
 def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
-    """Rotate the packing so that the first gear of a mesh is at the top and the second is next to it along x."""
+    """Return the packing rotated such that the first gear of a mesh is at the top, and the second is next to it along
+    x.
+    """
     axes, _ = _circles(vectors)
     top, side = axes[mesh[0]], axes[mesh[1]]
     x = side - top * (top @ side)
@@ -280,9 +292,9 @@ def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
 
 
 def _descent_fraction(points: Floats, v: Floats) -> float:
-    """Return a fraction of the step v that lowers the convex function sum log(-<x, (p, 1)>), by halving.
+    """Return a fraction of the step v at which the convex function sum log(-<x, (p, 1)>) decreases, by halving.
 
-    The minimum of this function is the centred frame.
+    The minimum of this function corresponds to the centred frame.
     """
     share = 1.0
     # backtracking: the function is convex, so a short step always descends
@@ -295,7 +307,7 @@ def _descent_fraction(points: Floats, v: Floats) -> float:
 
 
 def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tuple[float, ...]) -> SpherePacking:
-    """Refine all tangencies and right angles at once by Newton's method, down to rounding errors."""
+    """Return the packing with all tangencies and right angles refined by Newton's method to rounding."""
     axes, cones = _circles(vectors)
     tangent = [*plane.meshes, *((gears + plane.left[m], gears + plane.left[m[::-1]]) for m in plane.meshes)]
     square = [(gear, region) for gear in range(gears) for region in plane.around[gear]]
@@ -306,6 +318,7 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
         better, enough = size < best[0], size < 1e-13 and size > best[0] / 4
         if better:
             best = (size, axes, cones)
+        # above 1e-11 an increase of the residual is not due to rounding, and the iteration continues
         if enough or not (better or size > 1e-11):
             break
         axes = moved(axes, moves[: 2 * len(axes)].reshape(-1, 2))
@@ -316,10 +329,10 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
 
 
 def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tangent: int) -> tuple[float, Floats]:
-    """Compute the largest error of the angles between circles [rad] and the minimum-norm correction of axes and half-
+    """Return the maximum error of the angles between circles [rad], and the minimum-norm correction of axes and half-
     angles.
 
-    The first `tangent` pairs touch: S = rho_i + rho_j; the others cross at right angles: cos S = cos rho_i cos rho_j.
+    The first `tangent` pairs are tangent, S = rho_i + rho_j. The others are orthogonal, cos S = cos rho_i cos rho_j.
     """
     from scipy.sparse import coo_array, eye_array, hstack
     from scipy.sparse.linalg import splu
@@ -342,25 +355,25 @@ class SpherePacking:
     """Centred circle packing on the sphere: the pitch points of all meshes sum to 0."""
 
     axes: Floats
-    """Unit vectors of the gears. Shape (gears, 3)."""
+    """Unit vectors to the centres of the gears, shape (gears, 3)."""
     cones: Floats
-    """Half-angles of the gears [rad]. Shape (gears,)."""
+    """Half-angles of the gears [rad], shape (gears,)."""
     region_axes: Floats
-    """Unit vectors of the circles through the pitch points round each region. Shape (regions, 3)."""
+    """Unit vectors to the centres of the circles through the pitch points around each region, shape (regions, 3)."""
     region_cones: Floats
-    """Half-angles of the circles through the pitch points round each region [rad]. Shape (regions,)."""
+    """Half-angles of the circles through the pitch points around each region [rad], shape (regions,)."""
     meshes: tuple[tuple[int, int], ...]
-    """Pairs of gears."""
+    """Meshing pairs of gears, by index."""
     regions: tuple[tuple[int, ...], ...]
-    """Gears round each region, counterclockwise from outside."""
+    """Gears around each region, counterclockwise seen from outside."""
     residual: float
-    """Largest error of a tangency or right angle (rad)."""
+    """Maximum error of a tangency or right angle [rad]."""
     residuals: tuple[float, ...]
-    """Largest residual [rad] of the angle sums in the plane after each Newton step."""
+    """Maximum residual of the angle sums in the plane after each Newton step [rad]."""
 
     @property
     def pitch_points(self) -> Floats:
-        """Points where the gears touch, unit vectors. Shape (meshes, 3)."""
+        """Unit vectors to the points where the gears touch, shape (meshes, 3)."""
         i, j = np.array(self.meshes).T
         towards = self.axes[i] * np.sin(self.cones[j])[:, None] + self.axes[j] * np.sin(self.cones[i])[:, None]
         return np.asarray(towards / np.linalg.norm(towards, axis=1)[:, None])

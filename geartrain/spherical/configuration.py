@@ -2,7 +2,7 @@
 
 A train is declared with a link, a bevel wheel and an axis for each gear.
 
-For the set to be assembled each loop of a basis must contain a whole number of teeth, equation (3) of docs/closure.md.
+The set can be assembled if each loop of a basis contains an integer number of teeth, equation (3) of docs/closure.md.
 The basis consists of the regions between the meshes, by Euler's formula, or of the fundamental loops if arcs cross.
 """
 
@@ -56,21 +56,20 @@ class Configuration(Shown):
     names: tuple[str, ...]
     """Names of the gears."""
     axes: Floats
-    """Unit vectors of the axes. Shape (gears, 3)."""
+    """Unit vectors of the axes, outwards, shape (gears, 3)."""
     meshes: tuple[tuple[int, int], ...]
-    """Pairs of gears by index."""
+    """Meshing pairs of gears, by index."""
     kinds: tuple[str, ...]
-    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set and share one
-    tooth number.
+    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set, and have one tooth number.
     """
     regular: tuple[int, ...]
-    """Number p for each gear if its contacts are exactly multiples of 1/p of a revolution apart; 0 if their angles are
-    known only in floats.
+    """Integer p of each gear if its contacts are exactly at multiples of 1/p of a revolution; 0 if the angles are known
+    only as floats.
     """
     teeth: Mapping[str, int] = field(default_factory=dict)
-    """Tooth number of each kind, as far as they are chosen."""
+    """Kind -> tooth number, for the kinds whose tooth numbers are chosen."""
     title: str = ""
-    """Title for display."""
+    """Title of the set for display."""
 
     def _summary(self) -> str:
         teeth = ", ".join(f"{kind} {count}" for kind, count in islice(self.teeth.items(), 4))
@@ -83,28 +82,30 @@ class Configuration(Shown):
         Parameters
         ----------
         i, j : int
-            The gears.
+            Indices of the gears.
         """
         return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
-        """Return the direction from one gear to another about the axis of the first [rad].
+        """Return the direction [rad] from one gear to another about the axis of the first gear.
 
         Parameters
         ----------
         i, j : int
-            The gears; directions about i are measured from the first of `frame(i)`, counterclockwise from outside.
+            Indices of the gears. The direction about i is measured from the first vector of `frame(i)`,
+            counterclockwise seen
+            from outside.
         """
         first, second = self.frame(i)
         return float(np.arctan2(self.axes[j] @ second, self.axes[j] @ first))
 
     def frame(self, i: int) -> tuple[Floats, Floats]:
-        """Return two directions across an axis that make a right-handed frame with it, pointing outwards.
+        """Return two unit vectors perpendicular to an axis that form a right-handed frame with it.
 
         Parameters
         ----------
         i : int
-            The gear.
+            Index of the gear.
         """
         first, second = frames(self.axes[i : i + 1])[0]
         return first, second
@@ -116,7 +117,7 @@ def kinds_in_order(configuration: Configuration) -> tuple[str, ...]:
 
 
 def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
-    """Return the kinds of mesh in the order of their gears' kinds; angles within 1e-9 rad count as equal."""
+    """Return the kinds of mesh in the order of their gears' kinds; angles are treated as equal within 1e-9 rad."""
     order = {kind: at for at, kind in enumerate(kinds_in_order(configuration))}
     groups: dict[tuple[int, int, int], list[int]] = {}
     angles = mesh_angles(configuration.axes, configuration.meshes)
@@ -134,7 +135,7 @@ def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
 
 
 def nearest_unmeshed(configuration: Configuration) -> dict[tuple[str, str], float]:
-    """Return the minimum angle [rad] between gears that do not mesh, for each pair of kinds in both orders."""
+    """Return the minimum angle between gears that do not mesh [rad], for each pair of kinds in both orders."""
     apart = unmeshed_angles(configuration)
     kinds = np.array(configuration.kinds)
     found: dict[tuple[str, str], float] = {}
@@ -148,7 +149,7 @@ def nearest_unmeshed(configuration: Configuration) -> dict[tuple[str, str], floa
 
 
 def unmeshed_angles(configuration: Configuration) -> Floats:
-    """Return the angles between all axes [rad], inf for a gear and itself and for gears that mesh."""
+    """Return the angles between all axes [rad]; inf for meshing gears and for a gear with itself."""
     apart = separations(configuration.axes)
     np.fill_diagonal(apart, inf)
     if configuration.meshes:
@@ -159,7 +160,7 @@ def unmeshed_angles(configuration: Configuration) -> Floats:
 
 @dataclass(frozen=True)
 class MeshKind:
-    """Class of equivalent meshes: the kinds of their two gears, the angle between the axes, and their indices."""
+    """Kind of mesh: equivalent meshes, with the kinds of their two gears and the angle between the axes."""
 
     a: str
     """Kind of the first gear."""
@@ -172,7 +173,7 @@ class MeshKind:
 
     @property
     def kinds(self) -> tuple[str, str]:
-        """Kinds of its two gears."""
+        """Kinds of the two gears."""
         return self.a, self.b
 
     def __str__(self) -> str:
@@ -184,19 +185,19 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
 
     Links, wheels and axes have the names of the gears. With outward axes every mesh reverses the sense of rotation, z_i
     w_i + z_j w_j = 0 (docs/sphere.md, section 1): the wheels are on the positive sides of their axes (`facing` 1, the
-    default). The first gear is the input, at speed 1. Directions are floats at full length.
+    default). The first gear is the input, at speed 1. Directions are floats with all digits.
 
     Parameters
     ----------
     configuration : Configuration
         Set with a tooth number for every kind.
     name : str
-        Name of the train; default `spherical`.
+        Name of the train; by default `spherical`.
 
     Returns
     -------
     dict
-        The declaration.
+        Declaration of the train.
 
     Raises
     ------
@@ -237,7 +238,9 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
 
 
 def _direction(axis: list[float]) -> list[str]:
-    """Return floats at full length, and short ones as fractions: a decimal counts as known to its last digit only."""
+    """Return floats with all digits, or as fractions if these are short, because a decimal is taken as accurate only to
+    its last digit.
+    """
     exact = [Fraction(part) for part in axis]
     return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]
 
@@ -250,14 +253,14 @@ def _link(gear: str, teeth: int) -> dict[str, Any]:
 
 
 def wrapped(turns: Floats) -> Floats:
-    """Return `turns` minus the nearest integer, in [-1/2, 1/2]."""
+    """Return `turns` minus the nearest integer, -1/2 to 1/2."""
     return np.asarray(turns - np.round(turns), dtype=float)
 
 
 def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float], tolerance: float) -> Mask:
-    """Return whether sum z_k a_k is an integer, docs/closure.md (3).
+    """Return a mask of the tooth numbers for which sum z_k a_k is an integer, docs/closure.md (3).
 
-    The test is exact if all a_k are Fractions, otherwise to `tolerance` [pitches]. z_k a_k is the signed number of
+    The test is exact if all a_k are Fractions, otherwise with `tolerance` [pitch]. z_k a_k is the signed number of
     teeth that gears of kind k have inside one loop of meshes.
     """
     if all(isinstance(share, Fraction) for share in rule):
@@ -269,14 +272,14 @@ def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float],
 
 
 def residue(teeth: Sequence[Any], rule: Sequence[Fraction | float]) -> Floats:
-    """Return the closing error of a loop [pitches]: sum z_k a_k minus the nearest integer."""
+    """Return the closing error of a loop [pitch]: sum z_k a_k minus the nearest integer."""
     return wrapped(np.asarray(sum(z * float(share) for z, share in zip(teeth, rule, strict=True)), dtype=float))
 
 
 def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[int]:
-    """Return a number for each kind that divides its teeth wherever all exact rules are satisfied.
+    """Return for each kind an integer that divides its tooth number if all exact rules are satisfied.
 
-    If sum z_k a_k is an integer, so is m a_i z_i with m the common denominator of the others.
+    If sum z_k a_k is an integer, m a_i z_i is an integer too, where m is the common denominator of the other a_k.
     """
     found = [1] * kinds
     for rule in rules:
@@ -289,7 +292,7 @@ def divisors(rules: Sequence[Sequence[Fraction | float]], kinds: int) -> list[in
 
 
 def loops(configuration: Configuration) -> list[list[int]]:
-    """Return a basis of all loops of gears: the regions between the meshes, or fundamental loops if arcs cross."""
+    """Return a basis of all loops of gears: the regions between the meshes, or fundamental loops if mesh arcs cross."""
     found = regions(configuration)
     gears, meshes = len(configuration.axes), configuration.meshes
     fundamental = list(fundamental_loops(gears, meshes))
@@ -301,7 +304,7 @@ def loops(configuration: Configuration) -> list[list[int]]:
 
 
 def regions(configuration: Configuration) -> list[list[int]]:
-    """Return the counterclockwise boundary walks of the regions between the arcs of the meshes, by face tracing."""
+    """Return the boundary walks of the regions between the arcs of the meshes, counterclockwise, by face tracing."""
     beside: dict[int, list[int]] = {}
     for i, j in configuration.meshes:
         # adjacency of the meshes
@@ -346,11 +349,11 @@ def fundamental_loops(gears: int, meshes: Sequence[tuple[int, int]]) -> Iterator
 
 
 def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ...], ...]:
-    """Return the assembly conditions as shares of the kinds' teeth; each distinct condition once.
+    """Return the assembly conditions as factors a_k of the kinds' tooth numbers, each distinct condition once.
 
-    Round every loop of a basis, sum (-1)^k z_k alpha_k / 2 pi must be an integer, alpha_k being the angle at gear k
-    from its previous to its next contact, counterclockwise. Shares are Fractions if the contacts of every gear of the
-    loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
+    Around every loop of a basis, sum (-1)^k z_k alpha_k / 2 pi must be an integer, where alpha_k is the angle at gear k
+    from its previous to its next contact, counterclockwise. The factors are Fractions if the contacts of every gear in
+    the loop are equally spaced. Raises `QuestionError` if a loop is odd, because such a set cannot turn.
     """
     kinds = kinds_in_order(configuration)
     found: dict[tuple[Fraction | float, ...], None] = {}
@@ -371,7 +374,7 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
 
 
 def _shares(configuration: Configuration, loop: Sequence[int], kinds: Sequence[str]) -> tuple[Fraction | float, ...]:
-    """Return the condition of one loop, modulo integers and up to sign."""
+    """Return the factors of the kinds' tooth numbers in the condition of one loop, modulo integers and up to sign."""
     # one irregular gear makes the whole condition inexact
     exact = all(configuration.regular[gear] for gear in loop)
     total: dict[str, Fraction | float] = dict.fromkeys(kinds, Fraction(0) if exact else 0.0)

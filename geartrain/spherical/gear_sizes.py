@@ -1,4 +1,4 @@
-"""Sizes of the gears of a set on a sphere: cones, pitches, pressure angles, colliding tips.
+"""Sizes of the gears of a set on a sphere: cones, pitches, pressure angles, tip collisions.
 
 All angles are in radians, all lengths in radii of the sphere on which the teeth are measured, and axes point outwards.
 For some sets on fixed axes it is proved that no tooth numbers give one pitch (docs/sphere.md, section 4).
@@ -54,13 +54,17 @@ _THEOREMS = {
     ),
 }
 TIP_ROOM = 2.0
-"""Required distance [modules] between the pitch circles of gears that do not mesh: an addendum of one module each."""
+"""Required distance between the pitch circles of gears that do not mesh [modules]: an addendum of one module for each
+gear.
+"""
 _SAME = 1e-11
-"""Relative difference below which pitches count as equal: the rounding of axes in floats."""
+"""Relative difference below which pitches are equal: the rounding of axes in floats."""
 
 
 def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
-    """Return the teeth of every gear; raise `QuestionError` with the kinds whose teeth are not chosen."""
+    """Return the tooth number of every gear; raise `QuestionError` with the kinds whose tooth numbers are not
+    chosen.
+    """
     missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
     if missing:
         raise QuestionError(
@@ -74,12 +78,12 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
 
 
 def one_pitch(configuration: Configuration) -> float:
-    """Return the pitch that all meshes share for the chosen teeth, equation (1) of docs/sphere.md.
+    """Return the common pitch of all meshes for the chosen tooth numbers, equation (1) of docs/sphere.md.
 
     Parameters
     ----------
     configuration : Configuration
-        With teeth.
+        Set with a tooth number for every kind.
 
     Returns
     -------
@@ -89,9 +93,10 @@ def one_pitch(configuration: Configuration) -> float:
     Raises
     ------
     RangeError
-        If the meshes require different pitches. The message cites the theorem if no teeth can help (section 4 there).
+        If the meshes require different pitches. The message cites the theorem if no tooth numbers give one pitch
+        (docs/sphere.md, section 4).
     QuestionError
-        If teeth are not chosen, or no gears mesh.
+        If a tooth number is missing, or no gears mesh.
 
     Examples
     --------
@@ -116,26 +121,27 @@ def one_pitch(configuration: Configuration) -> float:
 
 
 def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:
-    """Compute operating cones, pitches and pressure angles of every mesh by equation (1) of docs/sphere.md.
+    """Return operating cones, pitches and pressure angles of every mesh, by equation (1) of docs/sphere.md.
 
-    All gears share one base pitch, so that spherical involutes keep the ratio at any pitch (section 4 there).
+    All gears have one base pitch, so spherical involutes keep the ratio at any operating pitch (docs/sphere.md, section
+    4).
 
     Parameters
     ----------
     configuration : Configuration
-        With teeth.
+        Set with a tooth number for every kind.
     mean_pressure : float
-        Mean pressure angle of the meshes [rad]; default 20 deg.
+        Mean pressure angle of the meshes [rad]; by default 20 deg.
 
     Returns
     -------
     SphereSizing
-        The sizes.
+        Sizes of all meshes and gears.
 
     Raises
     ------
     QuestionError
-        If teeth are not chosen, or no gears mesh.
+        If a tooth number is missing, or no gears mesh.
 
     Examples
     --------
@@ -162,14 +168,14 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
 
 @dataclass(frozen=True)
 class TipCollision:
-    """Two gears that do not mesh and come too close to each other."""
+    """Two gears that do not mesh, and are too close to each other."""
 
     gears: tuple[str, str]
     """Names of the two gears."""
     room: float
-    """Distance between their pitch circles [modules]; the pitch circles overlap below 0."""
+    """Distance between their pitch circles [modules]; negative if the pitch circles overlap."""
     short: float
-    """Shortfall of the distance below the required two modules [modules]."""
+    """Required distance minus `room` [modules]."""
 
     def __str__(self) -> str:
         return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} modules too close"
@@ -181,20 +187,20 @@ class MeshSize(NamedTuple):
     gears: tuple[str, str]
     """Names of the two gears."""
     cones: tuple[float, float]
-    """Operating pitch cones of the two gears [deg]."""
+    """Half-angles of the operating pitch cones of the two gears [deg]."""
     pitch: float
-    """Operating pitch lambda [radii of the sphere]."""
+    """Operating pitch lambda, half the module [radii of the sphere]."""
     pressure_angle: float | None
-    """Operating pressure angle [deg]; None if involutes on the common base pitch cannot mesh."""
+    """Operating pressure angle [deg]; None if involutes with the common base pitch cannot mesh."""
 
 
 @dataclass(frozen=True)
 class SphereSizing(Result):
-    """Sizes of a set with teeth. Rows are meshes.
+    """Sizes of a set with chosen tooth numbers. Arrays have one row for each mesh or gear.
 
     See Also
     --------
-    size_gears : Returns such an object.
+    size_gears : returns it
     """
 
     KEYS = (
@@ -208,29 +214,31 @@ class SphereSizing(Result):
     )
 
     configuration: Configuration
-    """The set."""
+    """Set whose sizes these are."""
     teeth: NDArray[np.int64]
-    """Tooth number of each gear. Shape (gears,)."""
+    """Tooth number of each gear, shape (gears,)."""
     cones: Floats
-    """Operating pitch cones of the first and second gear of each mesh [rad]. Shape (meshes, 2)."""
+    """Half-angles of the operating pitch cones of the two gears of each mesh [rad], shape (meshes, 2)."""
     pitches: Floats
-    """Operating pitch lambda of each mesh [radii of the sphere]. Shape (meshes,)."""
+    """Operating pitch lambda of each mesh [radii of the sphere], shape (meshes,)."""
     base: float
-    """Base pitch c that all gears share [radii of the sphere]; base cones are sin g = c z."""
+    """Common base pitch c of all gears [radii of the sphere]; a base cone has the half-angle g with sin g = c z."""
     pressure: Floats
-    """Operating pressure angle of each mesh [rad]; nan if involutes on one base pitch cannot mesh. Shape (meshes,)."""
+    """Operating pressure angle of each mesh [rad], shape (meshes,); nan if involutes with the common base pitch cannot
+    mesh.
+    """
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}"
 
     @property
     def exact(self) -> bool:
-        """True if all meshes share one pitch, to the rounding of the axes."""
+        """True if all meshes have one pitch, to the rounding of the axes."""
         return self.mismatch <= _SAME
 
     @cached_property
     def mismatch(self) -> float:
-        """Logarithm of the maximum pitch over the minimum pitch."""
+        """Natural logarithm of the maximum over the minimum pitch [1]."""
         return log(float(self.pitches.max()) / float(self.pitches.min()))
 
     @cached_property
@@ -245,8 +253,8 @@ class SphereSizing(Result):
 
     @cached_property
     def outer(self) -> Floats:
-        """Largest operating cone of each gear [rad], which gears that do not mesh with it must clear. Shape
-        (gears,).
+        """Half-angle of each gear's largest operating cone [rad], shape (gears,); gears that do not mesh with it must
+        clear this cone.
         """
         # a gear without a mesh has the cone of the mean pitch
         alone = np.arcsin(np.minimum(self.teeth * self.pitch, 1))
@@ -257,7 +265,7 @@ class SphereSizing(Result):
 
     @property
     def by_gear(self) -> dict[str, int]:
-        """Tooth numbers by gear."""
+        """Gear -> tooth number."""
         return dict(zip(self.configuration.names, self.teeth.tolist(), strict=True))
 
     @property
@@ -272,7 +280,9 @@ class SphereSizing(Result):
 
     @cached_property
     def collisions(self) -> tuple[TipCollision, ...]:
-        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, worst first."""
+        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, sorted by rising
+        distance.
+        """
         room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
         # each pair once; the tolerance keeps gears that just clear
         rows, columns = np.nonzero(np.triu(room < TIP_ROOM - 1e-9, 1))
@@ -285,12 +295,12 @@ class SphereSizing(Result):
 
     @property
     def virtual(self) -> Floats:
-        """Virtual teeth of each gear. Shape (gears,)."""
+        """Virtual tooth number of each gear, shape (gears,)."""
         return virtual_teeth(self.teeth, self.outer)
 
     @property
     def undercut(self) -> dict[str, float]:
-        """Virtual teeth of the kinds that a rack of the mean pressure angle undercuts."""
+        """Kind -> virtual tooth number, for kinds that a rack with the mean pressure angle undercuts."""
         limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
         pairs = zip(self.configuration.kinds, self.virtual, strict=True)
         return {kind: float(count) for kind, count in pairs if count < limit}
@@ -326,13 +336,15 @@ class SphereSizing(Result):
 
 
 def impossibility_theorem(configuration: Configuration) -> str:
-    """Return the proof that no tooth numbers give one pitch on these fixed axes; "" if no such proof is known."""
+    """Return the proof that no tooth numbers give one pitch on these fixed axes; "" if no proof is known."""
     name = _solid_with_proof(configuration)
     return f"{name}: {_THEOREMS[name]}" if name else ""
 
 
 def _solid_with_proof(configuration: Configuration) -> str:
-    """Return the solid on whose faces the gears are placed, among those with a proof, by its counts and mesh angles."""
+    """Return the name of the solid with such a proof on whose faces the gears are, recognised by counts and mesh
+    angles; else "".
+    """
     counts = len(configuration.axes), len(configuration.meshes)
     phi = (1 + sqrt(5)) / 2
     # counts of gears and meshes, and the two angles between adjacent faces

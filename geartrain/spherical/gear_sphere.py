@@ -26,11 +26,12 @@ _SPREAD = Key("pitch_spread", "spread")
 
 @dataclass(frozen=True)
 class GearSphere(Result):
-    """Set of gears on a sphere with its analyses; each one is computed when it is first used.
+    """Set of gears on a sphere with its analyses, each of which is computed when it is first read.
 
     Examples
     --------
-    20 and 12 teeth on the faces of the icosidodecahedron turn, meet round all 29 loops, and have one pitch:
+    Gears with 20 and 12 teeth on the faces of the icosidodecahedron turn, close around all 29 loops, and have one
+    pitch:
 
     >>> from geartrain.spherical import from_polyhedron
     >>> sphere = GearSphere(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}), radius=3.13198541004301)
@@ -60,51 +61,57 @@ class GearSphere(Result):
     )
 
     configuration: Configuration
-    """The set."""
+    """Axes, meshes, kinds and tooth numbers of the set."""
     radius: float = 1.0
-    """Radius of the sphere in any unit of length; wheels are sized by it."""
+    """Radius of the sphere in any unit of length, which is also the unit of the wheel radii."""
     graph: GraphSet | None = None
-    """Fit of the set to a graph, if it was made from one."""
+    """Result of the fit of the axes, if the set was made from a graph."""
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}, radius {self.radius:g}"
 
     @cached_property
     def chosen(self) -> bool:
-        """True if every kind has its tooth number."""
+        """True if every kind has a tooth number."""
         return all(kind in self.configuration.teeth for kind in self.configuration.kinds)
 
     @cached_property
     def train(self) -> GearTrain:
-        """Gear train of the set; with ten teeth on every gear whose teeth are not chosen, because signs do not depend
-        on them.
+        """Gear train of the set. Gears without a chosen tooth number have ten teeth, because senses of rotation do not
+        depend on it.
         """
         whole = {kind: self.configuration.teeth.get(kind, 10) for kind in self.configuration.kinds}
         return GearTrain.declare(to_train(replace(self.configuration, teeth=whole)))
 
     @cached_property
     def moves(self) -> bool:
-        """True if the set can turn."""
+        """True if the train of the set has a degree of freedom and no locking loop."""
         return self.train.mobility.by_rank > 0 and not self.train.mobility.locked
 
     @cached_property
     def sizing(self) -> SphereSizing | None:
-        """Cones, pitches and pressure angles; None while teeth are not chosen."""
+        """Cones, pitches and pressure angles; None if a tooth number is missing."""
         return size_gears(self.configuration) if self.chosen else None
 
     @cached_property
     def closure(self) -> MeshPhasing | None:
-        """Phasing of the meshes round every loop; None while teeth are not chosen, and for a set that cannot turn."""
+        """Phasing of the meshes around every loop; None if a tooth number is missing, or if the set cannot turn."""
         from geartrain.kinematics.phasing import spherical_phasing
 
         return spherical_phasing(self.configuration) if self.chosen and self.moves else None
 
     def pose(self) -> tuple[Configuration, Floats, list[float]]:
-        """Return the data of a drawing: the set, its pitch cones [rad], and the phase angles of its teeth [pitches]."""
+        """Return the data of a drawing: the set, half-angles of its pitch cones [rad], and the phases of its teeth
+        [pitch].
+        """
         sizing = self.sizing
         if sizing is None:
             raise QuestionError(
-                Problem("the sphere cannot be drawn", "its gears have no tooth numbers", "give --teeth")
+                Problem(
+                    "the sphere cannot be drawn",
+                    "its gears have no tooth numbers",
+                    "give them, such as --teeth 5=20,3=12",
+                )
             )
         angles = {} if self.closure is None else self.closure.angles
         # phases are fractions of a pitch, which need the tooth numbers
@@ -114,9 +121,7 @@ class GearSphere(Result):
 
     @cached_property
     def rule(self) -> str | None:
-        """Divisibility condition on the tooth numbers; None if the contacts are not at known fractions of a
-        revolution.
-        """
+        """Divisibility condition on the tooth numbers; None if contacts are not at known fractions of a revolution."""
         from geartrain.kinematics.phasing import spherical_divisibility_rule
 
         rule = spherical_divisibility_rule(self.configuration) if self.moves else None
@@ -139,27 +144,27 @@ class GearSphere(Result):
 
     @property
     def gridlock(self) -> Gridlock | None:
-        """Diagnosis of the gridlock; None if the set turns."""
+        """Locked parts of the set, and meshes to remove; None if the set turns."""
         return None if self.moves else self.train.kinematics.gridlock
 
     @property
     def closes(self) -> bool | None:
-        """True if all teeth meet; None if that cannot be checked."""
+        """True if the teeth of all loops mesh; None if this cannot be checked."""
         return None if self.closure is None else bool(self.closure)
 
     @property
     def residue(self) -> float | None:
-        """Residue of the last meshes when gears are assembled one after the other [pitches]."""
+        """Maximum error of the meshes that are assembled last, if gears are assembled one after another [pitch]."""
         return None if self.closure is None else self.closure.last
 
     @property
     def loop_residue(self) -> float | None:
-        """Residue of the worst loop [pitches]."""
+        """Maximum closing error of a loop [pitch]."""
         return None if self.closure is None else float(self.closure.worst)
 
     @cached_property
     def cones(self) -> Mapping[str, float | None]:
-        """Pitch cone of each kind [rad], the largest in operation; None while teeth are not chosen."""
+        """Kind -> half-angle of its largest operating pitch cone [rad]; None if a tooth number is missing."""
         kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
             return dict.fromkeys(kinds)
@@ -169,10 +174,10 @@ class GearSphere(Result):
 
     @property
     def radii(self) -> Mapping[str, float | None]:
-        """Pitch radius of each kind, in the unit of the sphere's radius; None while teeth are not chosen."""
+        """Kind -> pitch radius, in the unit of the sphere's radius; None if a tooth number is missing."""
         return {kind: None if cone is None else wheel_radius(self.radius, cone) for kind, cone in self.cones.items()}
 
     @property
     def angles(self) -> Mapping[str, float]:
-        """Angle between the axes of each kind of mesh [rad]."""
+        """Kind of mesh -> angle between the axes [rad]."""
         return {f"{each.a}-{each.b}": each.angle for each in mesh_kinds(self.configuration)}

@@ -1,4 +1,4 @@
-"""Gears on a sphere from a planar graph of meshing gears: circle packing, integer teeth, then one pitch or closed
+"""Gears on a sphere from a planar graph of meshing gears: circle packing, integer tooth numbers, one pitch or closed
 loops.
 
 The graph is first embedded as a planar map. A graph that gears on a sphere cannot realise is rejected with the reason.
@@ -43,9 +43,9 @@ Edges = Iterable[tuple[Hashable, Hashable]]
 
 
 def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
-    """Return two gears whose removal disconnects a 2-connected planar map, or None if it is 3-connected.
+    """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected.
 
-    Two regions of a 3-connected map share nothing, one gear, or the two gears of one mesh between them.
+    Two regions of a 3-connected map have in common: no gear, one gear, or the two gears of one mesh.
     """
     sides: dict[frozenset[int], list[int]] = {}
     beside: dict[int, list[int]] = {}
@@ -89,7 +89,7 @@ def checked_graph(graph: nx.Graph[Any] | Edges) -> nx.Graph[Any]:
 def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -> None:
     """Raise `QuestionError` if a gear meshes with itself, or a mesh is listed twice.
 
-    Opposite arrows of a directed graph count as one mesh.
+    Opposite edges of a directed graph are one mesh.
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
@@ -147,8 +147,8 @@ def turning_senses(found: nx.Graph[Any], names: Sequence[Hashable]) -> Ints:
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
-    """Return the regions of a planar embedding as walks of gear numbers; raise `QuestionError` if the graph is not
-    planar.
+    """Return the regions of a planar embedding as walks of gear numbers; raise `QuestionError` for a non-planar
+    graph.
     """
     import networkx as nx
 
@@ -175,10 +175,10 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
 def with_region_circles(
     gears: int, regions: Sequence[Sequence[int]], names: Sequence[Hashable]
 ) -> tuple[int, list[tuple[int, ...]]]:
-    """Return gears and regions with an additional circle in every region next to an idler, tangent to its boundary
-    gears.
+    """Return the map with an additional circle in every region next to an idler, tangent to the gears around the
+    region.
 
-    Raises `QuestionError` if the map is not 3-connected even so.
+    Raises `QuestionError` if the map is still not 3-connected.
     """
     meshes = Counter(gear for walk in regions for gear in walk)
     completed: list[tuple[int, ...]] = []
@@ -206,14 +206,15 @@ def with_region_circles(
 Aim = Literal["pitch", "phases"]
 _EXACT = 1e-11  # pitches; rounding leaves about 1e-15
 _MOST_CHOICES = 24
-"""Maximum number of roundings of the teeth that are compared by the closing errors of their loops."""
+"""Maximum number of rounded sets of tooth numbers whose closing errors are compared."""
 
 
 def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[Ints]:
-    """Return integer tooth numbers nearly in proportion to sin rho (cones in rad) from a scan of the scale, best first.
+    """Return integer tooth numbers nearly proportional to sin rho (`cones` [rad]), sorted by rising variance of the
+    pitch.
 
-    The smallest gear gets from `minimum` to `upto` teeth (only `minimum` by default). The best rounding has the minimum
-    variance of ln(z / sin rho), that is, of the pitch.
+    The scale is varied such that the smallest gear gets from `minimum` to `upto` teeth (by default only `minimum`). The
+    variance is that of ln(z / sin rho).
     """
     sine = np.sin(cones)
     last = minimum if upto is None else max(upto, minimum)
@@ -226,7 +227,7 @@ def rounded_teeth(cones: Floats, minimum: int, upto: int | None = None) -> list[
 
 
 def kabsch_aligned(axes: Floats, onto: Floats) -> Floats:
-    """Rotate the axes to best match other axes (W. Kabsch, Acta Cryst. A32 (1976) 922)."""
+    """Return the axes rotated to match other axes as closely as possible (W. Kabsch, Acta Cryst. A32 (1976) 922)."""
     U, _, V = np.linalg.svd(axes.T @ onto)
     # the nearest orthogonal matrix may be a reflection: the direction of its minimum singular value is then reversed
     flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(U @ V)))])
@@ -241,7 +242,7 @@ def from_graph(
     upto: int | None = None,
     teeth: Mapping[Hashable, int] | None = None,
 ) -> GraphSet:
-    """Place gears on a sphere that mesh as in a graph, with one exact pitch or with exactly closed loops.
+    """Return a set of gears on a sphere that mesh as in a graph, with exactly one pitch or with exactly closed loops.
 
     Circles are packed (Koebe, Andreev and Thurston), teeth are rounded to the circles, and the axes are moved as little
     as possible until the quantity named by `aim` is exact. During the packing, an additional circle in each region next
@@ -255,27 +256,28 @@ def from_graph(
     minimum_teeth : int
         Tooth number of the smallest gear.
     aim : {"pitch", "phases"}
-        `pitch`: all meshes share one pitch; `phases`: all loops close. Both at once are seldom possible.
+        `pitch`: all meshes share one pitch; `phases`: all loops close. Both conditions can rarely be satisfied
+        together.
     upto : int, optional
-        Upper end of the range of the smallest gear's teeth, from `minimum_teeth`, in which the best rounding is sought.
+        Maximum tooth number of the smallest gear; the best rounding from `minimum_teeth` to this number is used.
     teeth : mapping of gear to int, optional
         Tooth number of each gear, instead of rounding.
 
     Returns
     -------
     GraphSet
-        The set, with its residuals.
+        Set of gears with its residuals.
 
     Raises
     ------
     QuestionError
-        If the graph cannot be packed, with the reason; or if teeth are missing.
+        If the graph cannot be packed (the message has the reason), or if tooth numbers are missing.
     RangeError
         If the packing does not converge in double precision.
 
     Examples
     --------
-    The graph of a cube:
+    Gears on the vertices of a cube, which mesh along its edges:
 
     >>> cube = [(i, i ^ bit) for i in range(8) for bit in (1, 2, 4) if i < i ^ bit]
     >>> found = from_graph(cube, minimum_teeth=12)
@@ -333,7 +335,7 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
         raise QuestionError(
             Problem(
                 f"no teeth given for {', '.join(missing)}",
-                "`teeth` replaces all rounding",
+                "with `teeth` no tooth number is rounded from the packing",
                 "give the teeth of every gear",
             )
         )
@@ -346,7 +348,7 @@ class GraphSet(Result):
 
     See Also
     --------
-    from_graph : Returns such an object.
+    from_graph : returns it
     """
 
     KEYS = (
@@ -360,19 +362,19 @@ class GraphSet(Result):
     )
 
     configuration: Configuration
-    """Axes, meshes and teeth; every gear is its own kind."""
+    """Axes, meshes and tooth numbers; every gear is a kind of its own."""
     aim: Aim
-    """Quantity that the axes were moved to make exact."""
+    """Condition that the axes satisfy exactly after adjustment: "pitch" or "phases"."""
     packing: SpherePacking
-    """Circle packing from which the axes were moved; additional circles next to idlers follow the gears."""
+    """Circle packing before the adjustment of the axes; additional circles next to idlers follow the gears."""
     sizing: SphereSizing
     """Cones, pitches and pressure angles."""
     residue: float
-    """Largest residue of a loop [pitches]."""
+    """Maximum closing error of a loop [pitch]."""
     moved: Floats
-    """Displacement of each axis from the packing [rad]. Shape (gears,)."""
+    """Displacement of each axis from the packing [rad], shape (gears,)."""
     residuals: tuple[float, ...]
-    """Residual after each step of the fit [rad for pitches, pitches for phases]."""
+    """Residual after each step of the adjustment [rad for "pitch", pitch for "phases"]."""
 
     def _summary(self) -> str:
         return f"{self.configuration._summary()}, aim {self.aim}, residue {self.residue:.3g} pitches"
@@ -385,12 +387,12 @@ class GraphSet(Result):
 
     @property
     def spread(self) -> float:
-        """Excess of the maximum pitch over the minimum [percent]."""
+        """Maximum pitch over minimum pitch, minus 1 [percent]."""
         return 100 * (exp(self.sizing.mismatch) - 1)
 
     @property
     def axes_by_gear(self) -> dict[str, list[float]]:
-        """Unit vectors of the axes by gear."""
+        """Gear -> unit vector of its axis."""
         return dict(zip(self.configuration.names, self.configuration.axes.tolist(), strict=True))
 
     @property

@@ -1,8 +1,8 @@
 """Pitch and base cones of pairs of gears on a sphere, and derivatives of the angles between their axes.
 
-Equations of cones, pressure angles and limits of shape are in docs/sphere.md, sections 1 and 4. Derivatives are sparse
-rows for Newton's method. All angles are in radians, all lengths in radii of the sphere on which the teeth are measured,
-and axes point outwards.
+Equations of cones, pressure angles and limits of shape are in docs/sphere.md, sections 1 and 4. Derivatives are rows of
+sparse matrices, for Newton's method. All angles are in radians, all lengths in radii of the sphere on which the teeth
+are measured, and axes point outwards.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ MEAN_PRESSURE = radians(20)
 def pitch_cone(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
     """Return the half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md (1).
 
-    S is the angle between outward axes [rad], 0 < S < pi, and z the teeth. The formula follows from w_i sin rho_i =
-    -w_j sin rho_j, w_i/w_j = -z_j/z_i and rho_i + rho_j = S (Willis, with the frame as carrier). pi/2 is a crown gear,
-    and a greater angle an internal gear.
+    S is the angle between outward axes [rad], 0 < S < pi, and z are the tooth numbers. The formula follows from w_i sin
+    rho_i = -w_j sin rho_j, w_i/w_j = -z_j/z_i and rho_i + rho_j = S (Willis, with the frame as carrier). A half-angle
+    of pi/2 is a crown gear, and a larger one an internal gear.
     """
     return np.asarray(np.arctan2(np.sin(S), np.cos(S) + np.divide(z_j, z_i)), dtype=float)
 
@@ -36,18 +36,18 @@ def pitch_cone(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
 def operating_pitch(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
     """Return the operating pitch lambda = sin rho_i / z_i = sin rho_j / z_j [radii of the sphere], docs/sphere.md (1).
 
-    lambda = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S). The module is 2 lambda, the circular pitch 2 pi lambda.
-    Arguments are as in `pitch_cone`.
+    The formula is lambda = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S). The module is 2 lambda, and the circular
+    pitch 2 pi lambda. Parameters are the same as for `pitch_cone`.
     """
     z_i, z_j = np.asarray(z_i, dtype=float), np.asarray(z_j, dtype=float)
     return np.asarray(np.sin(S) / np.sqrt(z_i**2 + z_j**2 + 2 * z_i * z_j * np.cos(S)), dtype=float)
 
 
 def base_pitch(pitches: ArrayLike, mean: float = MEAN_PRESSURE) -> float:
-    """Return c of the base cones sin g_i = c z_i that all gears share: cos(mean) times the mean pitch, docs/sphere.md
+    """Return the common base pitch c of all gears (sin g_i = c z_i): cos(mean) times the mean pitch, docs/sphere.md
     (3).
 
-    The mean is geometric: with two pitches the cosines of their pressure angles then lie about cos(mean).
+    The mean is geometric: for two pitches, cos(mean) is the geometric mean of the cosines of their pressure angles.
     """
     return cos(mean) * float(np.exp(np.mean(np.log(pitches))))
 
@@ -65,19 +65,22 @@ def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
 
 
 def sphere_radius(wheel: float, rho: float) -> float:
-    """Return the radius of the sphere that carries a pitch circle of radius `wheel`, in the same unit: R = r
-    / sin rho.
+    """Return the radius of a sphere on which a pitch circle of half-angle rho has the radius `wheel`, in the same
+    unit: R = r / sin rho.
     """
     return wheel / sin(rho)
 
 
 def wheel_radius(sphere: float, rho: float) -> float:
-    """Return the radius of the pitch circle on a sphere of radius `sphere`, in the same unit: r = R sin rho."""
+    """Return the radius of the pitch circle of half-angle rho on a sphere of radius `sphere`, in the same unit: r = R
+    sin rho.
+    """
     return sphere * sin(rho)
 
 
 def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
-    """Return the teeth of the spur gear on the back cone, z / cos rho (Tredgold), by which undercut is judged.
+    """Return the virtual tooth number of the spur gear on the back cone (Tredgold), z / cos rho, which determines
+    undercut.
 
     The result is inf for crown and internal gears.
     """
@@ -88,18 +91,15 @@ def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
 
 
 def undercut_limit(pressure: float = MEAN_PRESSURE) -> float:
-    """Return the minimum teeth of a spur gear that a rack with an addendum of one module does not undercut, 2 / sin^2
-    alpha.
-    """
+    """Return the minimum tooth number that a rack with an addendum of one module does not undercut, 2 / sin^2 alpha."""
     return 2 / sin(pressure) ** 2
 
 
 def overlap_limit(S: float, between: float) -> float:
-    """Return the ratio z_other/z_own at which equal neighbours touch, docs/sphere.md (4).
+    """Return the minimum ratio z_other/z_own at which equal neighbours of a gear do not overlap, docs/sphere.md (4).
 
     The ratio is sin S cot(between/2) - cos S, from rho_own = between/2 in `pitch_cone`; `between` is the angle between
-    the axes of the neighbours, and all angles are in rad. They clear if z_other/z_own is greater. 0 means that every
-    ratio does.
+    the axes of the neighbours [rad]. The result is 0 if neighbours do not overlap at any ratio.
     """
     limit = sin(S) / tan(between / 2) - cos(S)
     # axes that touch only with a crown gear have the bound 0, and rounding must not make it 1e-16
@@ -107,14 +107,14 @@ def overlap_limit(S: float, between: float) -> float:
 
 
 def angle_between(a: Floats, b: Floats) -> Floats:
-    """Return the angle between unit vectors (..., 3) [rad]: 2 atan2(|a - b|, |a + b|), accurate near 0 and pi (W.
-    Kahan).
+    """Return the angle between unit vectors, shape (..., 3) [rad]: 2 atan2(|a - b|, |a + b|), accurate near 0 and pi
+    (W. Kahan).
     """
     return np.asarray(2 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)), dtype=float)
 
 
 def separations(axes: Floats) -> Floats:
-    """Return the angles between all axes [rad]. Shape (gears, gears)."""
+    """Return the angles between all axes [rad], shape (gears, gears)."""
     return angle_between(axes[:, None], axes[None])
 
 
@@ -125,7 +125,9 @@ def mesh_angles(axes: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
 
 
 def frames(axes: Floats) -> Floats:
-    """Return two directions across each axis that make a right-handed frame with it. Shape (gears, 2, 3)."""
+    """Return two unit vectors perpendicular to each axis that form a right-handed frame with it, shape (gears, 2,
+    3).
+    """
     # the cross product is taken with the coordinate axis farthest from it, so its length is at least 0.8
     minimum = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
     first = np.cross(axes, minimum)
@@ -134,7 +136,7 @@ def frames(axes: Floats) -> Floats:
 
 
 def azimuths(axes: Floats, at: Ints, to: Ints) -> Floats:
-    """Return the direction [rad] of axis `to` about axis `at`, counterclockwise from the first direction of its
+    """Return the direction of axis `to` about axis `at` [rad], counterclockwise from the first vector of its
     `frames`.
     """
     across = frames(axes)[at]
@@ -143,7 +145,7 @@ def azimuths(axes: Floats, at: Ints, to: Ints) -> Floats:
 
 
 def moved(axes: Floats, steps: Floats) -> Floats:
-    """Move axes along the great circles of their `frames`; steps in rad, shape (gears, 2)."""
+    """Return the axes displaced along the great circles of their `frames` by `steps` [rad], shape (gears, 2)."""
     along = np.einsum("gk,gkx->gx", steps, frames(axes))
     length = np.linalg.norm(along, axis=1)[:, None]
     # sin(length) / length, also at 0
@@ -152,10 +154,10 @@ def moved(axes: Floats, steps: Floats) -> Floats:
 
 
 def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, csr_array]:
-    """Compute the angle S between the axes of each pair [rad] and its derivative by the steps of `moved`.
+    """Return the angle S between the axes of each pair [rad], and its derivative by the displacements of `moved`.
 
-    dS = -tau_ij . dn_i - tau_ji . dn_j, with tau_ij the unit tangent at i towards j. Columns 2 i and 2 i + 1 belong to
-    axis i.
+    The derivative is dS = -tau_ij . dn_i - tau_ji . dn_j, with tau_ij the unit tangent at i towards j. Columns 2 i and
+    2 i + 1 belong to axis i.
     """
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     a, b = axes[i], axes[j]
@@ -165,10 +167,10 @@ def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, 
 
 
 def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
-    """Compute the derivative of the azimuth psi of axis `to` about axis `at` by the steps of `moved`.
+    """Return the derivative of the azimuth psi of axis `to` about axis `at` by the displacements of `moved`.
 
-    d psi = (dn_j / sin S - dn_i cot S) . t, t = n_i x n_j / sin S. The frame at i is transported in parallel, so only
-    differences of azimuths about one axis have a meaning.
+    The derivative is d psi = (dn_j / sin S - dn_i cot S) . t, t = n_i x n_j / sin S. The frame at i is transported in
+    parallel, so only differences of azimuths about one axis have a meaning.
     """
     a, b = axes[at], axes[to]
     t = np.cross(a, b)
@@ -179,7 +181,7 @@ def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
 
 
 def vector_rows(axes: Floats, gears: tuple[Ints, Ints], vectors: tuple[Floats, Floats]) -> csr_array:
-    """Return rows of a sparse Jacobian: the sum over two gears of vector . dn, by the steps of `moved`."""
+    """Return rows of a sparse Jacobian: the sum over two gears of vector . dn, by the displacements of `moved`."""
     from scipy.sparse import coo_array
 
     across = frames(axes)

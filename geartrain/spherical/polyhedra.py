@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 NEAR = 1e-6
-"""Relative tolerance, as a fraction of the solid's size, for equality of points, planes and symmetries."""
+"""Tolerance for equality of points, planes and symmetries, relative to the size of the solid."""
 PHI = (1 + 5**0.5) / 2
 MOST_SIDES = 360
-"""Maximum number of sides of prisms and related families: their faces must stay apart."""
+"""Maximum number of sides of prisms and related families, so that the tolerance does not merge their faces."""
 # normals of the mirrors of [p, 3]: the first two meet at pi/p, the last two at pi/3, the first and last at pi/2
 _MIRRORS = {
     3: ([1, -1, 0], [0, 1, -1], [-1, -1, 0]),
@@ -99,42 +99,42 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron(Shown):
-    """A convex polyhedron with the origin inside.
+    """Convex polyhedron with the origin inside.
 
     See Also
     --------
-    polyhedron, solid : Return such an object.
+    polyhedron, solid : return it
     """
 
     vertices: Floats
-    """Vertices as given, in any unit. Shape (vertices, 3)."""
+    """Vertices as given, in any unit, shape (vertices, 3)."""
     faces: tuple[tuple[int, ...], ...]
-    """Vertices of each face by index, counterclockwise seen from outside. Faces are sorted from the top (z) down, and
-    counterclockwise from x at equal heights.
+    """Indices of the vertices of each face, counterclockwise seen from outside. Faces are sorted by falling height (z),
+    and at equal heights counterclockwise from x.
     """
     normals: Floats = field(repr=False)
-    """Outward unit normals. Shape (faces, 3)."""
+    """Outward unit normals of the faces, shape (faces, 3)."""
     heights: Floats = field(repr=False)
-    """Distance of each face's plane from the origin, in the unit of the vertices. Shape (faces,)."""
+    """Distance of each face's plane from the origin, in the unit of the vertices, shape (faces,)."""
     name: str = ""
-    """Name for display."""
+    """Name of the solid for display."""
 
     def _summary(self) -> str:
         return f"{self.name or 'polyhedron'}: {len(self.vertices)} vertices, {len(self.faces)} faces"
 
     @cached_property
     def _left(self) -> dict[tuple[int, int], int]:
-        """Face to the left of each directed edge."""
+        """Directed edge -> face to its left."""
         return {side: at for at, face in enumerate(self.faces) for side in _sides(face)}
 
     @cached_property
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """Edges as pairs of vertices, each once."""
+        """Edges as pairs of vertices, each edge once."""
         return tuple(sorted(side for side in self._left if side[0] < side[1]))
 
     @cached_property
     def borders(self) -> tuple[tuple[int, int], ...]:
-        """Two faces at each edge."""
+        """Indices of the two faces at each edge."""
         return tuple((self._left[a, b], self._left[b, a]) for a, b in self.edges)
 
     @cached_property
@@ -145,11 +145,10 @@ class Polyhedron(Shown):
 
     @cached_property
     def symmetries(self) -> Floats:
-        """All rotations and reflections about the origin that map the solid to itself. Shape (order, 3, 3), errors
-        about 1e-15.
+        """All rotations and reflections about the origin that map the solid to itself, shape (order, 3, 3).
 
-        A symmetry is determined by the image of one corner (three consecutive vertices of one face), so trying all
-        corners that are congruent to the first finds every symmetry.
+        Errors are about 1e-15. A symmetry is determined by the image of one corner (three consecutive vertices of one
+        face), so trying all corners that are congruent to the first finds every symmetry.
         """
         # Gram matrices are invariant under rotation and reflection
         corners = self.vertices[[corner for face in self.faces for corner in _corners(face)]]
@@ -164,7 +163,8 @@ class Polyhedron(Shown):
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Return the image of each point under each symmetry, for a set that the symmetries map to itself.
+        """Return the index of each point's image under each symmetry, for a set of points that the symmetries map to
+        itself.
 
         Parameters
         ----------
@@ -179,7 +179,8 @@ class Polyhedron(Shown):
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """Return the first point of the orbit of each point, for a set that the symmetries map to itself.
+        """Return for each point the index of the first point in its orbit, for a set of points that the symmetries map
+        to itself.
 
         Parameters
         ----------
@@ -200,7 +201,7 @@ class Polyhedron(Shown):
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
-        """Return the polar solid: its vertices are along the normals of these faces, and its normals along these
+        """Return the polar solid, whose vertices are along the normals of this solid, and whose normals are along its
         vertices.
 
         Parameters
@@ -226,21 +227,21 @@ class Polyhedron(Shown):
 def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> Polyhedron:
     """Return the convex polyhedron with these vertices from the convex hull (Qhull), with coplanar facets merged.
 
-    Points count as equal, and a face as flat, within a millionth of the size. Euler's formula is checked.
+    Points are equal, and a face is plane, within a millionth of the size. Euler's formula is checked.
 
     Parameters
     ----------
     points : sequence of points, (vertices, 3)
-        The vertices, in any unit.
+        Vertices, in any unit.
     recentre : bool
-        Move the mean of the vertices to the origin; otherwise the origin must lie inside.
+        True to move the mean of the vertices to the origin; otherwise the origin must be inside the solid.
     name : str
         Name for display.
 
     Returns
     -------
     Polyhedron
-        The solid, with faces, normals and heights.
+        Solid with faces, normals and heights.
 
     Raises
     ------
@@ -272,7 +273,7 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
 
 
 def from_the_top(points: Floats) -> Ints:
-    """Return the order of points from the top (z) down, counterclockwise from x at equal heights."""
+    """Return the order of points by falling height (z), and at equal heights counterclockwise from x."""
     size = np.linalg.norm(points, axis=1).max()
     turn = np.arctan2(points[:, 1], points[:, 0]) / (2 * np.pi) % 1
     # rounding to millionths: noise neither separates equal points nor puts the one at x last
@@ -284,7 +285,7 @@ def _sides(face: tuple[int, ...]) -> Iterator[tuple[int, int]]:
 
 
 def _corners(face: tuple[int, ...]) -> Iterator[tuple[int, int, int]]:
-    """Yield three consecutive vertices of a face, from every vertex and in both senses."""
+    """Yield the triples of consecutive vertices of a face, from every vertex and in both senses."""
     for way in (face, face[::-1]):
         yield from zip(way, way[1:] + way[:1], way[2:] + way[:2], strict=True)
 
@@ -318,7 +319,7 @@ def _check_apart(vertices: Floats, near: float) -> None:
 
 
 def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
-    """Return the vertices of each face: all points that lie on a plane of the hull."""
+    """Return the vertices of each face: all points on a plane of the convex hull."""
     from scipy.spatial import ConvexHull, QhullError
 
     try:
@@ -335,7 +336,9 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
 
 
 def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tuple[int, ...], Floats, float]:
-    """Return a face as a cycle, counterclockwise from outside, with its outward normal and its height."""
+    """Return a face as a cycle of vertices, counterclockwise seen from outside, with its outward normal and its
+    height.
+    """
     index = np.array(sorted(members))
     centre = vertices[index].mean(axis=0)
     arms = vertices[index] - centre
@@ -400,12 +403,12 @@ def _refused(what: str, why: str, fix: str = "correct the vertices") -> GearTrai
 
 
 def solid_names() -> tuple[str, ...]:
-    """Return the names that `solid` knows; n is a number of sides.
+    """Return the names that `solid` accepts; `n` in a name represents a number of sides.
 
     Returns
     -------
     tuple of str
-        Uniform solids, their duals, J37, and families.
+        Names of uniform solids, their duals, J37, and families of solids.
 
     Examples
     --------
@@ -429,7 +432,7 @@ def solid(name: str) -> Polyhedron:
     Returns
     -------
     Polyhedron
-        The solid. It is shared by all callers, and its arrays are read-only.
+        Solid. All callers get the same object, whose arrays are read-only.
 
     Raises
     ------
@@ -469,9 +472,9 @@ def _unknown(name: str) -> GearTrainError:
 
 
 def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
-    """Return the images of the point at these distances from the mirrors of [p, 3].
+    """Return the images of the point at these distances from the mirrors of the reflection group [p, 3].
 
-    The point of a snub solid (no distances) has images under rotations only.
+    For a snub solid (no distances) only rotations are applied.
     """
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
     mirrors /= np.linalg.norm(mirrors, axis=1)[:, None]
@@ -489,7 +492,9 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
 
 @cache
 def _group(p: int) -> Floats:
-    """Return all products of the mirrors of [p, 3], shape (24, 48 or 120, 3, 3), each entry exact to the last digit."""
+    """Return all products of the mirrors of [p, 3], shape (24, 48 or 120, 3, 3); entries are rounded to exact
+    values.
+    """
     entries = np.array([sign * x for x in (0, 0.5, 1, PHI / 2, (PHI - 1) / 2) for sign in (1, -1)])
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
     reflections = [np.eye(3) - 2 * np.outer(m, m) / (m @ m) for m in mirrors]
@@ -505,10 +510,10 @@ def _group(p: int) -> Floats:
 
 
 def _snub(p: int) -> Floats:
-    """Compute the distances (a, b, c) of a snub's point from the mirrors of [p, 3], for edges of length 2.
+    """Return the distances (a, b, c) of a snub's point from the mirrors of [p, 3], for edges of length 2.
 
     The rotation by two mirrors at an angle g moves a point at distances a and b by 2 sqrt(a^2 + b^2 + 2 a b cos g). All
-    three rotations move it equally far. Newton's method solves the two differences together with a^2 + c^2 = 1.
+    three rotations move it by the same distance. Newton's method solves the two equations together with a^2 + c^2 = 1.
     """
     s, t = np.cos(np.pi / p), 0.5
     a, b, c = 0.6, 0.5, 0.8
@@ -524,7 +529,7 @@ def _snub(p: int) -> Floats:
 
 
 def _family_member(n: int, family: str) -> Polyhedron:
-    """Return the uniform prism or antiprism with n-gons of edge 2 as caps, or its dual."""
+    """Return the uniform prism or antiprism with regular n-gons of edge length 2 as caps, or its dual."""
     if not 3 <= n <= MOST_SIDES:
         raise GearTrainError(
             Problem(

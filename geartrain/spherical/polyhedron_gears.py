@@ -1,7 +1,7 @@
 """Gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
 
 The module computes axes, meshes, kinds by symmetry, and names. A survey tabulates polyhedra with gears on all faces:
-their mobility, the number of meshes to remove, and the existence of exact tooth numbers.
+mobility, number of meshes to remove, and whether one pitch is possible.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ SURVEYED = (
     *("truncated cuboctahedron", "snub cube", "icosidodecahedron", "truncated dodecahedron"),
     *("truncated icosahedron", "rhombicosidodecahedron", "truncated icosidodecahedron", "snub dodecahedron", "J37"),
 )
-"""Solids of the survey: the Platonic and Archimedean ones, and J37, which looks Archimedean."""
+"""Solids of the survey: the Platonic and Archimedean solids, and J37, which resembles an Archimedean solid."""
 
 
 def from_polyhedron(
@@ -50,44 +50,46 @@ def from_polyhedron(
 ) -> Configuration:
     """Place gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
 
-    Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides, v and e;
-    kinds that share a name get an additional letter, those with fewer gears first, then those nearer to the smallest
-    orbit. Gears are numbered within their kind from the top (z) down, counterclockwise from x. A gear on an edge is
-    placed where both its pitches are equal, which depends on the teeth. While these are not chosen, it is in the middle
-    of the arc (two gears on one edge: at a quarter and at three quarters).
+    Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides of the
+    face, v for a vertex, or e for an edge. Kinds with equal names get an additional letter, first the kinds with fewer
+    gears, then the kinds nearer to the smallest orbit. Gears are numbered within their kind by falling height (z), at
+    equal heights counterclockwise from x. A gear on an edge is placed where both its pitches are equal, which depends
+    on the tooth numbers. If these are not chosen, it is in the middle of the arc (two gears on one edge: at a quarter
+    and at three quarters).
 
     Parameters
     ----------
     shape : str, Polyhedron or sequence of points, (vertices, 3)
-        A name that `solid` knows, a solid, or its vertices.
+        A name in `solid_names()`, a solid, or its vertices.
     gears : str
         Arrangement of the gears:
 
         - `faces`: one on each face, about its normal; faces with a common edge mesh.
         - `vertices`: one on each vertex; vertices with a common edge mesh.
-        - `faces+vertices`: the gear of a vertex meshes with the gears of the faces round it.
+        - `faces+vertices`: the gear of a vertex meshes with the gears of the faces around it.
         - `faces+edges`: the gears of faces that share an edge mesh with an idler between them.
         - `faces+vertices+edges`: two gears on each edge, each in mesh with a vertex and both faces (Platonic solids,
           whose edges are all alike).
     teeth : mapping of str to int, or int, optional
-        Tooth number of each kind, `{"5": 20, "3": 12}`, or one for all; `4` means 4a and 4b.
+        Tooth number of each kind, `{"5": 20, "3": 12}`, or one number for all; the key `4` means 4a and 4b.
     drop : iterable of str
         Kinds (`4b`), gears (`5-1`) and meshes (`5-1~3-2`, or `6~6` for all between two kinds) to leave out.
     exact : bool
-        Move the axes, keeping all symmetries, until every mesh has the same pitch; requires teeth.
+        True to move the axes, keeping all symmetries, until every mesh has the same pitch; requires `teeth`.
     recentre : bool
-        Move the mean of the vertices to the centre of the sphere.
+        True to move the mean of the vertices to the centre of the sphere.
 
     Returns
     -------
     Configuration
-        The set.
+        Axes, meshes, kinds and tooth numbers of the set.
 
     Raises
     ------
     GearTrainError
-        If the solid, a kind, a gear or a mesh is not known, or no axes with one pitch are found near the solid's own
-        axes.
+        If the solid, a kind, a gear or a mesh does not exist, or if no axes with one pitch are found near the axes of
+        the
+        solid.
 
     Examples
     --------
@@ -123,11 +125,10 @@ def from_polyhedron(
 
 
 def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configuration:
-    """Return the configuration with `regular` set: the minimum p up to `most` for which contacts are multiples of 1/p
-    turn.
+    """Return the configuration with `regular` set: the minimum p up to `most` for which contacts are at multiples of
+    1/p revolution.
 
-    Angles within 1e-12 of a revolution of a multiple of 1/p are taken as exact; coordinates must be accurate to more
-    digits than that to be called regular.
+    Angles within 1e-12 of a revolution from a multiple of 1/p are treated as exact, so coordinates need this accuracy.
     """
     contacts = defaultdict(list)
     for i, j in configuration.meshes:
@@ -138,7 +139,9 @@ def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configurat
 
 
 def _parts(azimuths: Floats, most: int) -> int:
-    """Return the minimum p for which all differences of these azimuths are multiples of 1/p of a revolution, or 0."""
+    """Return the minimum p for which all differences of these azimuths are multiples of 1/p of a revolution; 0 if
+    there is none.
+    """
     turns = (azimuths - azimuths[0]) / (2 * np.pi) if len(azimuths) else azimuths
     for p in range(1, most + 1):
         if np.abs(p * turns - np.round(p * turns)).max(initial=0.0) < p * _EQUAL:
@@ -159,8 +162,8 @@ def _placed(
     counts: Mapping[str, int],
     exact: bool,
 ) -> Floats:
-    """Return the axes: moved to equal pitches if requested, and gears on edges placed as soon as their teeth
-    are known.
+    """Return the axes: moved to equal pitches if `exact`, and with gears on edges placed if their tooth numbers are
+    known.
     """
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
@@ -191,20 +194,20 @@ def _title(base: Polyhedron, gears: str, count: int, meshes: int) -> str:
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All places for gears on a solid, before any is dropped."""
+    """All positions for gears on a solid, before any are dropped."""
 
     axes: Floats
-    """Unit vectors of the axes. Shape (gears, 3)."""
+    """Unit vectors of the axes, shape (gears, 3)."""
     letters: tuple[str, ...]
-    """Class of each gear: the number of sides of its face, v for a vertex, e for an edge."""
+    """Class of each gear: number of sides of its face, v for a vertex, e for an edge."""
     meshes: tuple[tuple[int, int], ...]
-    """Pairs of gears by index."""
+    """Meshing pairs of gears, by index."""
     movement: SymmetricFreedom
-    """Symmetries of the solid, acting on the gears."""
+    """Symmetries of the solid as permutations of the gears."""
 
 
 def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
-    """Return the places of an arrangement of gears on a solid; raise `GearTrainError` if it has none."""
+    """Return the positions of an arrangement of gears on a solid; raise `GearTrainError` if the solid has none."""
     if gears not in get_args(Gears):
         raise QuestionError(
             Problem(
@@ -234,7 +237,7 @@ def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
 def _two_per_edge(
     base: Polyhedron, faces: tuple[Floats, list[str]], vertices: tuple[Floats, list[str]]
 ) -> PolyhedronPlaces:
-    """Return the places of vertices, faces, and two gears on each edge, one near each end."""
+    """Return the positions of gears on vertices and faces, and of two gears on each edge, one near each end."""
     middles = _between(vertices[0], base.edges)
     # one orbit each means that the solid is Platonic
     if any(base.orbits(points).any() for points in (faces[0], vertices[0], middles)):
@@ -257,7 +260,7 @@ def _two_per_edge(
 
 
 def _between(points: Floats, pairs: Sequence[tuple[int, int]]) -> Floats:
-    """Return the midpoints of arcs as unit vectors."""
+    """Return the midpoints of arcs between pairs of points, as unit vectors."""
     sums = points[np.array(pairs)].sum(axis=1)
     middles: Floats = sums / np.linalg.norm(sums, axis=1)[:, None]
     return middles
@@ -282,8 +285,8 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """Return the kind of each gear: its orbit, named by its class, and by an additional letter if orbits share the
-    class.
+    """Return the kind of each gear: its orbit, named by its class, with an additional letter if several orbits have
+    this class.
     """
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
@@ -303,7 +306,7 @@ def kinds_of(layout: PolyhedronPlaces) -> list[str]:
 
 
 def _letters(at: int) -> str:
-    """Return the letters of an index: a to z, then aa to zz."""
+    """Return the letters that represent an index: a to z, then aa to zz."""
     ahead, last = divmod(at, 26)
     return (_letters(ahead - 1) if ahead else "") + ascii_lowercase[last]
 
@@ -336,7 +339,7 @@ def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
 
 
 def names_of(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[str]:
-    """Return the names of the gears: each kind with a number."""
+    """Return the names of the gears: kind and number, such as `5-1`."""
     names, count = [""] * len(kinds), dict.fromkeys(kinds, 0)
     for at in in_order(layout, kinds):
         count[kinds[at]] += 1
@@ -345,7 +348,7 @@ def names_of(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[str]:
 
 
 def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
-    """Return the tooth number of each kind; a number of sides means all kinds that share it."""
+    """Return the tooth number of each kind; a number of sides as key refers to all kinds with this number."""
     known = list(dict.fromkeys(kinds))
     given = {str(kind): count for kind, count in teeth.items()} if isinstance(teeth, Mapping) else {}
     if teeth is not None and not isinstance(teeth, Mapping):
@@ -356,7 +359,9 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
         if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 1:
             raise QuestionError(
                 Problem(
-                    f"{count} is not a tooth number of kind '{kind}'", "tooth numbers are integers from 1", "correct it"
+                    f"{count} is not a tooth number of kind '{kind}'",
+                    "tooth numbers are integers from 1",
+                    "give a number such as 20",
                 )
             )
     wide = {kind: int(given[name]) for name in given for kind in _matching_kinds(name, known)}
@@ -364,13 +369,13 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return the kinds that a word means: the one of that name, otherwise all that only add letters to it."""
+    """Return the kind with this name, or else all kinds whose names consist of it and additional letters."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 
 
 def letter_of(kind: str) -> str:
-    """Return a kind without its additional letter: 4 of 4b, e of ea."""
+    """Return a kind without its additional letter: 4 for 4b, e for ea."""
     return kind.rstrip(ascii_lowercase) or kind[0]
 
 
@@ -398,7 +403,7 @@ def without_gears(
 
 
 def _matching_gears(word: str, names: Sequence[str], kinds: Sequence[str]) -> set[int]:
-    """Return the gears named by a gear or a kind."""
+    """Return the indices of the gears with this name, or of this kind."""
     meant = _matching_kinds(word, kinds)
     found = {at for at, (name, kind) in enumerate(zip(names, kinds, strict=True)) if name == word or kind in meant}
     if not found:
@@ -419,7 +424,7 @@ class SurveyRow(Result):
 
     See Also
     --------
-    survey : Returns such objects.
+    survey : returns one for each solid
     """
 
     KEYS = (
@@ -443,11 +448,11 @@ class SurveyRow(Result):
     meshes: int
     """Number of meshes, one on each edge."""
     bipartite: bool
-    """True if neighbours can turn in opposite senses everywhere. The set then moves with one degree of freedom."""
+    """True if neighbours can turn in opposite senses everywhere; the set then has one degree of freedom."""
     gruebler: int
-    """Number of gears minus number of meshes: the degrees of freedom by counting."""
+    """Degrees of freedom by count: number of gears minus number of meshes."""
     drop: int
-    """Minimum number of meshes to remove so that the set moves."""
+    """Minimum number of meshes to remove from the set so that it moves."""
     types: int
     """Number of kinds of gear: orbits under the symmetries of the solid."""
     mesh_kinds: int
@@ -455,23 +460,24 @@ class SurveyRow(Result):
     positions: int
     """Number of free parameters of the axes while all symmetries are kept."""
     angles: tuple[float, ...]
-    """Distinct angles of the meshes [deg], ascending; angles within 1e-9 deg count as equal."""
+    """Distinct angles between the axes of meshes [deg], ascending; angles are equal within 1e-9 deg."""
 
     @property
     def exact(self) -> bool:
-        """True if the unknowns, positions and the pitch, are at least as many as the kinds of mesh, so that equal
-        pitches can exist.
+        """True if there are at least as many unknowns (positions and the pitch) as kinds of mesh, so that one pitch
+        may be possible.
         """
         return self.positions + 1 >= self.mesh_kinds
 
 
 def survey(solids: Iterable[str | Polyhedron] = SURVEYED) -> tuple[SurveyRow, ...]:
-    """Tabulate gears on all faces of some solids: mobility, meshes to remove, and whether equal pitches can exist.
+    """Return for each solid with gears on all faces: mobility, meshes to remove, and whether one pitch may be
+    possible.
 
     Parameters
     ----------
     solids : iterable of str or Polyhedron
-        Solids of the survey; default the Platonic and Archimedean ones, and J37.
+        Solids of the survey; by default the Platonic and Archimedean solids, and J37.
 
     Returns
     -------
@@ -508,11 +514,11 @@ def _row(base: Polyhedron) -> SurveyRow:
 
 
 def least_drop(base: Polyhedron) -> int:
-    """Return the minimum number of meshes to remove from gears on all faces so that they move.
+    """Return the minimum number of meshes to remove from gears on all faces of a solid so that they move.
 
-    An edge of the solid is a mesh. The faces are two-colourable after removing an odd number of edges at every odd
-    vertex and an even number at every even one: a minimum T-join, the shortest paths that pair the odd vertices
-    (Edmonds and Johnson 1973), by minimum-weight matching.
+    An edge of the solid is a mesh. The faces can be coloured with two colours if an odd number of edges is removed at
+    every odd vertex, and an even number at every even vertex. The smallest such set is a minimum T-join: shortest paths
+    between pairs of odd vertices (Edmonds and Johnson 1973), found by minimum-weight matching.
     """
     import networkx as nx
 

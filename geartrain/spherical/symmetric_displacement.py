@@ -1,6 +1,6 @@
-"""Displacements of axes that keep the symmetries of a set, and axes at which all its meshes have one pitch.
+"""Displacements of axes that keep the symmetries of a set, and axes for which all meshes have one pitch.
 
-Newton's method solves for equal log lambda, docs/sphere.md (1), over one axis of each orbit.
+Newton's method solves for equal log lambda, docs/sphere.md (1), with one axis of each orbit as unknown.
 """
 
 from __future__ import annotations
@@ -24,26 +24,26 @@ _LONGEST = 0.2  # largest step [rad]
 
 @dataclass(frozen=True, eq=False)
 class SymmetricFreedom:
-    """Symmetries of a set of axes, and the displacements that keep them."""
+    """Symmetries of a set of axes, and the displacements of the axes that keep these symmetries."""
 
     matrices: Floats
-    """Orthogonal matrices of the symmetries. Shape (order, 3, 3)."""
+    """Orthogonal matrices of the symmetries, shape (order, 3, 3)."""
     images: Ints
-    """Image of each gear under each symmetry, by index. Shape (order, gears)."""
+    """Index of each gear's image under each symmetry, shape (order, gears)."""
 
     def orbits(self) -> Ints:
-        """Return the first gear of the orbit of each gear."""
+        """Return for each gear the index of the first gear in its orbit."""
         first: Ints = self.images.min(axis=0)
         return first
 
     def mesh_orbits(self, meshes: Sequence[tuple[int, int]]) -> Ints:
-        """Return a number for each mesh, equal for meshes that the symmetries map to each other."""
+        """Return a number for each mesh; it is equal for meshes that the symmetries map to each other."""
         pairs = np.sort(self.images[:, np.array(meshes, dtype=np.int64).reshape(-1, 2)], axis=2)
         code: Ints = (pairs[..., 0] * self.images.shape[1] + pairs[..., 1]).min(axis=0)
         return code
 
     def freedom(self, gear: int, axis: Floats) -> Floats:
-        """Return an orthonormal basis of the directions in which a gear's axis may move with all its images.
+        """Return an orthonormal basis of the directions in which a gear's axis may move, together with all its images.
 
         The directions are perpendicular to the axis. Shape (0, 1 or 2, 3): none on an axis of rotation, one on a
         mirror, because the symmetries that fix the gear must fix its direction of motion too.
@@ -63,10 +63,10 @@ def equal_pitch(
     teeth: Sequence[int],
     movable: Collection[int],
 ) -> Floats:
-    """Move the axes (gears, 3), keeping all symmetries, so that every mesh has the same circular pitch.
+    """Return the axes moved such that every mesh has the same pitch and all symmetries are kept, shape (gears, 3).
 
-    `movable` are the gears that may move, whole orbits. A pair at an angle S has the operating pitch lambda = sin S /
-    sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S). Newton's method on log lambda and the positions makes the pitches equal
+    `movable` has the gears that may move, as complete orbits. A pair at an angle S has the operating pitch lambda = sin
+    S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S). Newton's method on log lambda and the positions makes the pitches equal
     within 1e-13. Raises `GearTrainError` if it finds no solution near the given axes.
     """
     places = _Places(movement, axes, movable)
@@ -76,7 +76,7 @@ def equal_pitch(
     z = np.array(teeth, dtype=np.float64)[pairs]
 
     def wrong(unknown: Floats) -> Floats:
-        """Return the deviation of each kind of mesh from the common pitch, as logarithms."""
+        """Return the logarithm of each mesh kind's pitch minus the logarithm of the common pitch."""
         missed: Floats = _log_pitch(places.moved(unknown[:-1])[pairs], z) - unknown[-1]
         return missed
 
@@ -90,7 +90,9 @@ def equal_pitch(
 
 
 class _Places:
-    """Axes as a function of their free positions: the first gear of each orbit moves, the others follow."""
+    """Axes as a function of their free displacements: the first gear of each orbit moves, and the others follow by
+    symmetry.
+    """
 
     def __init__(self, movement: SymmetricFreedom, axes: Floats, movable: Collection[int]) -> None:
         self.axes = axes
@@ -115,7 +117,7 @@ class _Places:
 def _log_pitch(n: Floats, z: Floats) -> Floats:
     """Return the logarithm of the operating pitch, docs/sphere.md (1).
 
-    Axes have shape (pairs, 2, 3), tooth numbers (pairs, 2).
+    Axes `n` have the shape (pairs, 2, 3), tooth numbers `z` the shape (pairs, 2).
     """
     # sine and cosine directly from the axes: the rounding of an intermediate angle would enter the solution
     sine = np.linalg.norm(np.cross(n[:, 0], n[:, 1]), axis=1)
@@ -125,15 +127,16 @@ def _log_pitch(n: Floats, z: Floats) -> Floats:
 
 
 def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats, float]:
-    """Solve by minimum-norm Newton steps with a step limit and backtracking.
+    """Return the solution of wrong(unknown) = 0 by minimum-norm Newton steps with a step limit and backtracking.
 
-    Returns the unknowns and the maximum residual.
+    The result has the unknowns and the maximum residual.
     """
     residual = wrong(unknown)
     for _ in range(_MOST_STEPS):
         # singular values below 1e-9 are noise of the finite differences
         step = -np.linalg.lstsq(_slopes(wrong, unknown), residual, rcond=1e-9)[0]
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max(initial=0.0)), 1e-300))
+        # written with `not`, so that NaN outside the domain counts as no descent
         while np.abs(step).max() > 1e-16 and not np.linalg.norm(wrong(unknown + step)) < np.linalg.norm(residual):
             step = step / 2
         if np.abs(step).max() <= 1e-16:

@@ -1,4 +1,4 @@
-"""Exhaustive search for tooth numbers that nearly share one pitch, under the conditions of assembly and tip clearance.
+"""Exhaustive search for tooth numbers with nearly one pitch, under the conditions of assembly and tip clearance.
 
 The module also computes the range of tooth ratios in which equal neighbouring gears on a sphere do not overlap.
 """
@@ -51,33 +51,34 @@ def suggest_tooth_counts(
     tolerance: float = 1e-9,
     fixed: Mapping[str, int] | None = None,
 ) -> ToothCountSuggestions:
-    """Find the best tooth numbers whose loops close and whose tips clear, by exhaustive search.
+    """Find the best sets of tooth numbers whose loops close and whose tips clear, by exhaustive search.
 
-    Time grows with the product of the ranges. Tips clear if gears that do not mesh leave two modules between their
-    largest operating pitch cones.
+    Run time is proportional to the product of the ranges. Tips clear if there are at least two modules between the
+    largest operating pitch cones of gears that do not mesh.
 
     Parameters
     ----------
     configuration : Configuration
-        The set; its own teeth are not used.
+        Set of gears; its tooth numbers are not used.
     most, minimum : int
         Bounds of the tooth numbers.
     best : int
         Number of sets to return.
     order : {"mismatch", "teeth", "front"}
-        `mismatch`: minimum |mismatch| first; `teeth`: minimum total first; `front`: only Pareto-optimal sets, whose
-        mismatch is less than that of every set with no more teeth, minimum total first.
+        Order of the results. `mismatch`: rising |mismatch|; `teeth`: rising total; `front`: only Pareto-optimal sets,
+        whose
+        mismatch is less than in every set with no more teeth, by rising total.
     mismatch : float
-        Maximum difference of the pitches of a set (as a logarithm).
+        Maximum logarithm of the quotient of two pitches of a set.
     tolerance : float
-        Tolerance of the closing error of loops whose angles are known only in floats [pitches].
+        Tolerance of the closing error of loops whose angles are known only as floats [pitch].
     fixed : mapping of str to int, optional
-        Teeth of the kinds that are already chosen.
+        Kind -> tooth number, for kinds whose tooth number is given.
 
     Returns
     -------
     ToothCountSuggestions
-        The sets, best first, and the number rejected by each condition.
+        Sets of tooth numbers in the requested order, and the number rejected by each condition.
 
     Raises
     ------
@@ -117,7 +118,7 @@ def suggest_tooth_counts(
 def _ranges(
     kinds: Sequence[str], rules: Sequence[Sequence[Fraction | float]], minimum: int, most: int, fixed: Mapping[str, int]
 ) -> list[NDArray[np.int64]]:
-    """Return the tooth numbers of each kind that satisfy the exact rules; raise `RangeError` if there are too many
+    """Return the tooth numbers of each kind that can satisfy the exact rules; raise `RangeError` if there are too many
     sets.
     """
     ranges = []
@@ -140,7 +141,7 @@ def _ranges(
 
 
 def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int64]]]:
-    """Yield all combinations as flat columns: the last two kinds in full, the others one combination at a time."""
+    """Yield all combinations as flat columns, one block for each combination of all kinds except the last two."""
     # blocks of two kinds bound the memory: all sets at once may be 2e8
     tail = [column.ravel() for column in np.meshgrid(*ranges[-2:], indexing="ij")]
     if not tail[0].size:
@@ -150,7 +151,7 @@ def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int
 
 
 def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArray[np.int64]:
-    """Return the rows in the requested order; ties are broken by the other measure."""
+    """Return the rows in the requested order; ties are broken by the other quantity."""
     totals = rows.sum(axis=1)
     # rounding must not decide the order of sets that share one pitch exactly
     rounded = np.where(mismatches < 1e-13, 0.0, mismatches)
@@ -164,33 +165,33 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 
 @dataclass(frozen=True)
 class ToothCountCompromise(Shown):
-    """Set of tooth numbers that nearly shares one pitch.
+    """Set of tooth numbers with nearly one pitch.
 
     See Also
     --------
-    suggest_tooth_counts : Returns such objects.
+    suggest_tooth_counts : returns them
     """
 
     teeth: Mapping[str, int]
-    """Tooth number of each kind."""
+    """Kind -> tooth number."""
     mismatch: float
-    """Logarithm of the pitch of the first kind of mesh over that of the second; with more kinds, of the maximum over
-    the minimum.
+    """Logarithm of the pitch of the first kind of mesh over the pitch of the second; with more kinds, of the maximum
+    over the minimum.
     """
     pitches: tuple[float, ...]
     """Operating pitch of each kind of mesh [radii of the sphere]."""
     cones: tuple[tuple[float, float], ...]
-    """Operating cones of the two gears of each kind of mesh [rad]."""
+    """Half-angles of the operating cones of the two gears of each kind of mesh [rad]."""
     pressure: tuple[float, ...]
-    """Operating pressure angle of each kind of mesh, on one base pitch [rad]."""
+    """Operating pressure angle of each kind of mesh, for a common base pitch [rad]."""
     room: float
     """Minimum distance between pitch circles of gears that do not mesh [modules]."""
     residue: float
-    """Maximum closing error of a loop [pitches]; 0 if all loops close exactly."""
+    """Maximum closing error of a loop [pitch]; 0 if all loops close exactly."""
 
     @property
     def total(self) -> int:
-        """Sum of the tooth numbers of the kinds."""
+        """Sum of the tooth numbers over all kinds."""
         return sum(self.teeth.values())
 
     def __str__(self) -> str:
@@ -201,11 +202,11 @@ class ToothCountCompromise(Shown):
 
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
-    """Result of a search, best first, with the number of rejected sets; a sequence of `ToothCountCompromise`.
+    """Result of a search with the number of rejected sets; a sequence of `ToothCountCompromise`, best first.
 
     See Also
     --------
-    suggest_tooth_counts : Returns such objects.
+    suggest_tooth_counts : returns it
     """
 
     PAGE = "report.spherical_report:describe_suggestions"
@@ -229,17 +230,17 @@ class ToothCountSuggestions(Result):
     )
 
     configuration: Configuration
-    """The set."""
+    """Set of gears for which tooth numbers were searched."""
     meshes: tuple[MeshKind, ...]
-    """Kinds of mesh of the set."""
+    """Kinds of mesh in the set of gears."""
     found: tuple[ToothCountCompromise, ...]
     """Sets of tooth numbers, best first."""
     considered: int
-    """Number of tooth sets within the bounds."""
+    """Number of sets of tooth numbers within the bounds."""
     removed: Mapping[str, int]
-    """Number of sets rejected by each condition, in the order in which the conditions are tested."""
+    """Condition -> number of sets that it rejected, in the order in which the conditions are tested."""
     beyond: int
-    """Number of sets that satisfy every condition but are worse than the last one listed."""
+    """Number of further sets that satisfy every condition but are not in `found`."""
 
     def _summary(self) -> str:
         best = f", best {self.found[0]}" if self.found else ""
@@ -256,7 +257,7 @@ class ToothCountSuggestions(Result):
 
 
 class _Search:
-    """Conditions on a block of tooth sets, with the number of sets that each one rejected."""
+    """Conditions on blocks of tooth numbers, with the number of sets that each condition rejected."""
 
     def __init__(
         self,
@@ -275,7 +276,7 @@ class _Search:
         self.tips_removed = self.pitch_removed = 0
 
     def kept(self, block: list[NDArray[np.int64]]) -> NDArray[np.int64]:
-        """Return the sets of a block that satisfy every condition, as rows."""
+        """Return the sets of tooth numbers in a block that satisfy every condition, as rows."""
         for rule in self.rules:
             good = closes(block, rule, self.tolerance)
             block = [column[good] for column in block]
@@ -288,7 +289,9 @@ class _Search:
         return np.stack([column[close] for column in block], axis=1)
 
     def pitches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Return the operating pitch of each kind of mesh (rows) and set (columns)."""
+        """Return the operating pitch of each kind of mesh (rows) for each set of tooth numbers (columns) [radii of the
+        sphere].
+        """
         return np.stack([operating_pitch(S, block[a], block[b]) for a, b, S in self.meshes])
 
     def mismatches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
@@ -310,7 +313,7 @@ class _Search:
         return room
 
     def compromise(self, row: NDArray[np.int64]) -> ToothCountCompromise:
-        """Compute the reported figures of one set."""
+        """Return one set of tooth numbers with its reported sizes."""
         block = [np.array([count]) for count in row]
         pitches = self.pitches(block)[:, 0]
         angles = pressure_angle(base_pitch(pitches), pitches)
@@ -334,11 +337,11 @@ class _Search:
 
 @dataclass(frozen=True)
 class NeighbourRatioWindow(Shown):
-    """Range of a tooth ratio in which equal neighbours do not overlap, addenda not included.
+    """Range of the ratio of two tooth numbers in which equal neighbouring gears do not overlap, without addenda.
 
     See Also
     --------
-    ratio_windows : Returns such objects.
+    ratio_windows : returns them
     """
 
     a: str
@@ -355,19 +358,20 @@ class NeighbourRatioWindow(Shown):
 
 
 def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, ...]:
-    """Return the tooth ratios at which equal neighbours do not overlap, for each kind of mesh between unlike gears.
+    """Return the range of the tooth ratio in which equal neighbours do not overlap, for each kind of mesh between
+    unlike gears.
 
-    With several kinds of mesh, each window is valid for the operating cones of its own mesh.
+    With several kinds of mesh, each range is valid for the operating cones of its own mesh.
 
     Parameters
     ----------
     configuration : Configuration
-        The set; its teeth are not used.
+        Set of gears; its tooth numbers are not used.
 
     Returns
     -------
     tuple of NeighbourRatioWindow
-        One window for each kind of mesh between unlike gears.
+        One range for each kind of mesh between unlike gears.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Tooth forms by name. A form is imported only when a declaration or a command names it."""
+"""Tooth forms by name, imported only when a declaration or a command names them."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ TOOTH_FORMS = {
     "circular_arc": "CircularArc",
     "pin_ring": "PinRing",
 }
-"""Class name of each form by the name of the form, which is also the name of its module."""
+"""Class name of each tooth form by its name in declarations, which is also the name of its module."""
 
 
 def tooth_form(name: str) -> type[ToothForm]:
-    """Import the tooth form of this name, a key of `TOOTH_FORMS`, and return its class."""
+    """Import a tooth form by its name, a key of `TOOTH_FORMS`, and return its class."""
     form: type[ToothForm] = getattr(import_module(f"geartrain.teeth.{name}"), TOOTH_FORMS[name])
     return form
 

@@ -54,10 +54,11 @@ _SCOPE = "circular-arc teeth are for external pairs of spur wheels; a contrate w
 
 
 def addendum_factor(z: int, ratio: float) -> float:
-    """Return f_a of a wheel that drives a pinion of z leaves with the ratio wheel over pinion `ratio`.
+    """Return the factor f_a of a wheel's addendum [module]: the height above the pitch circle at which the epicycloid
+    meets its mirror image.
 
-    The equations in the module's docstring are solved by fixed-point iteration. It contracts, because the slope of b is
-    below one.
+    The wheel drives a pinion of `z` leaves; `ratio` is the wheel's tooth count over the pinion's. The equations in the
+    module's docstring are solved by fixed-point iteration, which converges because the slope of b is below one.
     """
     k, b, t = 1 + 2 * ratio, 0.0, 0.0
     # the count is only an upper limit, since the loop ends when t no longer changes
@@ -261,9 +262,9 @@ class CircularArc(ToothForm):
         return OutlineTransmission(gears, friction, driver, direction)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair on parallel axes, its first wheel driving.
+        """Return the mesh of a pair on parallel axes with the first wheel driving.
 
-        Raise `GearTrainError` for internal gears and bevel wheels.
+        Raises `GearTrainError` for internal gears and bevel wheels.
         """
         from geartrain.teeth.contact.outline_mesh import OutlineMesh
 
@@ -279,7 +280,7 @@ class CircularArc(ToothForm):
     # ------------------------------------------------------------------------------------------------- backlash
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why a requested backlash cannot be applied to this pair.
+        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
 
         A declared backlash or thickness takes precedence over the backlash of the manufacturing options.
 
@@ -295,7 +296,7 @@ class CircularArc(ToothForm):
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
-        """Return the same teeth with leaves thinned to this backlash where they have less.
+        """Return a copy whose leaves are thinned where the pair has less than the given backlash.
 
         Parameters
         ----------
@@ -336,18 +337,18 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """Tooth with radial flanks and a tip of two arcs. Lengths are in modules."""
+    """Tooth with radial flanks and a tip of two circular arcs; all lengths in modules."""
 
     z: int
     """Number of teeth of the wheel."""
     thickness: float
-    """Thickness of a tooth along the pitch circle."""
+    """Thickness of a tooth along the pitch circle [module]."""
     addendum: float
-    """Height of the tip above the pitch circle."""
+    """Height of the tip above the pitch circle [module]."""
     radius: float
-    """Radius of the arcs of the tip."""
+    """Radius of the two arcs of the tip [module]."""
     dedendum: float
-    """Depth of the root below the pitch circle."""
+    """Depth of the root below the pitch circle [module]."""
 
     @property
     def tip(self) -> float:
@@ -374,9 +375,9 @@ class ArcTooth:
 
     @property
     def fits(self) -> bool:
-        """True if the sizes give a tooth.
+        """True if a tooth with these sizes exists.
 
-        The arc must span from the pitch circle to the tip, rise all the way, and leave a flank below it.
+        The arc must extend from the pitch circle to the tip, rise monotonically, and leave a flank below it.
         """
         half = self.thickness / self.z
         chord = hypot(self.z / 2 * sin(half), self.tip - self.z / 2 * cos(half))
@@ -389,8 +390,8 @@ class ArcTooth:
 
     @property
     def flank(self) -> tuple[float, float]:
-        """Radius [module] at which the flank ends and the arc begins, and angle of the flank from the centre line
-        [rad].
+        """Radius at which the flank ends and the arc begins [module], and angle of the flank from the tooth's centre
+        line [rad].
         """
         x, y = self.centre
         far = hypot(x, y)
@@ -398,7 +399,7 @@ class ArcTooth:
         return sqrt(far**2 - self.radius**2), atan2(x, y) + asin(self.radius / far)
 
     def outline(self) -> GearOutline:
-        """Return the outline of the wheel with all its teeth, for the contact of outlines."""
+        """Return the outline of the whole wheel, as used to compute contact."""
         import numpy as np
 
         from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
@@ -415,9 +416,10 @@ class ArcTooth:
         return GearOutline((ToothFlanks.symmetric(side),), self.z)
 
     def vertices(self) -> Iterator[Vertex]:
-        """Yield the vertices (x, y, bulge) of the tooth about the x axis, from root to root.
+        """Yield the vertices (x, y, bulge) of one tooth from root to root [module]; the tooth's centre line is the x
+        axis.
 
-        The bulge of an edge is the tangent of a quarter of its angle, so that the arcs are exact.
+        The bulge of an edge is the tangent of a quarter of its angle, so that circular arcs are exact.
         """
         (start, lean), (cx, cy) = self.flank, self.centre
         sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)

@@ -25,7 +25,7 @@ from geartrain.numerics.quantity import Figure, Friction, parse_friction
 
 
 class CoulombFriction(BaseModel):
-    """Dry friction: a fraction of the normal force that does not depend on the sliding speed.
+    """Coulomb friction: friction force over normal force, independent of the sliding speed.
 
     A bare number is the coefficient `sliding`.
     """
@@ -60,7 +60,7 @@ class CoulombFriction(BaseModel):
 
     @model_serializer(mode="wrap")
     def _declared(self, handler: Any) -> Any:
-        """Return the coefficient as it was declared, as a bare number if only `sliding` is given."""
+        """Return the coefficient as declared: a bare number if only `sliding` is given."""
         return str(self.sliding) if self.static is None and self.deviation is None else handler(self)
 
     @classmethod

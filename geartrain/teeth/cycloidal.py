@@ -1,4 +1,6 @@
-"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, one rolling circle a side."""
+"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, one rolling circle for each side of the
+pitch point.
+"""
 
 from __future__ import annotations
 
@@ -104,7 +106,7 @@ class Cycloidal(ConjugateToothForm):
             raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why a requested backlash cannot be applied to this pair.
+        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
 
         A declared thickness determines the backlash, as a declared backlash does.
 
@@ -121,7 +123,7 @@ class Cycloidal(ConjugateToothForm):
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its design centre distance.
+        """Return the pair of these wheels at its design centre distance.
 
         Raises
         ------
@@ -143,7 +145,7 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the radii of the rolling circles of approach and recess, in modules or, for bevel pairs, in rad."""
+        """Return the radii of the rolling circles of approach and recess [module; half-angles in rad for bevels]."""
         if self.rolling is not None:
             if wheels.bevel:
                 raise refused(
@@ -169,7 +171,7 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact, as pitch-line displacement X, that ends at an addendum of `height` modules."""
+    """Return the arc of contact X that ends at the tip of an addendum of `height` modules."""
     from math import asin, sin
 
     from geartrain.teeth.conjugate.closed_form_sides import circle_reach, cone_reach

@@ -81,7 +81,8 @@ class CycloidalDisc:
         return self.pins / 2 / self.circle
 
     def centres(self, turn: Floats) -> Floats:
-        """Return the positions of a pin's centre in the frame of the disc, as complex numbers: docs/reducers.md (2).
+        """Return the positions of a pin's centre in the frame of the disc [module], as complex numbers:
+        docs/reducers.md (2).
 
         turn   angle of the eccentric (rad)
         """
@@ -89,7 +90,7 @@ class CycloidalDisc:
         return found
 
     def outline(self, turn: Floats) -> Floats:
-        """Return points of the disc's outline, as complex numbers: docs/reducers.md (3).
+        """Return points of the disc's outline [module], as complex numbers: docs/reducers.md (3).
 
         turn   angle of the eccentric (rad)
         """
@@ -151,7 +152,8 @@ class CycloidalDisc:
         return found
 
     def loads(self, phase: Floats) -> Floats:
-        """Return the forces on all pins over the force of the torque on the disc's pitch circle: docs/reducers.md (5).
+        """Return the forces on all pins over the tangential force at the disc's pitch circle, shape (pins, ...):
+        docs/reducers.md (5).
 
         phase   angle of one pin from the line of centres (rad)
 
@@ -165,7 +167,8 @@ class CycloidalDisc:
         return found
 
     def _loaded_angle(self, arms: Floats) -> Floats:
-        """Return the angle (rad) of the disc under load at which enough pins bear the torque: docs/reducers.md (7).
+        """Return the rotation of the disc under load at which the pins in contact carry the torque [rad]:
+        docs/reducers.md (7).
 
         Pins with longer lever arms come into contact first. Their number is the smallest for which the next pin stays
         free.
@@ -181,20 +184,21 @@ class CycloidalDisc:
 
     @cached_property
     def bearing_pins(self) -> tuple[int, int]:
-        """Minimum and maximum number of pins that bear load at once."""
+        """Minimum and maximum number of pins that carry load at the same time."""
         loads = self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))
         # the lever arm of a pin on the line of centres is 0 except for rounding error
         number = (loads > 1e-9 * loads.max()).sum(axis=0)
         return int(number.min()), int(number.max())
 
     def angles(self, phase: Floats) -> Floats:
-        """Return the angles (rad) of all pins from the pitch point, shape (pins, ...), one pin being at `phase`."""
+        """Return the angles of all pins from the pitch point [rad], shape (pins, ...); one pin is at `phase`."""
         each = 2 * pi / self.pins * np.arange(self.pins)
         found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
         return found
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
-        """Return the load-weighted mean sliding speed over the pitch-line speed, and the loss over friction: (6).
+        """Return the load-weighted mean sliding speed over the pitch-line speed, and the power loss over the friction
+        coefficient.
 
         phase   angle of one pin from the line of centres (rad)
         """
@@ -206,19 +210,19 @@ class CycloidalDisc:
 
     @cached_property
     def maximum_load(self) -> float:
-        """Maximum load on any pin over the force of the torque on the disc's pitch circle."""
+        """Maximum force on a pin over the tangential force at the disc's pitch circle."""
         return float(self.loads(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)).max())
 
     @property
     def loss(self) -> float:
-        """Mean power loss over a pitch, per unit of friction."""
+        """Mean power loss over a pitch, as a fraction of the power, over the friction coefficient."""
         return float(self.sliding(np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False))[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """Return one lobe about the x axis as a chain of chords, none of which extends outside the lobe, so that pins
-        pass.
+        """Return one lobe about the x axis as a chain of chords that stay inside the lobe, so that the pins clear
+        it.
         """
         number = _MIN_CHORDS
         while np.abs(self._chord_excess(number)).max() > tolerance and number < _MAX_CHORDS:
@@ -234,7 +238,7 @@ class CycloidalDisc:
         return FixedTooth(tip, float(np.abs(points[0])), tooth)
 
     def _chord_excess(self, number: int) -> Floats:
-        """Return the distances [module] by which `number` chords of a lobe lie outside it at their middles.
+        """Return the distances by which the midpoints of `number` chords are outside a lobe [module].
 
         The value is negative where the chord is inside the lobe.
         """
@@ -245,7 +249,9 @@ class CycloidalDisc:
         return found
 
     def pin_tooth(self) -> FixedTooth:
-        """Return one pin about the x axis as a tooth of the ring (gear 2): a half circle and the ring behind it."""
+        """Return one pin about the x axis as a tooth of the ring (gear 2): a half circle and the part that joins it to
+        the ring.
+        """
         # lobes reach farthest out on the line of centres, where the eccentricity of half a module is added
         root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _RING_CLEARANCE)
         R, r = self.circle, self.pin
@@ -299,7 +305,7 @@ class DiscTransmission(ExactRatio):
         return DiscTransmission(self.disc, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> DiscTransmission:
-        """Return the transmission function of the coast flanks."""
+        """Return the transmission function of the coast flanks, for motion in the reverse direction."""
         return DiscTransmission(self.disc, self.friction, self.driver, -self.direction)
 
     @property
@@ -313,15 +319,15 @@ class DiscTransmission(ExactRatio):
         return self._constant(S, self._constant_error)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the constant transmission error as both minimum and maximum."""
+        """Return the minimum and the maximum transmission error [rad], which are equal."""
         return self._constant_error, self._constant_error
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the constant transmission error as the mean, and 0 as the rms."""
+        """Return the mean of the transmission error [rad] and its rms deviation, which is 0."""
         return self._constant_error, 0.0
 
     def _phase(self, S: ArrayLike) -> Floats:
-        """Return the angle (rad) of a pin from the line of centres.
+        """Return the angle of a pin from the line of centres [rad] at driver angles S [rad].
 
         At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is there, between two
         pins.
@@ -331,12 +337,12 @@ class DiscTransmission(ExactRatio):
         return found
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return power out over power in at driver angles S (rad)."""
+        """Return the efficiency at driver angles S [rad]."""
         found: Floats = 1 / (1 + self.friction * self.disc.sliding(self._phase(S))[1])
         return found
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding of all pins combined into one contact, weighted by their loads."""
+        """Return sliding speed and friction terms of all pins combined into one contact, weighted by their loads."""
         speed, lost = self.disc.sliding(self._phase(S))
         return ContactRubbing(speed[None], lost[None], np.zeros_like(lost)[None])
 
@@ -366,7 +372,7 @@ def _range_text(fewest: int, most: int) -> str:
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Figures of a disc in its ring of pins."""
+    """Results of a disc in its ring of pins."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
@@ -375,14 +381,14 @@ class DiscFigures(PairFigures):
     pin_radius: float
     """Radius of a pin [module]."""
     maximum_load: float
-    """Maximum load on one pin over the force on the disc's pitch circle."""
+    """Maximum force on a pin over the tangential force at the disc's pitch circle."""
     bearing: tuple[int, int]
-    """Minimum and maximum number of pins that bear load at once."""
+    """Minimum and maximum number of pins that carry load at the same time."""
 
 
 @dataclass(frozen=True)
 class DiscMesh(GearMesh):
-    """Mesh of a disc and its ring of pins. Gear 1 is the disc."""
+    """Mesh of a disc and its ring of pins; the disc is gear 1."""
 
     transmission: DiscTransmission
 
@@ -393,7 +399,7 @@ class DiscMesh(GearMesh):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on the pair: whether the teeth can turn."""
+        """Verdict on the pair, always "runs"."""
         return self.transmission.verdict
 
     @property
@@ -403,12 +409,14 @@ class DiscMesh(GearMesh):
         return (second, first) if self.wheels.internal[0] else (first, second)
 
     @property
-    def stands(self) -> float:
-        """Position of a lobe at angle 0 [pitches past the line of centres], between two pins less half the backlash."""
+    def tooth_phase(self) -> float:
+        """Position of a lobe at angle 0 [pitches past the line of centres]: midway between two pins less half the
+        backlash.
+        """
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the size of the pair, whose lengths are in modules already."""
+        """Return the size of the pair; its lengths are in modules and its centre distance is half a module."""
         del tips
         return PairSize(1.0, 0.5, 1.0)
 

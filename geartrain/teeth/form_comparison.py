@@ -35,18 +35,20 @@ _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine t
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one form of a comparison: path of contact and measures, or the faults that keep it from running."""
+    """Result for one form of a comparison: path of contact, losses and loads, or the faults that prevent it from
+    running.
+    """
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
     name: str
-    """Name of the form as requested, with its reading."""
+    """Name of the form as requested, including the variant (reading)."""
     path: PathOfContact | None
     measures: PathMeasures | None
     ratios: PathRatios | None = None
-    """Measures over those of the involute; None for teeth that cannot run."""
+    """Losses and loads over the values of the involute; None for teeth that cannot run."""
     faults: tuple[ToothFault, ...] = ()
-    """Reasons why the teeth cannot run, of kind "refused" if the form does not give such a pair."""
+    """Faults that prevent the teeth from running, of kind "refused" if the form rejects the wheels."""
 
     @property
     def runs(self) -> bool:
@@ -55,7 +57,7 @@ class MeasuredForm(Result):
 
     @property
     def pitches(self) -> tuple[float, float] | None:
-        """Arcs of approach and recess in pitches, one of which may be negative; None without a path."""
+        """Arcs of approach and recess [pitch], one of which may be negative; None without a path of contact."""
         if self.path is None:
             return None
         approach, recess = self.path.arcs
@@ -63,7 +65,7 @@ class MeasuredForm(Result):
 
     @property
     def pressure_angle(self) -> float | None:
-        """Pressure angle at the pitch point [rad]; None without a path."""
+        """Pressure angle at the pitch point [rad]; None without a path of contact."""
         return None if self.path is None else float(self.path.at(0.0).psi)
 
 
@@ -82,7 +84,7 @@ class FormComparison(Result):
     teeth: tuple[int, int]
     """Tooth numbers of the two wheels."""
     matched: str
-    """Text that lists the properties that all compared pairs have in common."""
+    """Quantities that are equal in all compared pairs, in words."""
     base: MeasuredForm
     """Result for the involute."""
     forms: tuple[MeasuredForm, ...]
@@ -96,13 +98,13 @@ class FormComparison(Result):
 
     @property
     def measures(self) -> PathMeasures:
-        """Losses, stresses and temperatures of the involute."""
+        """Losses and loads of the involute."""
         assert self.base.measures is not None
         return self.base.measures
 
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
-    """Return the forms that can be compared by name: the class of a conjugate form, and the parameters of its reading.
+    """Return the conjugate forms that can be compared: class, and the parameters of the variant (reading), by name.
 
     A form with several readings is listed once without a reading and once for each, such as `uniform_temperature_b`.
     """
@@ -122,7 +124,7 @@ def compare_forms(
     arcs: tuple[float, float] = (0.5, 0.5),
     pressure_angle: Quantity | None = None,
 ) -> FormComparison:
-    """Compute loss, stress, heat, flash temperature and depth of tooth forms as ratios to the 20 degree involute.
+    """Return loss, stress, heat, flash temperature and depth of tooth forms as ratios to the 20 degree involute.
 
     The measures are those of docs/shapes.md, to first order in friction. The criteria are W. D. Smith's (1993).
 
@@ -167,45 +169,43 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair with these arcs of approach and recess (pitches), whatever its addenda."""
+    """Return the 20 degree involute pair with these arcs of approach and recess [pitch], regardless of its addenda."""
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 
 def arcs_error(text: str) -> QuestionError:
     """Return the error for arcs of contact that are out of range."""
     why = f"arcs of approach and recess are numbers from 0 to {_MOST_PITCHES:g}, and not both 0"
-    fix = "give two arcs in pitches with a sum of 1 or more, such as `--arcs 0.5,0.5`"
-    return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "--arcs"))
+    fix = "give two arcs in pitches with a sum of 1 or more, such as 0.5,0.5"
+    return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "arcs"))
 
 
 def _check(
     known: Mapping[str, object], names: Sequence[str], arcs: tuple[float, float], angle: Quantity | None
 ) -> None:
-    """Raise `QuestionError` for unknown names, arcs out of range and pressure angles of 45 deg or more."""
     if not names:
-        raise QuestionError(
-            Problem("no tooth form is given", "", f"give one or more of: {', '.join(known)}", "--forms")
-        )
+        raise QuestionError(Problem("no tooth form is given", "", f"give one or more of: {', '.join(known)}"))
     for name in names:
         if name not in known:
             fix = suggest(name, list(known), otherwise=f"give one or more of: {', '.join(known)}", wide=True)
-            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix, "--forms"))
+            raise QuestionError(Problem(f"'{name}' is not a tooth form that can be compared", "", fix))
     if not 0 <= min(arcs) <= max(arcs) <= _MOST_PITCHES or sum(arcs) <= 0:
         raise arcs_error(",".join(f"{arc:g}" for arc in arcs))
     if angle is not None and not 0 < angle.base < _EIGHTH:
         why = "from 45 deg on, the pressure angle does not determine teeth of uniform stress"
-        fix = "give an angle between 0 and 45 deg, such as `--pressure-angle 20deg`"
-        raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "--pressure-angle"))
+        fix = "give an angle between 0 and 45 deg, such as 20 deg"
+        raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "pressure_angle"))
 
 
 def _reference_error(base: MeasuredForm) -> QuestionError:
-    """Return the error for a reference involute that cannot run. Fixes by its pressure angle, which is given, are left
-    out.
+    """Return the error for a reference involute that cannot run.
+
+    Fixes that change its pressure angle are omitted, because that angle is given.
     """
     what = "the 20 deg involute, the reference of the comparison, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
     return QuestionError(
-        Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "--arcs")
+        Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "arcs")
         for fault, fix in zip(base.faults, fixes, strict=True)
     )
 
@@ -219,7 +219,9 @@ def _form_result(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> MeasuredForm:
-    """Return the result for one form with these arcs, with faults of kind "refused" if the form rejects them."""
+    """Return the result for one form with these arcs; if the form rejects the wheels, its faults are of kind
+    "refused".
+    """
     own = angle if "pressure_angle" in model.model_fields else {}
     try:
         return _pair_result(name, model.pair_of_arcs(wheels, arcs, {**reading, **own}), base)
@@ -235,9 +237,9 @@ def _recess_only_involute(
     angle: Mapping[str, str],
     base: PathMeasures,
 ) -> Iterator[MeasuredForm]:
-    """Yield the involute with the arcs of the first form that works in recess only.
+    """Yield the involute with the arcs of the first form that has contact in recess only.
 
-    The comparison separates the effect of these arcs from the effect of the form.
+    It separates the effect of these arcs from the effect of the form.
     """
     for form in found:
         if form.runs and form.pitches is not None and form.pitches[0] <= 0 < arcs[0]:
@@ -255,7 +257,6 @@ def _pair_result(name: str, pair: ConjugatePair, base: PathMeasures | None = Non
 
 
 def _matched_text(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
-    """Return the text that lists the properties that all compared pairs have in common."""
     notes = dict.fromkeys(model.matched for model in models if model.matched)
     common = "; ".join([f"arcs of contact, {arcs[0]:g} pitches in approach and {arcs[1]:g} in recess", *notes])
     loads = "one tooth pair bears the whole load, or the tooth pairs in contact share it"

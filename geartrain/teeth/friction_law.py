@@ -37,7 +37,8 @@ SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 
 def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: float, viscous: float) -> Floats:
-    """Return mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md (16).
+    """Return the coefficient mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md
+    (16).
 
     The Stribeck curve falls from static to kinetic friction, and rises with a viscous term. v and speed are in m/s,
     viscous in s/m.
@@ -49,7 +50,7 @@ def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: f
 
 
 def buckingham(V: Floats) -> Floats:
-    """Return mu = c2 exp(-c1 sqrt V) + c3 sqrt V at the pitch-line speed V (m/s), docs/shapes.md (17)."""
+    """Return the coefficient mu = c2 exp(-c1 sqrt V) + c3 sqrt V at pitch-line speeds V [m/s], docs/shapes.md (17)."""
     import numpy as np
 
     c1, c2, c3 = buckingham_constants()
@@ -60,7 +61,7 @@ def buckingham(V: Floats) -> Floats:
 
 @cache
 def buckingham_constants() -> tuple[float, float, float]:
-    """Compute the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
+    """Return the constants c1, c2, c3 (V in ft/min) for which the law passes through the three printed values.
 
     c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) of the lower speed and q = sqrt(V2/V1), the two other
     values give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
@@ -77,7 +78,8 @@ def buckingham_constants() -> tuple[float, float, float]:
 
 
 def dokos(v: Floats, slowest: float) -> Floats:
-    """Return mu, which falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, docs/shapes.md (18).
+    """Return the coefficient mu at sliding speeds v [m/s]; it falls from 0.53 at `slowest` to 0.18 at 10^7 times that
+    speed.
 
     The coefficient is constant below and above these speeds. Smith prints only both end values and the ratio of speeds
     ("gradually"). Linear interpolation in log v is an assumption, and so is any value of `slowest`.
@@ -115,7 +117,7 @@ Speeds = Literal["sliding", "pitch_line"]
 
 
 class FrictionLaw(BaseModel, ABC):
-    """Friction between teeth as a function of a speed: the sliding speed at each contact, or the pitch-line speed.
+    """Friction coefficient of teeth as a function of the sliding speed at each contact, or of the pitch-line speed.
 
     See Also
     --------
@@ -130,7 +132,7 @@ class FrictionLaw(BaseModel, ABC):
 
     @abstractmethod
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction.
+        """Return the coefficient of friction at given speeds.
 
         Parameters
         ----------
@@ -175,7 +177,7 @@ class StribeckFriction(FrictionLaw):
     viscous: Coefficient = Field(Figure.parse("0"), description="Increase of the coefficient per m/s of sliding speed")
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient by `stribeck`."""
+        """Return the coefficient at sliding speeds [m/s], from the function `stribeck`."""
         exponent, viscous = float(self.exponent.value), float(self.viscous.value)
         return stribeck(speed, float(self.static.value), float(self.kinetic.value), self.speed.si, exponent, viscous)
 
@@ -198,7 +200,7 @@ class BuckinghamFriction(FrictionLaw):
         return True
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient by `buckingham`."""
+        """Return the coefficient at pitch-line speeds [m/s], from the function `buckingham`."""
         return buckingham(speed)
 
 
@@ -219,7 +221,7 @@ class DokosFriction(FrictionLaw):
     )
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient by `dokos`."""
+        """Return the coefficient at sliding speeds [m/s], from the function `dokos`."""
         return dokos(speed, self.slowest.si)
 
 
@@ -253,11 +255,11 @@ class TabulatedFriction(FrictionLaw):
 
     @property
     def of_pitch_line(self) -> bool:
-        """True if the declaration has `of: pitch_line`."""
+        """True if the speeds of the table are pitch-line speeds (`of: pitch_line`)."""
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient by linear interpolation, constant outside the table."""
+        """Return the coefficient at speeds [m/s] by linear interpolation, constant outside the table."""
         import numpy as np
 
         found: Floats = np.interp(
@@ -269,12 +271,12 @@ class TabulatedFriction(FrictionLaw):
 AnyFrictionLaw = Annotated[
     StribeckFriction | BuckinghamFriction | DokosFriction | TabulatedFriction, Field(discriminator="law")
 ]
-"""Field type: friction that a declaration may give instead of a number."""
+"""Field type: friction law as a mapping with the key `law`."""
 
 
 @cache
 def law_keys() -> frozenset[str]:
-    """Return the keys of all friction laws."""
+    """Return the names of the fields of all friction laws."""
     laws = (StribeckFriction, BuckinghamFriction, DokosFriction, TabulatedFriction)
     return frozenset(key for law in laws for key in law.model_fields)
 
@@ -283,7 +285,8 @@ _NAME = re.compile(r"[a-z_]+")
 
 
 def law_of_text(raw: object) -> object:
-    """Parse a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`.
+    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a
+    mapping.
 
     Return it as a declaration has it. Values of a column of a table are separated by colons. Any other input is
     returned unchanged.
@@ -299,12 +302,12 @@ def law_of_text(raw: object) -> object:
 
 
 FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
-"""Field type: a friction law as a declaration or as an option gives it."""
+"""Field type: friction law as a mapping in a declaration or as the text of an option."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairFriction(Shown):
-    """Friction law of a pair whose pitch line runs at a known speed: the coefficient by the sliding speed.
+    """Friction law of a pair with known pitch-line speed: the coefficient as a function of the relative sliding speed.
 
     Examples
     --------
@@ -317,12 +320,14 @@ class PairFriction(Shown):
     """
 
     law: FrictionLaw
-    """Friction law."""
+    """Friction law of the pair."""
     pitch_line: float | Floats
-    """Pitch-line speed, a number or one value for each position [m/s]."""
+    """Pitch-line speed [m/s]: one value, or one for each position."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
-        """Return the coefficient at sliding speeds given as multiples of the pitch-line speed; NaN for no contact."""
+        """Return the coefficient at sliding speeds over the pitch-line speed; NaN where `sliding` is NaN (no
+        contact).
+        """
         import numpy as np
 
         speed = np.asarray(sliding, dtype=float) * self.pitch_line

@@ -1,4 +1,4 @@
-"""Gear pair with real teeth, as a train uses it, whatever its tooth form."""
+"""Gear pair with real teeth of any tooth form, as a train uses it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GearMesh(Shown, ABC):
-    """Gear pair with real teeth, of any form: the interface that trains, reports and exports use.
+    """Gear pair with real teeth of any form: the interface that trains, reports and exports use.
 
     See Also
     --------
@@ -43,20 +43,20 @@ class GearMesh(Shown, ABC):
     wheels: MeshingWheels
     """The two wheels as declared, with their friction."""
     tooth_form: NamedForm
-    """Tooth form that made this mesh."""
+    """Tooth form of the teeth."""
     who: MeshDriver
     """Driving wheel, and the basis on which it is known."""
     transmission: TransmissionFunction
-    """Transmission function with that wheel driving forwards.
+    """Transmission function with the driving wheel turning forwards.
 
     `coast` is the transmission function of the coast flanks, `reversed` the one with the other wheel driving.
     """
 
     def _summary(self) -> str:
         driver, driven = self.counts
-        rubs = "" if self.friction is None else f", friction {self.friction:g}"
+        has_friction = "" if self.friction is None else f", friction {self.friction:g}"
         wheels = f"{self.driver} ({driver}) drives {self.driven} ({driven})"
-        return f"{self.name}: {self.tooth_form.words} teeth, {wheels}{rubs}"
+        return f"{self.name}: {self.tooth_form.words} teeth, {wheels}{has_friction}"
 
     @property
     def gear(self) -> DeclaredPair:
@@ -75,7 +75,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def place(self) -> str:
-        """Place of the pair's declaration in its file."""
+        """Location of the pair's declaration in its file."""
         return self.wheels.place
 
     @property
@@ -85,9 +85,9 @@ class GearMesh(Shown, ABC):
 
     @cached_property
     def losses(self) -> TransmissionFunction:
-        """Transmission function with the losses of the teeth.
+        """Transmission function with the friction losses of the teeth.
 
-        If friction depends on a speed that is not known, no loss is included.
+        If friction depends on a speed that is not known, it has no losses.
         """
         return self._with_friction(self.transmission)
 
@@ -100,19 +100,19 @@ class GearMesh(Shown, ABC):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Working pitch radius of the first wheel of the pair [m]; None if no size is declared."""
+        """Working pitch radius of the first wheel of the pair [m]; None without declared lengths."""
         module, size = self.wheels.module, self.own_size
         stretch = 1.0 if size is None else size.stretch
         return None if module is None else module * self.wheels.counts[0] / 2 * stretch
 
     @property
     def note(self) -> str:
-        """Note on wheels that the form treats as another kind, such as a contrate wheel; empty otherwise."""
+        """Note on a wheel that is treated as another kind, such as a contrate wheel; empty otherwise."""
         return self.wheels.note
 
     @property
     def driver(self) -> str:
-        """Name of the driving wheel, or of the wheel assumed to drive if that is not determined."""
+        """Name of the driving wheel, or of the wheel that is assumed to drive."""
         return self.who.wheel
 
     @property
@@ -129,7 +129,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def gears(self) -> tuple[str, str]:
-        """Names of gear 1 and gear 2, in the order of the pair unless the form has another order."""
+        """Names of gear 1 and gear 2 of the tooth form; in the order of the pair unless the form changes it."""
         return self.gear.pair
 
     @property
@@ -145,15 +145,15 @@ class GearMesh(Shown, ABC):
     @property
     @abstractmethod
     def verdict(self) -> PairVerdict:
-        """Verdict on the pair: whether its teeth can turn."""
+        """Verdict on whether these teeth can run."""
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of these teeth, without the name and the place of the pair."""
+        """Yield all faults of these teeth, with texts that do not name the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
     def friction_faults(self) -> Iterator[Problem]:
-        """Yield the fault that friction locks these teeth, if it does."""
+        """Yield the fault that friction locks these teeth, if it locks them."""
         from geartrain.teeth.pair_results import friction_lock, friction_lock_at_speed
 
         if self.wheels.friction_law is None:
@@ -164,7 +164,7 @@ class GearMesh(Shown, ABC):
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """Return the size of the pair and its centre distance.
+        """Return the size of the pair with its centre distance.
 
         Parameters
         ----------
@@ -179,19 +179,19 @@ class GearMesh(Shown, ABC):
 
     @property
     def own_size(self) -> PairSize | None:
-        """Size of the pair on its own, with no wheel of another pair to follow; None for intersecting axes."""
+        """Size of the pair without regard to other pairs of its wheels; None for intersecting axes."""
         return self.size({})
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii, in the length unit of the teeth, of wheels whose size is known only up to a scale; empty by
-        default.
+        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; by default
+        empty.
         """
         return {}
 
     @abstractmethod
     def requirement(self, wheel: str, scale: float, tolerance: float) -> WheelRequirement:
-        """Return the teeth that this pair requires of one of its wheels.
+        """Return the requirements of this pair on the teeth of one of its wheels.
 
         Parameters
         ----------
@@ -210,16 +210,16 @@ class GearMesh(Shown, ABC):
 
     @property
     def path(self) -> PathOfContact | None:
-        """Path of contact by which the teeth are designed; None for forms that are not designed by one."""
+        """Path of contact from which the teeth are designed; None for forms without one."""
         return None
 
     @property
     def separation(self) -> float | None:
-        """Separating force between the axes over the tangential force, without friction; None if it is not known."""
+        """Separating force between the axes over the tangential force, without friction; None if unknown."""
         return None
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """Return the closed outline of one wheel of the pair as its form is to be cut.
+        """Return the closed outline of one wheel of the pair, as it is cut.
 
         Parameters
         ----------
@@ -287,26 +287,23 @@ class GearMesh(Shown, ABC):
 
     @property
     def cut_sizes(self) -> Any:
-        """Nominal `TriangularSizes` about which manufacturing errors are drawn.
-
-        `RangeError` is raised for teeth of another form.
+        """Nominal `TriangularSizes`, the means of random manufacturing errors. Raises `RangeError` for other tooth
+        forms.
         """
         why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Contact of displaced flanks along the path of contact, with this wheel driving; None for teeth without such a
-        path.
-        """
+        """Contact with displaced flanks and this wheel driving; None for teeth for which it is not modelled."""
         return None
 
     @abstractmethod
     def account(self) -> PairAccount:
-        """Return the report of the pair as it is driven: rows of tables and figures."""
+        """Return the report of the pair with this driver: rows of tables and results."""
 
     def backlash_apart(self, gap: float) -> float | None:
-        """Return the backlash at another centre distance than the declared one.
+        """Return the backlash at a centre distance other than the declared one.
 
         Parameters
         ----------
@@ -325,36 +322,36 @@ class GearMesh(Shown, ABC):
 
     @property
     def label(self) -> str:
-        """Name of the pair in messages."""
+        """Text that names the pair in messages."""
         return f"pair '{self.name}'"
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """All faults that keep these teeth from turning, each with its fix; empty if the teeth turn."""
+        """All faults that prevent these teeth from running, each with its fix; empty if they can run."""
         return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
     def fault(self) -> Problem | None:
-        """First fault; None if the teeth turn."""
+        """First fault that prevents these teeth from running; None if they can run."""
         return self.faults[0] if self.faults else None
 
     @property
     def backlash(self) -> float:
-        """Backlash of the teeth in pitches."""
+        """Backlash of the teeth [pitch]."""
         return self.verdict.backlash / (self.transmission.period * float(self.transmission.ratio))
 
     @property
-    def stands(self) -> float:
-        """Position of a tooth of the driven wheel at angle 0, in pitches past the line of centres."""
+    def tooth_phase(self) -> float:
+        """Position of a tooth of the driven wheel at angle 0 [pitches past the line of centres]."""
         return 0.0
 
     @property
     def rigid(self) -> bool:
-        """True if the pair keeps its ratio at every instant, so that it affects motion by its backlash only."""
+        """True if the speed ratio is constant, so that the pair affects motion by its backlash only."""
         return isinstance(self.transmission, ExactRatio)
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if these teeth have friction losses."""
         return bool(self.friction) or self.wheels.friction_law is not None
 
@@ -372,7 +369,7 @@ class GearMesh(Shown, ABC):
         )
 
     def efficiency(self, driver: str) -> SlidingEfficiency:
-        """Return the efficiency of the pair over a turn with one of its wheels driving.
+        """Return the efficiency of the pair, averaged over a revolution, with one of its wheels driving.
 
         Parameters
         ----------
@@ -394,20 +391,20 @@ class GearMesh(Shown, ABC):
 
         They need a declared coefficient, or a friction law and the pitch-line speed.
         """
-        return self.friction is not None or (self.rubs and self.wheels.pitch_line is not None)
+        return self.friction is not None or (self.has_friction and self.wheels.pitch_line is not None)
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:
-        """Mean efficiency as the pair is driven, and driven backwards.
+        """Mean efficiency as the pair is driven, and with the other wheel driving, as texts.
 
-        Both are dashes if no friction is declared or if the pair jams.
+        Both are "-" if no friction is declared or the pair jams.
         """
         if not self.tells_losses or not self.verdict:
             return "-", "-"
         return self.efficiency(self.driver).text, self.efficiency(self.driven).text
 
     def driven_by(self, driver: MeshDriver) -> Self:
-        """Return the same pair with another wheel driving.
+        """Return the same pair with the given driving wheel.
 
         Parameters
         ----------
@@ -424,14 +421,14 @@ class GearMesh(Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """The mesh as it is driven; the mesh with each wheel driving if the driver is not determined."""
+        """This mesh; if the driver is not determined, the mesh with each of the two wheels driving."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
-    """Return all faults of one pair in the directions in which it may be driven.
+    """Return all faults of one pair for each driver that it may have.
 
-    A fault that occurs with one driver only names that driver.
+    A fault that occurs with only one of the drivers names that driver.
     """
     said = [list(way.own_faults()) for way in ways]
     found: list[Problem] = []

@@ -1,4 +1,4 @@
-"""Ideal teeth: the ratio of tooth counts at every instant, without loss."""
+"""Ideal teeth: the speed ratio equals the ratio of tooth counts at every instant, without loss."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Ideal(ToothForm):
-    """Ideal teeth: the ratio of tooth counts at every instant, without transmission error, backlash or loss.
+    """Ideal teeth: constant speed ratio, without transmission error, backlash or loss.
 
     No teeth are computed for a pair that declares them.
 
@@ -34,7 +34,7 @@ class Ideal(ToothForm):
     form: Literal["ideal"] = Field(description="Name of the tooth form")
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-        """Return None, since these teeth add nothing to the ratio.
+        """Return None, because ideal teeth need no mesh beyond the ratio of tooth counts.
 
         Parameters
         ----------
@@ -50,7 +50,7 @@ class Ideal(ToothForm):
         """
 
     def transmission(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
-        """Return the transmission function of a pair, which has its exact ratio only.
+        """Return the transmission function of a pair: its constant ratio.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Involute teeth: a constant pressure angle, and therefore the same ratio at any centre distance."""
+"""Involute teeth: the pressure angle is constant, and the ratio does not depend on the centre distance."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None, since these teeth run at any centre distance, which `pair` takes into account.
+        """Return None, because involute teeth run at any centre distance; the method `pair` uses the declared one.
 
         Returns
         -------
@@ -112,7 +112,7 @@ class Involute(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its centre distance, as declared or without backlash.
+        """Return the pair at its declared centre distance, or by default at the distance without backlash.
 
         Raises
         ------
@@ -124,7 +124,7 @@ class Involute(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the involute pair with given arcs of contact, whatever its addenda.
+        """Return the involute pair with given arcs of contact, regardless of its addenda.
 
         Parameters
         ----------
@@ -150,7 +150,7 @@ class Involute(ConjugateToothForm):
         return ConjugatePair(PathOfContact(pitch, approach, recess, (first, last)), (pitch.p / 4, pitch.p / 4))
 
     def slant_pressure(self, wheels: WheelPair) -> float:
-        """Return the normal force on helical teeth over its component in the transverse plane.
+        """Return the ratio of the normal force on helical teeth to its component in the transverse plane, 1 or more.
 
         Parameters
         ----------
@@ -187,7 +187,7 @@ class Involute(ConjugateToothForm):
         return free - found.distance
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at another centre distance than the declared one.
+        """Return the backlash at a centre distance other than the declared one.
 
         Returns
         -------
@@ -227,6 +227,7 @@ class Involute(ConjugateToothForm):
             distance = free_distance(first, second)
         else:
             distance = wheels.modules(self.centre_distance, "centre_distance")
+            # at this distance the pressure angle would be 0
             minimum = second.base - first.base if wheels.internal else second.base + first.base
             if distance <= minimum:
                 raise refused(
@@ -275,6 +276,7 @@ class Involute(ConjugateToothForm):
             raise refused("bevel wheels have no centre distance", "their axes intersect", "remove `centre_distance`")
         pitch, psi = wheels.pitch, self.pressure_angle.si
         arcs = []
+        # the tips of the driven wheel limit the approach, those of the driver the recess
         for at, R, z in ((1, pitch.R2, wheels.z2), (0, pitch.R1, wheels.z1)):
             height = float(self.addendum[at].value + self.shift[at].value)
             tip = R + cone_height(R, z, height)
@@ -285,6 +287,7 @@ class Involute(ConjugateToothForm):
                     "give it a larger addendum or a smaller negative shift",
                 )
             arcs.append(spherical_arc(R, psi, tip))
+        # one arc may be negative, if its contact ends on the other side of the pitch point
         if sum(arcs) <= 0:
             raise refused(
                 "the teeth do not reach each other",
@@ -297,7 +300,7 @@ class Involute(ConjugateToothForm):
         )
 
     def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return half the tooth thickness of both wheels on the pitch cones, as pitch-line displacements X.
+        """Return half the tooth thickness of both wheels as arcs X on the pitch cones [rad on the unit sphere].
 
         A profile shift of x modules increases the whole thickness by 2 x tan psi modules.
         """

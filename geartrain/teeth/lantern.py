@@ -32,7 +32,7 @@ def _first_or_second(raw: object) -> object:
 
 
 class Lantern(ConjugateToothForm):
-    """Round pins on one wheel, the lantern, and conjugate teeth on the other.
+    """Round pins on one wheel, the lantern, and conjugate teeth on its mate.
 
     A tooth profile is the parallel curve of the epicycloid of the pins' centres, at the distance of a pin radius
     (docs/shapes.md). By default all contact is on one side of the pitch point.
@@ -85,7 +85,7 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return None, since the transmission function of these teeth is known at the design centre distance only.
+        """Return None; another centre distance than the design distance is rejected.
 
         Returns
         -------
@@ -108,7 +108,7 @@ class Lantern(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its design centre distance.
+        """Return the pair of these wheels at its design centre distance.
 
         Raises
         ------
@@ -133,6 +133,7 @@ class Lantern(ConjugateToothForm):
         sides = lantern(R, A, B, outside), lantern(R, A, B, inside, inside=True)
         real = outside, min(inside, -start)
         pin = pin_angle(R, A, B) * R
+        # pin, tooth and backlash together are one pitch
         tooth = pitch.p / 2 - pin - self._backlash(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
@@ -144,7 +145,7 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair with the same total arc of contact, all of it in recess.
+        """Return the pair whose total arc of contact equals the sum of `arcs`, all of it in recess.
 
         The arc is extended by the part that the approaching pins cut off the mate's flanks.
 
@@ -162,8 +163,8 @@ class Lantern(ConjugateToothForm):
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """Return an undercut fault if the approaching pins leave less of the mate's flank than the arcs need, else
-        nothing.
+        """Return an undercut fault if the approaching pins remove part of the flank that the arcs need, else an empty
+        tuple.
         """
         from geartrain.teeth.pair_results import ToothFault
 
@@ -199,16 +200,18 @@ class Lantern(ConjugateToothForm):
         return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
-        """Return the distance of the pins from the axis and their radius, in modules."""
+        """Return the distance of the pins from the axis and their radius [module]."""
         A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
         B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
         z = wheels.z1 if self.pins == 1 else wheels.z2
+        # such pins do not intersect the pitch circle
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
                 f"its radius is {R:.6g} modules and that of a pin {B:.6g}, so no contact passes the pitch point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
+        # chord between the centres of two adjacent pins
         most = 2 * A * sin(pi / z)
         if most <= 2 * B:
             raise refused(
@@ -221,7 +224,7 @@ class Lantern(ConjugateToothForm):
     def _arcs(
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
-        """Return the arcs (X) on the mate's addendum and on its dedendum.
+        """Return the arcs X of contact on the mate's addendum and on its dedendum [module].
 
         By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
         """

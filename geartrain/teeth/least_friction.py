@@ -1,4 +1,4 @@
-"""Teeth of minimum friction for a given maximum pressure angle, and the extremal printed in the source."""
+"""Teeth of minimum friction for a given maximum pressure angle, and the extremal that the source prints."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _MAXIMUM_ANGLE, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse
 
 
 class LeastFriction(ConjugateToothForm):
-    """Teeth of minimum friction: a constant pressure angle from the pitch point, then the minimum contact speed.
+    """Teeth of minimum friction: constant pressure angle from the pitch point, then minimum contact speed.
 
     Along the dedendum the contact keeps the speed `margin`. `literal` gives the extremal printed in the source instead:
     its pressure angles are above 45 deg, it does not include the pitch point, and it is not usable as a pair
@@ -77,7 +77,7 @@ class LeastFriction(ConjugateToothForm):
             check_arcs(self.arcs)
         if (self.friction_law is None) != (self.pitch_line_speed is None):
             fix = "give both, or neither"
-            raise bad("friction_law", "friction_law and pitch_line_speed belong together", fix)
+            raise bad("friction_law", "friction_law and pitch_line_speed are not both given", fix)
         return self._check_literal() if self.literal else self._check_usual()
 
     def _check_usual(self) -> LeastFriction:
@@ -107,6 +107,7 @@ class LeastFriction(ConjugateToothForm):
                 "literal", "the literal shape has neither pressure_angle nor margin", "give `pressure_angles` instead"
             )
         first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
+        # at 45 deg the radius of curvature is 0, beyond it the flank would turn back
         if not pi / 4 <= last < first < pi / 2:
             raise bad(
                 "pressure_angle",
@@ -118,7 +119,7 @@ class LeastFriction(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its design centre distance.
+        """Return the pair of these wheels at its design centre distance.
 
         Raises
         ------
@@ -140,7 +141,7 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the loss density mu S of a contact at the distance d from the pitch point, up to a factor.
+        """Return a function for the loss density mu S, up to a factor, at the distance d from the pitch point.
 
         Return None if friction is the same at every contact.
         """

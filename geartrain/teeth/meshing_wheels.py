@@ -24,7 +24,7 @@ class DeclaredPair(Protocol):
 
     @property
     def fitting(self) -> Any:
-        """Mounting accuracy of the pair; None if the train's applies."""
+        """Mounting accuracy of the pair; None if the accuracy declared for the train applies."""
 
 
 class NamedForm(Protocol):
@@ -36,25 +36,25 @@ class NamedForm(Protocol):
 
     @property
     def words(self) -> str:
-        """Name of the form in prose."""
+        """Name of the form as it appears in sentences."""
 
     @property
     def has_lengths(self) -> bool:
-        """True for teeth declared in units of length."""
+        """True if the form declares a length with a unit."""
 
 
 @dataclass(frozen=True)
 class MeshDriver(Result):
-    """Driving wheel of a gear pair (driving link of a coupling), and the basis on which it is known."""
+    """Driving wheel of a gear pair, or driving link of a coupling, and the reason for this choice."""
 
     KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
 
     wheel: str
-    """Name of the driving wheel; of a coupling, the driving link."""
+    """Name of the driving wheel, or of the driving link of a coupling."""
     why: str
-    """Basis on which the driver is known."""
+    """Reason why this wheel is the driver, in words."""
     known: bool = True
-    """False if the direction of power flow is not determined. `wheel` is then only an assumption."""
+    """False if the direction of power flow is not determined; `wheel` is then an assumption."""
 
 
 _CONTRATE = "the contrate wheel is treated as a spur wheel"
@@ -62,13 +62,13 @@ _CONTRATE = "the contrate wheel is treated as a spur wheel"
 
 @dataclass(frozen=True)
 class MeshingWheels:
-    """The two wheels of a gear pair as a train declares them: the input from which a tooth form makes a mesh."""
+    """Two wheels of a gear pair as a train declares them, from which a tooth form makes a mesh."""
 
     gear: DeclaredPair
     place: str
-    """Place of the pair's declaration in its file."""
+    """Location of the pair's declaration in its file."""
     counts: tuple[int, int]
-    """Tooth numbers."""
+    """Tooth numbers of the first and of the second wheel."""
     kinds: tuple[str, str] = ("spur", "spur")
     """Kinds of the wheels, such as "spur", "helical", "bevel" or "contrate"."""
     internal: tuple[bool, bool] = (False, False)
@@ -76,25 +76,24 @@ class MeshingWheels:
     friction: float | None = None
     """Coefficient of friction; None if none is declared."""
     distance: float | None = None
-    """Sum of transverse module times teeth of both wheels, halved [m]; None unless both declare a module with a unit.
-    """
+    """Half the sum of transverse module times tooth number of both wheels [m]; None unless both modules have a unit."""
     friction_law: FrictionLaw | None = None
     """Friction law declared instead of a coefficient; `friction` is then None."""
     pitch_line: float | None = None
-    """Pitch-line speed [m/s], which a friction law needs; None if it is not known."""
+    """Pitch-line speed, which a friction law needs [m/s]; None if unknown."""
     helix: tuple[float, float] = (0.0, 0.0)
     """Helix angles [rad], positive for right-hand teeth."""
     width: float | None = None
-    """Face width of the narrower wheel [m]; None if it is not known."""
+    """Face width of the narrower wheel [m]; None if unknown."""
 
     @property
     def module(self) -> float | None:
-        """Mean transverse module [m]; None without a declared length."""
+        """Mean transverse module of both wheels [m]; None without declared lengths."""
         return None if self.distance is None or not sum(self.counts) else 2 * self.distance / sum(self.counts)
 
     @property
     def pitch_distance(self) -> float | None:
-        """Centre distance [m] at which the declared pitch circles touch; None without a declared length."""
+        """Centre distance at which the declared pitch circles touch [m]; None without declared lengths."""
         z1, z2 = self.counts
         return (
             self.distance
@@ -104,18 +103,18 @@ class MeshingWheels:
 
     @property
     def ring(self) -> Literal[0, 1, 2]:
-        """Number of the wheel that is a ring, 1 or 2; 0 if neither is."""
+        """Number of the wheel that is a ring, 1 or 2; 0 without a ring."""
         return 1 if self.internal[0] else 2 if self.internal[1] else 0
 
     @property
     def touching(self) -> float:
-        """Centre distance [module] at which the pitch circles touch."""
+        """Centre distance at which the pitch circles touch [module]."""
         z1, z2 = self.counts
         return abs(z1 - z2) / 2 if any(self.internal) else (z1 + z2) / 2
 
     @property
     def driver(self) -> MeshDriver:
-        """First wheel as the assumed driver, until the driver is known."""
+        """First wheel as the assumed driver, used until the driver is determined."""
         return MeshDriver(self.gear.pair[0], "", False)
 
     @property
@@ -126,11 +125,11 @@ class MeshingWheels:
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Size of a pair with real teeth."""
+    """Scale and centre distance of a pair with real teeth."""
 
     scale: float
-    """Modules in one length unit of the teeth."""
+    """Number of modules in one length unit of the teeth."""
     distance: float
     """Centre distance [module]."""
     stretch: float
-    """Centre distance over the one at which the pitch circles touch."""
+    """Centre distance over the distance at which the pitch circles touch."""

@@ -1,7 +1,7 @@
-"""Results of one gear pair, whatever its tooth form: figures of motion and losses, verdict, rows of tables.
+"""Results of one gear pair of any tooth form: kinematics, losses, verdict, rows of tables.
 
-The JSON keys of each figure are defined only here, and are shared by reports of trains and pages of one pair. Angles
-are in degrees in tables and in rad in figures.
+The JSON keys of each result are defined only here, for reports of trains and of one pair. Angles are in degrees in
+tables and in rad in results.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ class SpeedRatio(Result):
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
 
     mean: Fraction
-    """Ratio of tooth numbers, or the winding number of a pin."""
+    """Ratio of tooth numbers; of a pin coupling, the winding number."""
     minimum: float
-    """Minimum ratio at any angle."""
+    """Minimum ratio over a period."""
     maximum: float
-    """Maximum ratio at any angle."""
+    """Maximum ratio over a period."""
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> SpeedRatio:
@@ -61,7 +61,7 @@ class SpeedRatio(Result):
 
     @property
     def relative(self) -> tuple[float, float]:
-        """Minimum and maximum over the mean."""
+        """Minimum and maximum ratio over the mean ratio."""
         return self.minimum / float(self.mean), self.maximum / float(self.mean)
 
 
@@ -85,11 +85,11 @@ class TransmissionError(Result):
     KEYS = ("peak_to_peak", "rms", "mean")
 
     peak_to_peak: float
-    """Difference of maximum and minimum [rad of the driven side]."""
+    """Maximum minus minimum [rad of the driven side]."""
     rms: float
-    """Root mean square about the mean [rad]."""
+    """Root mean square deviation from the mean [rad of the driven side]."""
     mean: float
-    """Mean, a constant lag that depends on the zero of the angles [rad]."""
+    """Mean [rad of the driven side], a constant that depends on the zero of the angles."""
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> TransmissionError:
@@ -111,13 +111,13 @@ class TransmissionError(Result):
 
     @property
     def text(self) -> str:
-        """Peak-to-peak transmission error in degrees."""
+        """Peak-to-peak transmission error in degrees, as text."""
         return f"{degrees(self.peak_to_peak):.6g}"
 
 
 @dataclass(frozen=True, slots=True)
 class SlidingEfficiency(Result):
-    """Power out over power in of a pair with friction, computed from its transmission function on request.
+    """Output power over input power of a pair with friction, computed from its transmission function on request.
 
     The torques of both sides cannot be constant over a turn at the same time. `mean` is the efficiency at constant
     torque of the driver, `at_constant_load` the efficiency at constant torque of the driven side. All values are None
@@ -144,7 +144,7 @@ class SlidingEfficiency(Result):
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction; its mean over the driver's angle if it depends on speed."""
+        """Coefficient of friction; if it depends on speed, its mean over the driver angle."""
         return self.transmission.friction
 
     @property
@@ -154,22 +154,22 @@ class SlidingEfficiency(Result):
 
     @property
     def mean(self) -> float | None:
-        """Mean efficiency over the driver's angle, at constant driver torque."""
+        """Mean efficiency over the driver angle at constant driver torque; None if friction locks the pair."""
         return None if self.locks else finite(self.transmission.efficiency_mean())
 
     @property
     def at_constant_load(self) -> float | None:
-        """Work done on a constant torque of the driven side over the work put in; None if no work is done."""
+        """Work output over work input at constant load torque; None if friction locks the pair or no work is done."""
         return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property
     def minimum(self) -> float | None:
-        """Minimum efficiency at any angle."""
+        """Minimum efficiency at any driver angle; None if friction locks the pair."""
         return None if self.locks else finite(self.transmission.efficiency_minimum())
 
     @property
     def locking_friction(self) -> float | None:
-        """Smallest coefficient of friction that locks the pair; None if none does."""
+        """Minimum coefficient of friction that locks the pair; None if no coefficient does."""
         return finite(self.transmission.locking_friction)
 
     @property
@@ -179,7 +179,7 @@ class SlidingEfficiency(Result):
 
 
 def _gear_or_none(gear: int) -> int | None:
-    """Return None instead of 0, the gear number of the pair as a whole."""
+    """Return None for 0, which denotes the pair as a whole."""
     return gear or None
 
 
@@ -188,7 +188,7 @@ def _gear_or_none(gear: int) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class ToothFault(Result):
-    """One reason why teeth cannot run."""
+    """Fault that prevents teeth from running."""
 
     KEYS = ("kind", Key("gear", to=_gear_or_none), "what", "why", "fix")
 
@@ -197,23 +197,23 @@ class ToothFault(Result):
     gear: int
     """Number of the faulty gear, 1 or 2; 0 for the pair as a whole."""
     X: float
-    """Pitch-line displacement at which the fault begins; NaN for the pair as a whole."""
+    """Arc X on the pitch surfaces at which the fault begins [module]; NaN for the pair as a whole."""
     what: str
-    """Statement of the fault."""
+    """Text that states the fault."""
     why: str
-    """Reason of the fault."""
+    """Text that states its cause."""
     fix: str
-    """Remedy of the fault."""
+    """Text that states its remedy."""
 
     @property
     def problem(self) -> Problem:
-        """Fault as a problem without a place."""
+        """Fault as a problem that names no place in a file."""
         return Problem(self.what, self.why, self.fix)
 
 
 @dataclass(frozen=True, slots=True)
 class PairVerdict(Result):
-    """Verdict on a pair of wheels; its truth value is True if the pair can turn.
+    """Verdict on a pair of wheels; it is true if the pair can run.
 
     See Also
     --------
@@ -232,18 +232,18 @@ class PairVerdict(Result):
     kind: str
     """"runs", or the kind of the first fault."""
     text: str
-    """Statement of the verdict."""
+    """Text that states the verdict."""
     backlash: float
     """Minimum backlash of the teeth over a pitch [rad of the driven wheel]."""
     faults: tuple[ToothFault, ...] = ()
-    """All reasons why the teeth cannot run, each with its fix."""
+    """All faults that prevent the teeth from running; empty if they can run."""
 
     def __bool__(self) -> bool:
         return self.kind == "runs"
 
     @property
     def why(self) -> str:
-        """Reason of the first fault; empty if the teeth can run."""
+        """Cause of the first fault; empty if the teeth can run."""
         return self.faults[0].why if self.faults else ""
 
     @property
@@ -252,7 +252,7 @@ class PairVerdict(Result):
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """Return the verdict with its single fault and the explanation of it.
+        """Return the verdict with a single fault that has the given cause and remedy.
 
         Parameters
         ----------
@@ -268,13 +268,13 @@ class PairVerdict(Result):
 
 
 def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVerdict:
-    """Return the verdict on teeth with these faults; `backlash` is in rad of the driven wheel."""
+    """Return the verdict on teeth with these faults and this backlash [rad of the driven wheel]."""
     text = "; ".join(fault.what for fault in faults) or "the teeth run"
     return PairVerdict(faults[0].kind if faults else "runs", text, backlash, faults)
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """Return the fault of teeth that lock at a coefficient of friction of `locking` or more."""
+    """Return the problem of teeth that lock at the coefficient `friction`, because it is at least `locking`."""
     return Problem(
         f"a friction of {friction:g} locks these teeth",
         f"at {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
@@ -283,7 +283,7 @@ def friction_lock(friction: float, locking: float) -> Problem:
 
 
 def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
-    """Return the fault of teeth that lock at some angle at their speed under a friction law."""
+    """Return the problem of teeth that lock under a friction law at their speed."""
     return Problem(
         f"the friction law '{transmission}' locks these teeth at this speed",
         f"the driver cannot overcome the sliding friction at some angle, as with a constant friction of {locking:.6g}",
@@ -291,17 +291,17 @@ def friction_lock_at_speed(transmission: str, locking: float) -> Problem:
     )
 
 
-# ------------------------------------------------------------------------------------------- figures and rows of tables
+# -------------------------------------------------------------------------------------------- properties and table rows
 
 
 @dataclass(frozen=True)
 class PinFigures(Result):
-    """Figures of a pin in a slot."""
+    """Results of a pin in a slot."""
 
     pin_radius: float
-    """Distance of the pin from its axis [m, or without unit]."""
+    """Distance of the pin from its axis [m, or the plain unit of the declaration]."""
     offset: float
-    """Distance of the two axes [m, or without unit]."""
+    """Distance between the two axes [m, or the plain unit of the declaration]."""
     speed_ratio: SpeedRatio
     """Speed ratio, driven side over driver."""
     amplitude: float
@@ -313,7 +313,7 @@ class PinFigures(Result):
 
 
 def pin_figures(transmission: PinTransmission) -> PinFigures:
-    """Return the figures of one coupling, with either side driving."""
+    """Return the results of one pin coupling."""
     error = TransmissionError.of(transmission)
     return PinFigures(
         transmission.r,
@@ -327,7 +327,7 @@ def pin_figures(transmission: PinTransmission) -> PinFigures:
 
 @dataclass(frozen=True)
 class PairFigures(Result):
-    """Figures of one pair with one of its wheels driving. A form may add its own."""
+    """Results of one pair with one of its wheels driving. A tooth form may add its own."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
         *("teeth", "verdict", Key("backlash", "verdict.backlash", finite)),
@@ -337,30 +337,30 @@ class PairFigures(Result):
     teeth: tuple[int, int]
     """Tooth numbers of the driver and of the driven wheel."""
     verdict: PairVerdict
-    """Verdict on the pair: whether its teeth can turn."""
+    """Verdict on whether these teeth can run."""
     speed_ratio: SpeedRatio | None
-    """Speed ratio, driven over driver; None for teeth that cannot turn."""
+    """Speed ratio, driven over driver; None for teeth that cannot run."""
     transmission_error: TransmissionError | None
-    """Transmission error of the driven wheel; None for teeth that cannot turn."""
+    """Transmission error of the driven wheel; None for teeth that cannot run."""
     efficiency: SlidingEfficiency | None
-    """Efficiency of sliding teeth; None for teeth that cannot turn."""
+    """Efficiency of sliding teeth; None for teeth that cannot run."""
 
     @property
     def error_text(self) -> str:
-        """Peak-to-peak transmission error in degrees; a dash for teeth that cannot turn."""
+        """Peak-to-peak transmission error in degrees, as text; "-" for teeth that cannot run."""
         return self.transmission_error.text if self.transmission_error else "-"
 
 
 def motion_figures(
     transmission: TransmissionFunction, moves: bool = True
 ) -> tuple[SpeedRatio | None, TransmissionError | None]:
-    """Return speed ratio and transmission error, both None if the teeth cannot turn (`moves` is False)."""
+    """Return speed ratio and transmission error; both are None if the teeth cannot run (`moves` is False)."""
     return (SpeedRatio.of(transmission), TransmissionError.of(transmission)) if moves else (None, None)
 
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table and the row of one pair. `wide` is True for a table that needs the width of a page."""
+    """Header of a table and the row of one pair. `wide` is True for a table as wide as the page."""
 
     header: tuple[str, ...]
     row: tuple[str, ...]
@@ -376,4 +376,4 @@ class PairAccount:
     tables: tuple[AccountTable, ...]
     """Tables, each with the row of this pair."""
     figures: PairFigures
-    """Figures for JSON."""
+    """Results that are written to JSON."""

@@ -1,6 +1,6 @@
 """Pins in slots and pins in holes as a train declares them: couplings whose mean ratio is a winding number.
 
-A pin on one link works in a slot of another link, whose axis is at the distance `offset`. In the frame of their
+A pin on one link slides in a slot of another link, whose axis is at the distance `offset`. In the frame of their
 carrier, the slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e. Over
 one turn of the pin the slot turns m times: m = 1 if the pin's circle encloses the slot's axis (r > e), else m = 0.
 
@@ -52,7 +52,7 @@ class _Coupling(BaseModel):
     )
     friction: DeclaredCoulombFriction | None = Field(
         None,
-        description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}; default none",
+        description="Coefficient of friction of the pin in its slot, or `{sliding, static, deviation}`; default none",
     )
     restitution: DeclaredRestitution | None = Field(
         None, description="Coefficient of restitution of impacts of the pin on its slot, 0 to 1; default the train's"
@@ -65,7 +65,7 @@ class _Coupling(BaseModel):
 
     @property
     def name(self) -> str:
-        """Declared id, or pin~slot."""
+        """Declared id; default "pin~slot" with the names of the two links."""
         return self.id or f"{self.pin}~{self.slot}"
 
     @property
@@ -80,7 +80,7 @@ class _Coupling(BaseModel):
 
 
 class PinAndSlot(_Coupling):
-    """Pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
+    """Pin in a slot whose axis is inside the pin's circle: both have the same mean speed."""
 
     kind: Literal["pin_and_slot"] = Field(description="Pin whose circle encloses the slot's axis: mean ratio 1")
 
@@ -91,7 +91,7 @@ class PinAndSlot(_Coupling):
 
 
 class PinFollower(_Coupling):
-    """Pin in a slotted follower whose axis lies outside the pin's circle: the follower oscillates about its carrier."""
+    """Pin in a slotted follower whose axis is outside the pin's circle: the follower oscillates."""
 
     kind: Literal["pin_follower"] = Field(description="Pin whose circle does not enclose the slot's axis: mean ratio 0")
 
@@ -102,7 +102,7 @@ class PinFollower(_Coupling):
 
 
 class _ParallelCoupling(_Coupling):
-    """Coupling that keeps two links parallel, so that both turn at the same speed at every instant."""
+    """Coupling that keeps two links parallel, so that both have the same speed at every instant."""
 
     @model_validator(mode="after")
     def _has_no_friction(self) -> _ParallelCoupling:
@@ -121,7 +121,7 @@ class _ParallelCoupling(_Coupling):
 
     @property
     def transmission(self) -> None:
-        """None, since the ratio at every instant is the mean ratio."""
+        """None, because the speed ratio is constant."""
         return None
 
 
@@ -164,7 +164,7 @@ Coupling = Annotated[PinAndSlot | PinFollower | PinsInHoles | Parallel, Field(di
 
 
 def winding_number(kind: str) -> int:
-    """Return the mean ratio slot over pin in the carrier's frame: 0 for a pin and follower, 1 for all others."""
+    """Return the mean speed ratio, slot over pin, in the carrier's frame: 0 for kind "pin_follower", otherwise 1."""
     return 0 if kind == "pin_follower" else 1
 
 
@@ -182,6 +182,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
                 "fix": "give a pin_radius above 0 and an offset of 0 or more",
             },
         )
+    # an offset of 0 needs no unit
     if offset.value and (radius.unit is None) != (offset.unit is None):
         raise PydanticCustomError(
             "pin",
@@ -189,6 +190,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
             {"radius": radius.text, "offset": offset.text, "fix": "give both with a unit, or both without"},
         )
     r, e = radius.base, offset.base
+    # the slot would reverse its direction at that moment
     if r == e:
         raise PydanticCustomError(
             "pin",
@@ -211,6 +213,7 @@ def _check_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
                 "fix": f"give `kind: {other}`, or correct the dimensions",
             },
         )
+    # the pin passes the axis of the slot at the minimum distance |r - e|
     slack = coupling.clearance
     if slack is not None and (slack.unit is None) == (radius.unit is None) and slack.base >= 2 * abs(r - e):
         raise PydanticCustomError(
@@ -228,8 +231,8 @@ def pin_transmission(
 ) -> PinTransmission:
     """Return the transmission function of a pin in a slot with either side driving.
 
-    `offset` is the distance of the two axes. Raise `RangeError` if the coupling cannot turn. The error's place is
-    `driver` or `friction` if that value is to be changed.
+    `offset` is the distance of the two axes, in the unit of `pin_radius`. Raises `RangeError` if the coupling cannot
+    turn; the place of the error is `driver` or `friction` if that value must be changed.
     """
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 

@@ -24,21 +24,8 @@ _PIN_SPACING = 1.7  # default distance of two pins over the diameter of a pin
 class PinRing(ToothForm):
     """Lobed disc of a cycloidal reducer in a ring of round pins, one pin more than lobes.
 
-    The ratio is exact at every instant, and half of all pins bear load. The module is twice the eccentricity, since the
-    centre of the disc is half a module from the centre of the ring (docs/reducers.md).
-
-    See Also
-    --------
-    geartrain.teeth.Lantern : pins on an external wheel.
-
-    Examples
-    --------
-    >>> disc = PinRing(form="pin_ring").disc(11)
-    >>> round(disc.circle, 3), round(disc.pin, 3), round(disc.maximum_load, 3)
-    (8.571, 1.305, 0.335)
-
-    The ratio is exact at every instant, and half of all pins bear. The module is twice the eccentricity, for the disc's
-    centre is half a module from that of the ring (docs/reducers.md).
+    The speed ratio is constant, and half of all pins carry load. The module is twice the eccentricity, since the centre
+    of the disc is half a module from the centre of the ring (docs/reducers.md).
 
     See Also
     --------
@@ -94,7 +81,7 @@ class PinRing(ToothForm):
         return DiscFigures
 
     def disc(self, lobes: int, module: float | None = None) -> CycloidalDisc:
-        """Return the disc and its pins.
+        """Return the lobed disc and its pins.
 
         Parameters
         ----------
@@ -165,7 +152,7 @@ class PinRing(ToothForm):
     def transmission(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, module: float | None = None
     ) -> DiscTransmission:
-        """Return the transmission function of a pair.
+        """Return the transmission function of a disc and its ring.
 
         Parameters
         ----------
@@ -199,7 +186,7 @@ class PinRing(ToothForm):
         return DiscTransmission(self.disc(z1, module), friction, driver)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a disc and its ring, in either order.
+        """Return the mesh of a disc and its ring; the pair may name them in either order.
 
         Returns
         -------
@@ -220,7 +207,7 @@ class PinRing(ToothForm):
         return DiscMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why a requested backlash cannot be applied to this pair.
+        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
 
         A declared clearance takes precedence over the backlash of the manufacturing options.
 
@@ -239,7 +226,7 @@ class PinRing(ToothForm):
         )
 
     def thinned(self, backlash: Quantity) -> PinRing:
-        """Return the same disc with the clearance from its pins that gives this backlash.
+        """Return a copy with the clearance from the pins that gives this backlash.
 
         Parameters
         ----------

@@ -26,7 +26,7 @@ _SAMPLES = 4096
 
 
 def log_share(r: float, e: float) -> float:
-    """Return ln((r + e)/(r - e))/pi, r > e.
+    """Return ln((r + e)/(r - e))/pi for r > e.
 
     This is the increase of the mean of 1/eta over the *slot's* turn per unit of friction, with the efficiency
     eta = 1/(1 + f |tan d|). The angle between pin radius and slot is d, with sin d = (e/r) sin psi.
@@ -35,7 +35,7 @@ def log_share(r: float, e: float) -> float:
 
 
 def mean_over_the_pin(r: float, e: float, f: float) -> float:
-    """Return the mean of 1/(1 + f |tan d|) over the *pin's* turn, r > e.
+    """Return the mean of 1/(1 + f |tan d|) over a turn of the pin, r > e; d is the angle between pin radius and slot.
 
     With -f it is the mean of 1/(1 - f |tan d|), which is finite for c > -1. With c = f e/sqrt(r^2 - e^2) and
     tan(S/2) = sqrt((r - e)/(r + e)) tan(u/2) the mean is the integral over 0 <= u <= pi of
@@ -59,7 +59,7 @@ class PinTransmission(TransmissionFunction):
 
     period = 2 * pi
     driver: ClassVar[Literal["pin", "slot"]]
-    """Side that drives."""
+    """Driving side, "pin" or "slot"."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         self.r, self.e, self.friction = pin_radius, offset, friction
@@ -67,7 +67,7 @@ class PinTransmission(TransmissionFunction):
 
     @property
     def amplitude(self) -> float:
-        """Maximum transmission error [rad], the same on both sides: asin of the smaller over the larger distance."""
+        """Maximum transmission error [rad], equal for both sides: arcsine of the smaller over the larger of r and e."""
         less, more = min(self.r, self.e), max(self.r, self.e)
         # asin would lose half its digits near r = e
         return atan2(less, sqrt((more - less) * (more + less)))
@@ -78,11 +78,11 @@ class PinTransmission(TransmissionFunction):
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
 
     def error_range(self) -> tuple[float, float]:
-        """Return minus and plus the amplitude (rad)."""
+        """Return the minimum and the maximum transmission error [rad], which are minus and plus the amplitude."""
         return -self.amplitude, self.amplitude
 
     def error_moments(self) -> tuple[float, float]:
-        """Return 0 as the mean of the transmission error, and its rms (rad)."""
+        """Return the mean of the transmission error, which is 0, and its rms deviation [rad]."""
         error = self.error(self._turn_samples())
         return 0.0, sqrt(float(np.mean(error**2)))
 
@@ -91,7 +91,7 @@ class PinTransmission(TransmissionFunction):
 
 
 def _check(pin_radius: float, offset: float, friction: float) -> None:
-    """Raise `RangeError` for distances out of range, and if the pin passes through the slot's axis."""
+    """Raise `RangeError` if a value is out of range, or if the pin would pass through the slot's axis."""
     if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
         raise RangeError(
             Problem(
@@ -100,6 +100,7 @@ def _check(pin_radius: float, offset: float, friction: float) -> None:
                 "give a pin radius above 0 and an offset of 0 or more",
             )
         )
+    # with equal lengths the pin meets the axis of the slot
     if pin_radius == offset:
         raise RangeError(
             Problem(
@@ -157,7 +158,7 @@ class PinToSlotTransmission(PinTransmission):
         self.ratio = Fraction(1 if pin_radius > offset else 0)
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the slot angle less its mean motion.
+        """Return the transmission error: slot angle minus mean motion.
 
         Returns
         -------
@@ -172,19 +173,21 @@ class PinToSlotTransmission(PinTransmission):
         return error if self.r > self.e else -error
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio r (r - e cos S)/(r^2 + e^2 - 2 r e cos S)."""
+        """Return the speed ratio r (r - e cos S)/(r^2 + e^2 - 2 r e cos S) at driver angles S [rad]."""
         along, square = self._reach(S)
         return np.asarray(self.r * along / square)
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return r - e cos S, and the square of the pin's distance from the slot's axis as a sum of squares."""
+        """Return r - e cos S and the squared distance of the pin from the slot's axis, both as sums without
+        cancellation.
+        """
         # half angles avoid the cancellation of both differences near r = e and S = 0
         half = np.sin(np.asarray(S, dtype=float) / 2)
         along = (self.r - self.e) + 2 * self.e * half**2
         return along, (self.r - self.e) ** 2 + 4 * self.r * self.e * half**2
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio.
+        """Return the minimum and the maximum speed ratio.
 
         They are 1/(1 + e/r), where the pin is farthest from the slot's axis, and 1/(1 - e/r), where it is nearest.
         """
@@ -192,7 +195,7 @@ class PinToSlotTransmission(PinTransmission):
         return min(far, near), max(far, near)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return power out over power in, |cos d|/(|cos d| + f |sin d|).
+        """Return the efficiency |cos d|/(|cos d| + f |sin d|) at driver angles S [rad].
 
         Returns
         -------
@@ -206,22 +209,22 @@ class PinToSlotTransmission(PinTransmission):
         return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over a turn of the pin, at constant torque on it."""
+        """Return the mean efficiency over a turn of the pin, at constant torque on the pin."""
         if self.r > self.e:
             return mean_over_the_pin(self.r, self.e, self.friction)
         return float(np.mean(self.efficiency(self._turn_samples())))
 
     def efficiency_at_constant_load(self) -> float:
-        """Return 1/(1 + (f/pi) ln((r + e)/(r - e))) for a constant torque on the slot; NaN for a follower.
+        """Return the efficiency 1/(1 + (f/pi) ln((r + e)/(r - e))) at constant torque on the slot; NaN for a follower.
 
         Without friction a constant torque on a follower returns on one half of its swing the work taken on the other.
         """
         return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
 
     def efficiency_minimum(self) -> float:
-        """Return the efficiency at the maximum of d, sin d = e/r.
+        """Return the minimum efficiency, at the maximum of d with sin d = e/r.
 
-        The value is 0 for a follower with friction, at its dead points.
+        It is 0 for a follower with friction, at its dead points.
         """
         if self.r < self.e:
             return 0.0 if self.friction else 1.0
@@ -274,7 +277,7 @@ class SlotToPinTransmission(PinTransmission):
             )
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the pin angle less its mean motion.
+        """Return the transmission error: pin angle minus mean motion.
 
         Returns
         -------
@@ -285,23 +288,23 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(-np.arctan2(across, along))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S)."""
+        """Return the speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S) at driver angles S [rad]."""
         _, along = self._sides(S)
         return np.asarray(1 - self.e * np.cos(np.asarray(S, dtype=float)) / along)
 
     def _sides(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return r sin d and r cos d, with d the angle between pin radius and slot, sin d = (e/r) sin S."""
+        """Return r sin d and r cos d; d is the angle between pin radius and slot, sin d = (e/r) sin S."""
         S = np.asarray(S, dtype=float)
         # sqrt(r^2 - e^2 sin^2 S) as a sum, which does not cancel near r = e
         along = np.sqrt((self.r - self.e) * (self.r + self.e) + (self.e * np.cos(S)) ** 2)
         return self.e * np.sin(S), along
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio, 1 - e/r and 1 + e/r."""
+        """Return the minimum and the maximum speed ratio, 1 - e/r and 1 + e/r."""
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return power out over power in, 1 - f |tan d|, with d the angle between pin radius and slot.
+        """Return the efficiency 1 - f |tan d| at driver angles S [rad]; d is the angle between pin radius and slot.
 
         Returns
         -------
@@ -312,18 +315,19 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot at constant torque on it.
+        """Return the mean efficiency 1 - (f/pi) ln((r + e)/(r - e)) over a turn of the slot, at constant torque on the
+        slot.
 
-        The value is NaN if friction locks.
+        It is NaN if friction locks.
         """
         return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work done on a constant torque on the pin over the work put in; NaN if friction locks."""
+        """Return the work output over the work input at constant torque on the pin; NaN if friction locks."""
         return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
 
     def efficiency_minimum(self) -> float:
-        """Return the efficiency at the maximum of d, sin d = e/r; NaN if friction locks."""
+        """Return the minimum efficiency, at the maximum of d with sin d = e/r; NaN if friction locks."""
         return nan if self._locks else 1 - self.friction * self._maximum_tangent
 
     @property
@@ -332,5 +336,5 @@ class SlotToPinTransmission(PinTransmission):
 
     @property
     def locking_friction(self) -> float:
-        """Coefficient of friction at which the pin locks at some angle: sqrt(r^2 - e^2)/e."""
+        """Minimum coefficient of friction at which the pin locks at some angle: sqrt(r^2 - e^2)/e."""
         return 1 / self._maximum_tangent if self.e else inf

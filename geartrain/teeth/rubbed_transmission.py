@@ -1,4 +1,4 @@
-"""Losses of a pair whose friction depends on the sliding speed of its teeth, whatever their form."""
+"""Losses of a pair whose friction depends on the sliding speed of its teeth, for any tooth form."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _NARROW = 1e-13  # periods: shorter intervals are rounding error of equal kinks
 
 
 class _Nodes(NamedTuple):
-    """Quadrature nodes: driver angles, weights, and efficiency and mean coefficient of friction at each."""
+    """Quadrature nodes: driver angles [rad], weights, efficiency and mean coefficient of friction at each."""
 
     S: Floats
     weights: Floats
@@ -65,25 +65,25 @@ class RubbedTransmission(DerivedTransmission):
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error of the underlying transmission function."""
+        """Return the transmission error of the underlying function at driver angles S [rad]."""
         return self.transmission.error(S)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio of the underlying transmission function."""
+        """Return the speed ratio of the underlying function at driver angles S [rad]."""
         return self.transmission.speed(S)
 
     def reversed_motion(self) -> RubbedTransmission:
-        """Return the transmission function of the coast flanks with the same friction."""
+        """Return the transmission function of the coast flanks with the same friction law."""
         return RubbedTransmission(self.transmission.reversed_motion(), self.by)
 
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding of the underlying transmission function."""
+        """Return sliding speeds and friction terms of the underlying function at driver angles S [rad]."""
         return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
-        """Return the coefficient of friction at each contact; NaN for no contact.
+        """Return the coefficient of friction at each contact; NaN without contact.
 
         Parameters
         ----------
@@ -93,13 +93,11 @@ class RubbedTransmission(DerivedTransmission):
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return power out over power in at driver angles S (rad); NaN where teeth are not in contact or friction
-        locks.
-        """
+        """Return the efficiency at driver angles S [rad]; NaN without contact or if friction locks."""
         return self._contact_means(self.rubbing(S))[0]
 
     def _contact_means(self, rubbing: ContactRubbing) -> tuple[Floats, Floats]:
-        """Return mean efficiency and mean coefficient of simultaneous contacts.
+        """Return the mean efficiency and the mean coefficient of friction of simultaneous contacts.
 
         Both are NaN without a contact. The efficiency is NaN if one of the contacts locks.
         """
@@ -115,24 +113,24 @@ class RubbedTransmission(DerivedTransmission):
 
     @property
     def friction(self) -> float:  # type: ignore[override]
-        """Mean coefficient over the driver's angle and the contacts."""
+        """Coefficient of friction, averaged over driver angle and contacts."""
         return float(self._period_nodes.weights @ self._period_nodes.coefficient)
 
     @property
     def locks(self) -> bool:
-        """True if the coefficient of friction locks the pair at some driver angle."""
+        """True if friction locks the pair at some driver angle."""
         return self.transmission.locking_friction < inf and bool(np.isnan(self._period_nodes.efficiency).any())
 
     @cached_property
     def _smooth_intervals(self) -> list[tuple[float, float]]:
-        """Intervals of driver angle [rad] in one period on which the transmission function is smooth."""
+        """Intervals of driver angle in one period in which the transmission function is smooth [rad]."""
         cuts = sorted({float(np.mod(kink, self.period)) for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
     @cached_property
     def _period_nodes(self) -> _Nodes:
-        """Nodes of a whole period at which teeth are in contact, with weights whose sum is 1."""
+        """Quadrature nodes of one period with contact; their weights sum to 1."""
         if (given := self.transmission.rubbing_nodes()) is not None:
             S, weights, rubbing = given
             parts = [_Nodes(S, weights, *self._contact_means(rubbing))]
@@ -148,9 +146,9 @@ class RubbedTransmission(DerivedTransmission):
         return _Nodes(S[touching], weights / weights.sum(), efficiency[touching], coefficient[touching])
 
     def _adaptive_nodes(self, whole: _Nodes, low: float, high: float, depth: int = 0) -> Iterator[_Nodes]:
-        """Yield nodes on one interval by adaptive Gauss-Legendre quadrature.
+        """Yield quadrature nodes of one interval by adaptive Gauss-Legendre quadrature.
 
-        The interval is bisected until the work put in for a constant load is integrated to rounding error.
+        The interval is bisected until the input work at constant load is integrated to rounding error.
         """
         middle = (low + high) / 2
         ends = ((low, middle), (middle, high))
@@ -169,20 +167,20 @@ class RubbedTransmission(DerivedTransmission):
         return _Nodes(S, (high - low) / 2 * w, *self._contact_means(self.rubbing(S)))
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver's angle in contact, at constant driver torque; NaN if friction
-        locks.
+        """Return the mean of the efficiency over the driver angles with contact, at constant driver torque; NaN if
+        friction locks.
         """
         return nan if self.locks else float(self._period_nodes.weights @ self._period_nodes.efficiency)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work done on a constant load torque over the work put in, per pitch; NaN if friction locks."""
+        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
         if self.locks:
             return nan
         speed, at = self.speed(self._period_nodes.S), self._period_nodes
         return float((at.weights @ speed) / (at.weights @ (speed / at.efficiency)))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency at the nodes and the ends of all smooth intervals; NaN if friction locks."""
+        """Return the minimum efficiency among the nodes and the ends of all smooth intervals; NaN if friction locks."""
         if self.locks:
             return nan
         if self.transmission.rubbing_nodes() is not None:
@@ -195,14 +193,16 @@ class RubbedTransmission(DerivedTransmission):
 
 
 def rubbed(transmission: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
-    """Return the transmission function with the declared friction of its wheels if that depends on speed, else
-    unchanged.
+    """Return the transmission function with the declared friction law, or unchanged if friction does not depend on
+    speed.
     """
     by = pair_friction(wheels)
     return transmission if by is None else RubbedTransmission(transmission, by)
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
-    """Return the friction law of a pair at its pitch-line speed; None if friction is a number or no speed is known."""
+    """Return the friction law of a pair at its pitch-line speed; None without a friction law or if the speed is
+    unknown.
+    """
     declared, at = wheels.friction_law, wheels.pitch_line
     return None if declared is None or at is None else PairFriction(declared, at)

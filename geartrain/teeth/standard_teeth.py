@@ -1,6 +1,7 @@
-"""Standard teeth for pairs that declare none: involutes without profile shift, as tall as they run with every mate.
+"""Standard teeth for pairs that declare none: involutes without profile shift, with the largest addendum that suits all
+mates.
 
-Drawings, the viewer, layouts and exports of wheels all take their teeth from here.
+Drawings, the viewer, layouts and exports of wheels use them.
 """
 
 from __future__ import annotations
@@ -38,12 +39,12 @@ class StandardTeeth:
 
     @property
     def words(self) -> str:
-        """Description of the teeth in prose."""
+        """Description of the teeth for reports."""
         return f"involute, {self.angle} degrees (no form is declared)"
 
 
 def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[str, str]]) -> dict[str, StandardTeeth]:
-    """Return the standard teeth of all wheels by name.
+    """Return the standard teeth of all wheels by name of the wheel.
 
     Wheels that are connected by `pairs` have the same pressure angle, and each has the largest addendum with which it
     runs with all its mates. If no pressure angle lets all pairs run, 20 degrees is used, and the verdict on a pair that
@@ -76,7 +77,7 @@ def _connected(first: str, mates: Mapping[str, list[str]]) -> list[str]:
 def _design(
     group: Iterable[str], gears: Mapping[str, UndeclaredWheel], mates: Mapping[str, list[str]], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """Return the teeth of connected wheels; None if at this pressure angle some pair of them does not run."""
+    """Return the teeth of connected wheels by name; None if some pair cannot run at this pressure angle [deg]."""
     addenda: dict[str, float] = {}
     # each pair once, whichever of its wheels is visited first
     edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
@@ -94,12 +95,11 @@ def _design(
 
 
 def _ring_last(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
-    """Return the two wheels of a pair, a ring last."""
     return (second, first) if first.internal else (first, second)
 
 
 def _tallest(first: UndeclaredWheel, second: UndeclaredWheel, angle: int) -> float | None:
-    """Return the largest addendum (modules) with which a pair runs; None if it runs with none."""
+    """Return the largest addendum with which a pair runs [module]; None if it runs with no addendum of the list."""
     return next((height for height in _ADDENDA if _runs(first, second, angle, height, height)), None)
 
 
@@ -115,12 +115,12 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """Return a mate for a wheel that meshes with none: an equal wheel, or for a ring a pinion of half its teeth."""
+    """Return a mate for a wheel without a mate: an equal wheel, or for a ring gear a pinion with half its teeth."""
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 
 def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) -> Involute:
-    """Return the form of a pair of standard wheels with some backlash (modules). Both have the same pressure angle."""
+    """Return the tooth form of a pair of standard wheels with the given backlash [module]."""
     return _form(first.angle, first.addendum, second.addendum, backlash)
 
 

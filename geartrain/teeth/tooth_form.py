@@ -1,4 +1,4 @@
-"""Base class of tooth forms, which makes a gear mesh of two wheels, and the field types that forms declare."""
+"""Base class of tooth forms, whose method `mesh` returns a gear mesh of two wheels, and field types of declarations."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ShaftAngle = Callable[[], float | None]
 
 
 def twice(raw: object) -> object:
-    """Return one value as a pair for both wheels, and a pair unchanged."""
+    """Return a single value as a pair of two equal values; return a pair unchanged."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
@@ -42,7 +42,7 @@ TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("l
 
 
 class ToothForm(BaseModel, ABC):
-    """Tooth form of a gear pair as declared. Its method `mesh` makes a mesh of two wheels.
+    """Tooth form of a gear pair as declared. Its method `mesh` returns the mesh of two wheels.
 
     See Also
     --------
@@ -52,22 +52,22 @@ class ToothForm(BaseModel, ABC):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     any_distance: ClassVar[bool] = False
-    """True for teeth that run at any centre distance, not only at the one of their design."""
+    """True for teeth that run at any centre distance, not only at the design distance."""
 
     conjugate: ClassVar[bool] = False
-    """True for teeth designed by a path of contact, which are possible for rings and bevel wheels too.
+    """True for teeth designed from a path of contact, which are possible for ring gears and bevel wheels too.
 
     Their form does not prescribe the roots.
     """
 
     more_contact: ClassVar[str] = "declare longer `arcs`"
-    """Fix that raises the contact ratio of conjugate teeth."""
+    """Text of a fix that increases the contact ratio."""
 
     ringed: ClassVar[bool] = False
-    """True for teeth whose second wheel is a ring."""
+    """True for teeth whose second wheel is a ring gear."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
-    """Fields that do not describe a shape: stiffness and damping of the teeth in dynamic simulations."""
+    """Fields that do not affect the shape: stiffness and damping of the teeth in dynamic simulations."""
 
     if TYPE_CHECKING:
         form: str
@@ -110,7 +110,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return the problem of a validation error of pydantic, with the fix that the form gives, if any."""
+        """Return a validation error of pydantic as a problem, with the fix that the form gives, if any."""
         context = item.get("ctx") or {}
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
         what = item["msg"] if "fix" in context else f"'{item['input']}' is not a valid value"
@@ -118,7 +118,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Return parameters with defaults for those that a declaration of the form requires.
+        """Return the parameters with a default for each required one that is missing.
 
         Parameters
         ----------
@@ -129,12 +129,12 @@ class ToothForm(BaseModel, ABC):
 
     @property
     def words(self) -> str:
-        """Name of the form in prose."""
+        """Name of the form as it appears in sentences."""
         return self.form.replace("_", " ")
 
     @abstractmethod
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh | None:
-        """Return the mesh of a gear pair, its first wheel driving.
+        """Return the mesh of a gear pair with its first wheel driving.
 
         Parameters
         ----------
@@ -156,23 +156,23 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of the figures that a mesh of this form reports, from which the JSON schema is generated."""
+        """Return the class of results of a mesh of this form, from which the JSON schema is generated."""
         from geartrain.teeth.pair_results import PairFigures
 
         return PairFigures
 
     @property
     def has_lengths(self) -> bool:
-        """True for teeth declared in units of length, False for teeth declared in modules."""
+        """True if a length of the form is declared with a unit."""
         return False
 
     @property
     def rack_angle(self) -> float | None:
-        """Pressure angle of the rack that cuts these teeth [rad]; None if no rack does."""
+        """Pressure angle of the rack that cuts these teeth [rad]; None for teeth that are not cut by a rack."""
         return None
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why a requested backlash cannot be applied to this pair.
+        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
 
         Parameters
         ----------
@@ -188,7 +188,7 @@ class ToothForm(BaseModel, ABC):
         return None
 
     def thinned(self, backlash: Quantity) -> Self:
-        """Return the form with this backlash, or the form unchanged if it has no parameter for backlash.
+        """Return the form with this backlash, or the form itself if it has no parameter for backlash.
 
         Parameters
         ----------
@@ -205,10 +205,10 @@ class ToothForm(BaseModel, ABC):
 
 
 def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
-    """Return a validation error of a declaration with its fix."""
+    """Return a validation error for a declaration, with its fix."""
     return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
 
 
 def refused(what: str, why: str, fix: str) -> GearTrainError:
-    """Return the error for a pair that a tooth form cannot make."""
+    """Return the error for wheels that cannot have teeth of a form."""
     return GearTrainError(Problem(what, why, fix))

@@ -1,8 +1,8 @@
-"""Transmission functions of pairs: the interface of every tooth form and pin, the exact ratio, and derived functions.
+"""Transmission functions of pairs: the interface of all tooth forms and pins, the constant ratio, derived functions.
 
 Angles are forward angles: S of the driver and q of the driven side both increase as the pair turns forwards. At S = 0 a
-tooth of the driver is on the line of centres (a pin points at the other axis). The sign that an external mesh gives to
-the driven speed belongs to the train, not to these functions.
+tooth of the driver is on the line of centres (a pin points at the other axis). The sign of the speed ratio of an
+external mesh belongs to the train, not to these functions.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def check_friction(friction: float) -> float:
-    """Return a coefficient of friction after checking it.
+    """Return a coefficient of friction unchanged after a check.
 
     Raise `RangeError` if it is negative, infinite or NaN.
     """
@@ -39,7 +39,7 @@ def check_friction(friction: float) -> float:
 
 
 class SpeedLeap(NamedTuple):
-    """Jump of the speed ratio at a collision of teeth: the ratio before it, and the larger ratio after it."""
+    """Step of the speed ratio at an impact of teeth: the ratio before it, and the larger ratio after it."""
 
     before: float
     after: float
@@ -51,7 +51,7 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding of the teeth of a pair at some driver angles: arrays with one row for each contact, NaN for no contact.
+    """Sliding of the teeth of a pair at some driver angles: arrays with one row for each contact, NaN without contact.
 
     The efficiency of a contact with a coefficient of friction f is (1 + f out) / (1 + f into).
     """
@@ -59,9 +59,9 @@ class ContactRubbing(NamedTuple):
     sliding: Floats
     """Sliding speed over pitch-line speed, 0 or more."""
     into: Floats
-    """Power added per unit of friction to the power that enters a contact, over the power without friction."""
+    """Change of the input power of a contact per unit friction coefficient, over the power without friction."""
     out: Floats
-    """Power added per unit of friction to the power that leaves a contact, over the power without friction."""
+    """Change of the output power of a contact per unit friction coefficient, over the power without friction."""
 
 
 class TransmissionFunction(Shown, ABC):
@@ -105,7 +105,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error q - ratio S.
+        """Return the transmission error q - ratio S at driver angles S.
 
         Parameters
         ----------
@@ -120,7 +120,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the instantaneous speed ratio dq/dS.
+        """Return the speed ratio dq/dS at driver angles S.
 
         Parameters
         ----------
@@ -135,7 +135,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return power out over power in.
+        """Return the efficiency, output power over input power, at driver angles S.
 
         Parameters
         ----------
@@ -150,23 +150,23 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio."""
+        """Return the minimum and the maximum speed ratio over a period."""
 
     @abstractmethod
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error (rad of the driven side)."""
+        """Return the minimum and the maximum transmission error over a period [rad of the driven side]."""
 
     @abstractmethod
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error, and its rms about that mean (rad of the driven side)."""
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side]."""
 
     @abstractmethod
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver's angle, at constant driver torque."""
+        """Return the mean efficiency over the driver angle at constant driver torque; NaN if friction locks."""
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
-        """Return the work done on a constant torque of the driven side over the work put in; NaN if friction locks."""
+        """Return the work output over the work input at constant load torque; NaN if friction locks."""
 
     @abstractmethod
     def efficiency_minimum(self) -> float:
@@ -174,7 +174,7 @@ class TransmissionFunction(Shown, ABC):
 
     @property
     def locking_friction(self) -> float:
-        """Smallest coefficient of friction that locks the pair at some driver angle; infinite if none does."""
+        """Minimum coefficient of friction that locks the pair at some driver angle; infinite if no coefficient does."""
         return inf
 
     @property
@@ -183,7 +183,7 @@ class TransmissionFunction(Shown, ABC):
         return self.friction >= self.locking_friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding of the teeth, whatever their friction.
+        """Return sliding speeds and friction terms of the teeth, independent of their coefficient of friction.
 
         Parameters
         ----------
@@ -205,22 +205,26 @@ class TransmissionFunction(Shown, ABC):
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing] | None:
-        """Return driver angles of a period, quadrature weights, and `rubbing` at these angles.
+        """Return driver angles of a period [rad], quadrature weights, and `rubbing` at these angles.
 
-        It is meant for functions that are slow to evaluate at other angles. None: evaluate `rubbing` at any angles.
+        Only functions that are slow to evaluate at other angles return them. None means that any angles may be used.
         """
         return None
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at which the function or a derivative is not smooth; none by default."""
+        """Return the driver angles at which the function or a derivative is discontinuous [rad]; by default an empty
+        list.
+        """
         return []
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return all collisions of a pitch; None for functions whose collisions are not known."""
+        """Return all upward steps of the speed ratio in one pitch, at impacts of teeth; None if they are not
+        computed.
+        """
         return None
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum rate -d(speed ratio)/dS between collisions (1/rad), 0 if the speed never falls.
+        """Return the maximum of -d(speed ratio)/dS between impacts [1/rad]; 0 if the speed ratio never decreases.
 
         While the speed ratio falls, a driven inertia J tends to run ahead of the driver. The teeth stay in contact at a
         driver speed w if the load torque is at least J w^2 times this rate. Return None for functions for which it is
@@ -229,7 +233,7 @@ class TransmissionFunction(Shown, ABC):
         return None
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission error and speed ratio, computed together where that is cheaper.
+        """Return transmission error and speed ratio, computed together if that is faster.
 
         Parameters
         ----------
@@ -244,11 +248,11 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function while the driver turns backwards, which differs for teeth with backlash."""
+        """Return the transmission function for a driver that turns backwards; it differs for teeth with backlash."""
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
-        """Return the transmission function for some columns of the angles.
+        """Return the transmission function for selected columns of an array of angles.
 
         It differs only if each column of angles has a transmission function of its own.
 
@@ -266,7 +270,7 @@ class TransmissionFunction(Shown, ABC):
         return self
 
     def angle(self, S: ArrayLike) -> Floats:
-        """Return the driven angle q.
+        """Return the driven angle q at driver angles S.
 
         Parameters
         ----------
@@ -286,7 +290,7 @@ class TransmissionFunction(Shown, ABC):
 
 
 def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
-    """Write S modulo the period into `out`, in half the time of numpy.mod.
+    """Write S modulo the period into `out`, twice as fast as numpy.mod.
 
     The period is split into two parts, so that the first product is exact up to about 10^8 periods.
     """
@@ -303,49 +307,49 @@ def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
 
 
 class ExactRatio(TransmissionFunction):
-    """Transmission function without error or loss: the ratio of tooth counts at every instant."""
+    """Transmission function without error or loss: the speed ratio is constant."""
 
     def __init__(self, ratio: Fraction, period: float) -> None:
         self.ratio, self.period = ratio, period
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return 0 at every angle."""
+        """Return the transmission error at driver angles S, which is 0."""
         return self._constant(S, 0.0)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the mean ratio at every angle."""
+        """Return the speed ratio at driver angles S, which is constant."""
         return self._constant(S, float(self.ratio))
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return 1 at every angle."""
+        """Return the efficiency at driver angles S, which is 1."""
         return self._constant(S, 1.0)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the mean ratio as both minimum and maximum."""
+        """Return the minimum and the maximum speed ratio, which are equal."""
         return float(self.ratio), float(self.ratio)
 
     def error_range(self) -> tuple[float, float]:
-        """Return 0 as both minimum and maximum."""
+        """Return the minimum and the maximum transmission error, which are 0."""
         return 0.0, 0.0
 
     def error_moments(self) -> tuple[float, float]:
-        """Return 0 as both mean and rms."""
+        """Return the mean of the transmission error and its rms deviation, which are 0."""
         return 0.0, 0.0
 
     def efficiency_mean(self) -> float:
-        """Return 1 as the mean efficiency."""
+        """Return the mean efficiency, which is 1."""
         return 1.0
 
     def efficiency_at_constant_load(self) -> float:
-        """Return 1 as the mean efficiency."""
+        """Return the efficiency at constant load torque, which is 1."""
         return 1.0
 
     def efficiency_minimum(self) -> float:
-        """Return 1 as the minimum efficiency."""
+        """Return the minimum efficiency, which is 1."""
         return 1.0
 
     def steepest_fall(self) -> float:
-        """Return 0, since the speed is constant."""
+        """Return the maximum rate at which the speed ratio decreases, which is 0."""
         return 0.0
 
     @staticmethod
@@ -356,43 +360,45 @@ class ExactRatio(TransmissionFunction):
 
 
 class DerivedTransmission(TransmissionFunction):
-    """Transmission function with the motion of another one, and with other losses or another method of evaluation."""
+    """Transmission function with the motion of an underlying function, and with other losses or another evaluation."""
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.transmission, self.ratio, self.period = transmission, transmission.ratio, transmission.period
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio of the underlying function."""
+        """Return the minimum and the maximum speed ratio of the underlying function."""
         return self.transmission.speed_range()
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error of the underlying function."""
+        """Return the minimum and the maximum transmission error of the underlying function [rad of the driven side]."""
         return self.transmission.error_range()
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean and the rms of the transmission error of the underlying function."""
+        """Return the mean and the rms deviation of the transmission error of the underlying function [rad of the driven
+        side].
+        """
         return self.transmission.error_moments()
 
     def kinks(self) -> list[float]:
-        """Return the kinks of the underlying function."""
+        """Return the driver angles of the kinks of the underlying function [rad]."""
         return self.transmission.kinks()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return the collisions of the underlying function."""
+        """Return the upward steps of the speed ratio of the underlying function."""
         return self.transmission.speed_leaps()
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum rate of fall of the underlying function."""
+        """Return the maximum rate at which the speed ratio of the underlying function decreases [1/rad]."""
         return self.transmission.steepest_fall()
 
     @property
     def locking_friction(self) -> float:
-        """Locking friction of the underlying function."""
+        """Minimum coefficient of friction that locks the underlying function."""
         return self.transmission.locking_friction
 
 
 class ConstantLag(ExactRatio):
-    """Transmission function with its exact ratio and a constant transmission error `mean` [rad]."""
+    """Transmission function with a constant ratio and a constant transmission error `mean` [rad]."""
 
     def __init__(self, ratio: Fraction, period: float, mean: float) -> None:
         super().__init__(ratio, period)
@@ -400,17 +406,17 @@ class ConstantLag(ExactRatio):
 
     @classmethod
     def at(cls, transmission: TransmissionFunction, S: float) -> ConstantLag:
-        """Return the constant transmission error that another function has at the driver angle S (rad)."""
+        """Return a constant lag equal to the transmission error of another function at the driver angle S [rad]."""
         return cls(transmission.ratio, transmission.period, float(transmission.error(S)))
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the constant transmission error at every angle."""
+        """Return the transmission error at driver angles S [rad], which is constant."""
         return self._constant(S, self.mean)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the constant transmission error as both minimum and maximum."""
+        """Return the minimum and the maximum transmission error [rad], which are equal."""
         return self.mean, self.mean
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the constant transmission error as the mean, and 0 as the rms."""
+        """Return the mean of the transmission error [rad] and its rms deviation, which is 0."""
         return self.mean, 0.0

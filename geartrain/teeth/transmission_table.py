@@ -1,12 +1,13 @@
-"""Periodic transmission functions as tables: piecewise polynomials of low degree on uniform cells, cut at the kinks.
+"""Tables of periodic transmission functions: piecewise polynomials of low degree on uniform cells, divided at the
+kinks.
 
 A table is evaluated several times faster than the formula from which it was made. It interpolates the function at
 Chebyshev nodes strictly inside each cell, so that on either side of a kink it follows that side only. Tables do not
 depend on teeth or pins.
 
 `join_transmission_tables` packs the tables of error and speed of many functions into one set of arrays. The compiled
-kernel `transmission_along` evaluates them at many angles. A table either follows its function to rounding error, or is
-the table from which the function is evaluated anyway.
+kernel `transmission_along` evaluates them at many angles. A table either agrees with its function to rounding error, or
+is the table from which the function is evaluated anyway.
 """
 
 from __future__ import annotations
@@ -53,11 +54,11 @@ class HasKinks(Protocol):
         """Period [rad of the driver]."""
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at which the function or a derivative is not smooth."""
+        """Return the driver angles at which the function or a derivative is discontinuous [rad]."""
 
 
 class CellTable:
-    """Table of a periodic function of the driver's angle, on `cells` uniform cells cut at the kinks.
+    """Table of a periodic function of the driver angle, on `cells` uniform cells that are divided at the kinks.
 
     Attributes
     ----------
@@ -87,14 +88,14 @@ class CellTable:
 
     @property
     def breaks(self) -> Floats:
-        """Boundaries of the cells [rad]: the uniform steps and the kinks, in order."""
+        """Boundaries of the cells in ascending order [rad]: the uniform steps and the kinks."""
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
         return np.sort(np.concatenate((uniform, self.kinks)))
 
     def derivative(self) -> CellTable:
-        """Return the table of the derivative by the driver's angle on the same cells.
+        """Return the table of the derivative by the driver angle on the same cells.
 
-        Its `uncertainty` is still that of the function.
+        Its `uncertainty` is not updated and remains the uncertainty of the function.
         """
         found = copy(self)
         found.degree = self.degree - 1
@@ -103,11 +104,11 @@ class CellTable:
 
     @property
     def nbytes(self) -> int:
-        """Memory of the table [bytes]."""
+        """Memory of the table [byte]."""
         return int(self.coefficients.nbytes + self.middles.nbytes)
 
     def __call__(self, S: ArrayLike) -> Floats:
-        """Return the function at driver angles S (rad), any shape."""
+        """Return the function at driver angles S [rad] of any shape."""
         S = np.asarray(S, dtype=float)
         flat = S.ravel()
         found = np.empty_like(flat)
@@ -119,7 +120,7 @@ class CellTable:
         return found.reshape(S.shape)
 
     def _block(self, S: Floats, found: Floats, u: Floats, other: Floats, cell: Indices, passed: Flags) -> None:
-        """Write the function at S into `found`; the other arrays are scratch."""
+        """Write the function at S into `found`; the other arrays are work space."""
         u, other, cell, passed = u[: len(S)], other[: len(S)], cell[: len(S)], passed[: len(S)]
         behind(S, self.period, u, other)
         np.multiply(u, self.cells / self.period, out=other)
@@ -140,14 +141,14 @@ class CellTable:
 
 
 def folded_kinks(transmission: HasKinks) -> Floats:
-    """Return the distinct kinks of a function (rad) folded into its first period, in ascending order."""
+    """Return the distinct kinks of a function modulo its period in ascending order [rad]."""
     return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
 
 def fit(
     function: Callable[[Floats], Floats], period: float, kinks: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
-    """Return the coarsest table within `tolerance`.
+    """Return the table with the fewest cells that is within `tolerance`.
 
     If rounding error prevents that, return the last table that halved the uncertainty.
     """
@@ -185,7 +186,7 @@ class TabulatedTransmission(DerivedTransmission):
 
     @cached_property
     def error_table(self) -> CellTable:
-        """Table of the transmission error, whose `uncertainty` is in rad of the driven side."""
+        """Table of the transmission error [rad of the driven side]."""
         return self._fit(self.transmission.error, (float(self.ratio) or 1.0) * self.period)
 
     @cached_property
@@ -199,15 +200,15 @@ class TabulatedTransmission(DerivedTransmission):
         return self._fit(self.transmission.efficiency, 1.0)
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error (rad of the driven side) at driver angles S (rad)."""
+        """Return the transmission error [rad of the driven side] at driver angles S [rad]."""
         return self.error_table(S)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S (rad)."""
+        """Return the speed ratio at driver angles S [rad]."""
         return self.speed_table(S)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S (rad); NaN where the underlying function has none."""
+        """Return the efficiency at driver angles S [rad]; NaN where the underlying function is NaN."""
         return self.efficiency_table(S)
 
     def efficiency_mean(self) -> float:
@@ -223,7 +224,7 @@ class TabulatedTransmission(DerivedTransmission):
         return self.transmission.efficiency_minimum()
 
     def reversed_motion(self) -> TabulatedTransmission:
-        """Return tables of the underlying function while the driver's angle decreases."""
+        """Return the tabulated transmission function for a driver that turns backwards."""
         back = self.transmission.reversed_motion()
         return self if back is self.transmission else TabulatedTransmission(back, self.tolerance, self.degree)
 
@@ -232,22 +233,22 @@ class TabulatedTransmission(DerivedTransmission):
 
 
 class TransmissionTables(NamedTuple):
-    """Tables of many transmission functions, packed into arrays that are indexed by the number of the function."""
+    """Tables of many transmission functions, packed into arrays indexed by the number of the function."""
 
     period: Floats
     """Period of each function [rad of the driver]."""
     inverse: Floats
     """1 over the period of each function [1/rad]."""
     coarse: Floats
-    """Period rounded to 24 bits [rad]; with `rest` it is the period as a sum of two floats."""
+    """Period rounded to 24 bits [rad]; the exact period is `coarse` + `rest`."""
     rest: Floats
-    """Period less `coarse` [rad]."""
+    """Period minus `coarse` [rad]."""
     density: Floats
-    """Number of uniform cells of each function over its period [1/rad]."""
+    """Number of uniform cells over the period, for each function [1/rad]."""
     first: Ints
-    """Index of the first cell of each function, with cells cut at kinks."""
+    """Index of the first cell of each function in `cells`."""
     last: Ints
-    """Index of the last cell of each function."""
+    """Index of the last cell of each function in `cells`."""
     cuts: Ints
     """Indices into `kinks`: function k has the kinks `kinks[cuts[k]:cuts[k + 1]]`."""
     kinks: Floats
@@ -260,17 +261,17 @@ class TransmissionTables(NamedTuple):
 
 
 class PeriodicTransmission(HasKinks, Protocol):
-    """Function from which a table can be made, such as a transmission function."""
+    """Function of which a table can be made, such as a transmission function."""
 
     @property
     def ratio(self) -> Fraction:
         """Mean speed ratio."""
 
     def error(self, S: Floats) -> Floats:
-        """Return the transmission error (rad) at the driver's angles (rad)."""
+        """Return the transmission error [rad] at driver angles S [rad]."""
 
     def speed(self, S: Floats) -> Floats:
-        """Return the speed ratio at the driver's angles (rad)."""
+        """Return the speed ratio at driver angles S [rad]."""
 
 
 class TransmissionTable(NamedTuple):
@@ -282,7 +283,7 @@ class TransmissionTable(NamedTuple):
 
 
 def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionTable | None:
-    """Return tables of error and speed of a transmission function that follow it to rounding error.
+    """Return tables of error and speed of a transmission function that agree with it to rounding error.
 
     The tables of a `TabulatedTransmission` are used as they are. Return None if no table follows the function: if it
     has gaps, or if each column of angles has a transmission function of its own.
@@ -312,8 +313,9 @@ def make_transmission_table(transmission: PeriodicTransmission) -> TransmissionT
 
 
 def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> TransmissionTables:
-    """Pack the tables of several transmission functions into one set of arrays."""
+    """Return the tables of several transmission functions packed into one set of arrays."""
     period = np.array([transmission.period for transmission in transmissions])
+    # the period is the sum of two parts, so that products of the coarse part with counts up to 2^29 are exact
     coarse = period.astype(np.float32).astype(float)
     kinks = [transmission.error.kinks for transmission in transmissions]
     cells = [_cells(transmission) for transmission in transmissions]
@@ -340,7 +342,7 @@ def join_transmission_tables(transmissions: Sequence[TransmissionTable]) -> Tran
 def _cells(transmission: TransmissionTable) -> Floats:
     """Return the cells of a function, shape (n, `CELL`).
 
-    They are the cells of the finer of its two tables, each with the cell of the other table in which it lies.
+    They are the cells of the finer of its two tables, each combined with the cell of the other table that contains it.
     """
     finer = max(transmission.error, transmission.speed, key=lambda table: table.cells)
     found = np.zeros((len(finer.middles), CELL))
@@ -364,7 +366,7 @@ def transmission_along(
     u: Floats,
     cell: NDArray[np.int32],
 ) -> None:
-    """Compute transmission error (rad) and speed ratio of a function at its driver's angles (rad).
+    """Compute transmission error [rad] and speed ratio of one function at driver angles [rad].
 
     The results are written into `error` and `speed`; `u` and `cell` are scratch. The operations are those of
     `CellTable`, in loops most of which the compiler vectorizes.
@@ -389,7 +391,7 @@ def transmission_along(
 
 @kernel
 def _polynomials(cells: Floats, begin: np.uint64, u: float) -> tuple[float, float]:
-    """Evaluate error and speed from the numbers of a cell by Horner's method, in parallel."""
+    """Return error and speed from the numbers of one cell, by Horner's method for both polynomials together."""
     x, y = u - cells[begin], u - cells[begin + np.uint64(1)]
     at, one, two = begin + np.uint64(2), np.uint64(1), np.uint64(2)
     error, speed = cells[at], cells[at + one]

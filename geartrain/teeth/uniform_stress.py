@@ -1,4 +1,4 @@
-"""Teeth of uniform Hertz stress: the shortest teeth for a given limit of contact pressure."""
+"""Teeth of uniform Hertz stress, the shortest teeth for a given maximum contact pressure."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class UniformStress(ConjugateToothForm):
-    """Teeth of uniform Hertz stress: the shortest teeth for a given limit of contact pressure.
+    """Teeth of uniform Hertz stress, the shortest teeth for a given maximum contact pressure.
 
     The pressure is the same at every instant while one tooth pair bears the load (docs/shapes.md).
 
@@ -49,7 +49,7 @@ class UniformStress(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its design centre distance.
+        """Return the pair of these wheels at its design centre distance.
 
         Raises
         ------

@@ -1,5 +1,5 @@
-"""Teeth of uniform temperature: uniform frictional heat per area of profile, removed by the lubricant where it is
-produced.
+"""Teeth of uniform temperature: the frictional heat per area of profile is uniform, and the lubricant removes it
+locally.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class UniformTemperature(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """Return the pair at its design centre distance.
+        """Return the pair of these wheels at its design centre distance.
 
         Raises
         ------
@@ -101,7 +101,7 @@ class UniformTemperature(ConjugateToothForm):
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
-        """Return approach and recess with gamma = (A + B) / heat."""
+        """Return approach and recess side with gamma = (A + B) / heat."""
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
         from geartrain.teeth.conjugate.path_of_contact import none
 
@@ -113,6 +113,7 @@ class UniformTemperature(ConjugateToothForm):
                 found.append(none(0.0))
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
+            # the contact would stop near the pitch point
             elif b + gamma <= 0:
                 raise _heat_error(pitch, gamma)
             else:
@@ -120,7 +121,7 @@ class UniformTemperature(ConjugateToothForm):
         return found[0], found[1]
 
     def _sides_of_depth(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
-        """Return approach and recess with the requested working depth, which increases with gamma."""
+        """Return approach and recess side with the requested working depth, which increases with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
         from geartrain.teeth.conjugate.path_losses import depth, to_depth
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact

@@ -132,7 +132,7 @@ class FrictionInForce:
     """Friction law (coefficient as a function of sliding speed), if one is declared."""
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True for a friction law, and for a coefficient above 0."""
         return self.law is not None or bool(self.sliding) or self.static > 0
 
@@ -156,7 +156,7 @@ def _read_source(raw: object) -> object:
 
 
 class Train(Declared):
-    """A gear train as declared: links, turning pairs, gear pairs, couplings, and its required outputs.
+    """A gear train: its links with their wheels, turning pairs, gear pairs and couplings, inputs and outputs.
 
     See Also
     --------
@@ -167,21 +167,10 @@ class Train(Declared):
     name: str = Field("train", description="Short name, preferably that of the file")
     title: str = Field("", description="Title on one line, for readers")
     note: str | None = Field(None, description="Remark for readers")
-    extends: str | None = Field(
-        None,
-        description="Parent declaration to change: a file in the same folder, or a shipped train or evidence by name",
-    )
-    remove: Remove | None = Field(None, description="Parts of the parent to remove, before other parts are added")
-    sources: ByName[Annotated[Source, BeforeValidator(_read_source)]] = Field(
-        {}, validate_default=True, description="Sources by key"
-    )
-    errata: tuple[Erratum, ...] = Field((), description="Errors in published sources")
     frame: Id = Field("frame", description="Fixed link, whose speed is 0")
-    unit: SpeedUnit | None = Field(None, description="Unit of speeds; default plain numbers")
-    epoch: DeclaredEpoch | None = Field(
-        None, description="Date at which the positions of all pointers are known; needs a `unit` of time"
+    unit: SpeedUnit | None = Field(
+        None, description="Unit of all speeds; default plain numbers, or the unit of the inputs"
     )
-    view: View = Field(View(), description="Side from which the train is viewed, and positive sense of rotation")
     links: ByName[Annotated[Link, Nothing]] = Field(description="All links with their wheels, by name")
     axes: ByName[Axis] = Field(
         {},
@@ -193,62 +182,74 @@ class Train(Declared):
     couplings: tuple[Coupling, ...] = Field(
         (), description="Couplings: pins in slots, pins in holes, links kept parallel"
     )
-    tooth_form: DeclaredToothForm | None = Field(None, description="Default tooth form of all gear pairs")
-    friction: DeclaredFriction | None = Field(
-        None,
-        description="Default friction of all gear pairs: a coefficient, {sliding, static, "
-        "deviation}, or a friction law",
-    )
-    restitution: DeclaredRestitution | None = Field(
-        None, description="Default coefficient of restitution of all pairs and couplings, 0 to 1"
-    )
-    stiffness: PairStiffness | None = Field(None, description="Default mesh stiffness of all gear pairs")
-    damping: PairDamping | None = Field(None, description="Default mesh damping of all gear pairs")
-    thickness: Thickness | None = Field(None, description="Default thickness of all wheels")
-    density: MaterialDensity | None = Field(None, description="Default density of all wheels")
-    face_width: FaceWidth | None = Field(None, description="Default face width of all wheels")
-    material: Id | None = Field(
-        None, description="Default material of all wheels: a name of the table or of `materials`"
-    )
-    materials: ByName[Material] = Field(
-        {}, validate_default=True, description="Further materials besides those of the table, by name"
-    )
-    cutting: WheelManufacture | None = Field(None, description="Default manufacturing errors of all wheels")
-    fitting: PairMounting | None = Field(None, description="Default mounting errors of all gear pairs")
     inputs: ByName[Speed] = Field(
-        {}, validate_default=True, description="Prescribed speeds by link, in `unit`, else in the unit of the first one"
+        {},
+        validate_default=True,
+        description="Prescribed speeds by link: plain numbers in `unit`, or with a unit such as `30 rpm`",
     )
-    crank: Id | None = Field(None, description="Link at which power enters the train; default the inputs")
-    rate: Speed | None = Field(
-        None, description="Speed of the input in real time, for powers and impacts, such as 30 rpm"
-    )
-    drive: Drive | None = Field(None, description="Drive of the train in time; default `rate`")
-    escapement: Escapement | None = Field(
-        None, description="Escapement, which lets one link advance by half a tooth per beat"
+    outputs: ByName[Annotated[Output, Nothing]] = Field(
+        {}, validate_default=True, description="Required outputs of the train, by name"
     )
     fixed: tuple[Id, ...] = Field((), description="Links fixed to the frame")
     locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that are locked together")
     clutches: ByName[Clutch] = Field(
         {}, validate_default=True, description="Brakes and clutches by name; states engage them"
     )
-    loads: ByName[Torque] = Field(
-        {}, validate_default=True, description="External torques by link; positive if power enters the train"
-    )
-    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown")
     states: ByName[Annotated[State, Nothing]] = Field(
-        {}, validate_default=True, description="Modes of operation by name, each solved separately"
+        {}, validate_default=True, description="Modes of operation by name, each of which is solved"
     )
     expect: ExpectedVerdict | None = Field(
         None, description="Expected verdict of all states, which does not count as a failure; default `determined`"
     )
+    friction: DeclaredFriction | None = Field(
+        None,
+        description="Default friction of all gear pairs: a coefficient, or the keys of a friction law",
+    )
+    tooth_form: DeclaredToothForm | None = Field(None, description="Default tooth form of all gear pairs")
+    restitution: DeclaredRestitution | None = Field(
+        None, description="Default coefficient of restitution of all pairs and couplings, 0 to 1"
+    )
+    stiffness: PairStiffness | None = Field(None, description="Default mesh stiffness of all gear pairs")
+    damping: PairDamping | None = Field(None, description="Default mesh damping of all gear pairs")
+    loads: ByName[Torque] = Field(
+        {}, validate_default=True, description="External torques by link; positive if power enters the train"
+    )
+    solve_for: Id | None = Field(None, description="Link whose external torque is the unknown")
+    crank: Id | None = Field(None, description="Link at which power enters the train; default the inputs")
+    rate: Speed | None = Field(None, description="Speed of the input in real time, for powers and impacts")
+    drive: Drive | None = Field(None, description="Drive of the train in time; default `rate`")
+    escapement: Escapement | None = Field(
+        None, description="Escapement, which lets one link advance by half a tooth per beat"
+    )
+    thickness: Thickness | None = Field(None, description="Default thickness of all wheels")
+    face_width: FaceWidth | None = Field(None, description="Default face width of all wheels")
+    material: Id | None = Field(
+        None, description="Default material of all wheels: a name of the table or of `materials`"
+    )
+    density: MaterialDensity | None = Field(None, description="Default density of all wheels")
+    materials: ByName[Material] = Field(
+        {}, validate_default=True, description="Further materials besides those of the table, by name"
+    )
+    cutting: WheelManufacture | None = Field(None, description="Default manufacturing errors of all wheels")
+    fitting: PairMounting | None = Field(None, description="Default mounting errors of all gear pairs")
+    view: View = Field(View(), description="Side from which the train is viewed, and positive sense of rotation")
     dials: ByName[Annotated[Dial, Nothing]] = Field(
         {}, validate_default=True, description="Dials with their scales, by name"
     )
-    outputs: ByName[Annotated[Output, Nothing]] = Field(
-        {}, validate_default=True, description="Required outputs of the train, by name"
+    epoch: DeclaredEpoch | None = Field(
+        None, description="Date at which the positions of all pointers are known; needs a `unit` of time"
     )
+    extends: str | None = Field(
+        None,
+        description="Declaration to change: a file in the same folder, or the name of a shipped train or evidence",
+    )
+    remove: Remove | None = Field(None, description="Parts of the declaration in `extends` to remove")
+    sources: ByName[Annotated[Source, BeforeValidator(_read_source)]] = Field(
+        {}, validate_default=True, description="Sources by key"
+    )
+    errata: tuple[Erratum, ...] = Field((), description="Errors in published sources")
     reconstruct: Reconstruction | None = Field(
-        None, description="Constraints of a reconstruction; they make the declaration evidence of an unknown train"
+        None, description="Evidence of an incomplete train, for `geartrain reconstruct`"
     )
 
     _marks: Marks | None = PrivateAttr(None)
@@ -518,4 +519,4 @@ class Train(Declared):
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
         """Yield the name and wheel of every tooth count that is declared with a range or choices."""
-        return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.doubt)
+        return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.uncertainty)

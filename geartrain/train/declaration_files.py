@@ -337,7 +337,7 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
     raise DeclarationError(
         Problem(
             "the file does not exist",
-            f"no shipped {kind} is called '{path.stem}' either",
+            f"'{path.stem}' is not the name of a shipped {kind} either",
             _suggestion(path.stem, evidence),
             str(source),
         )
@@ -347,12 +347,12 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
 def _suggestion(name: str, evidence: bool) -> str:
     """Suggest a correction for a name that is not shipped as evidence or as a train."""
     if evidence and name in shipped():
-        return f"it is a shipped train: name lost arbors by `--without ARBOR`, or give evidence: {_evidence_names()}"
+        return f"it is a shipped train: name lost arbors by `--lost ARBOR`, or give evidence: {_evidence_names()}"
     if not evidence and name in shipped_evidence():
         return f"it is evidence: `geartrain reconstruct {name}` finds the trains that explain it"
     if evidence:
         return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence_names()}", wide=True)
-    return suggest(name, shipped(), otherwise="`geartrain list` shows the shipped trains", wide=True)
+    return suggest(name, shipped(), otherwise="check the path; `geartrain list` shows the shipped trains", wide=True)
 
 
 def _evidence_names() -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -87,11 +88,9 @@ def read_count(raw: object) -> int:
     if number is not None and 0 < number <= MOST_TEETH and str(raw).isascii():
         return number
     shown = str(raw) if len(str(raw)) <= 30 else str(raw)[:27] + "..."
-    raise PydanticCustomError(
-        "teeth",
-        "{shown} is not a tooth count",
-        {"shown": shown, "fix": "give a whole number from 1 to 10^12"},
-    )
+    digits = re.fullmatch(r"(\d{1,12}) *[a-zA-Z]+", shown)
+    fix = f"write the number only: {digits[1]}" if digits else "write a whole number from 1 to 10^12, such as 20"
+    raise PydanticCustomError("teeth", "'{shown}' is not a tooth count", {"shown": shown, "fix": fix})
 
 
 def _boolean(raw: object) -> bool:

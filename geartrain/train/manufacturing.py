@@ -11,7 +11,7 @@ import csv
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, Field, GetJsonSchemaHandler, model_validator
 from pydantic_core import PydanticCustomError
@@ -71,22 +71,20 @@ class Material(Declared):
     ('206 GPa', 1863)
     """
 
-    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(
-        description="Young's modulus, such as 100 GPa"
-    )
+    youngs_modulus: Annotated[Pressure, above_zero("give for example 100 GPa")] = Field(description="Young's modulus")
     poisson: Annotated[Figure, AfterValidator(_check_poisson)] = Field(
         Figure.parse("0.3"), description="Poisson's ratio, 0 to less than 0.5"
     )
     strength: Annotated[Pressure, above_zero(_STRENGTH)] | None = Field(
         None,
         description="Strength: 0.2 % proof stress of metals, tensile strength of materials that do not "
-        "yield, such as 200 MPa; without safety factor",
+        "yield; without safety factor",
     )
     hardness: Annotated[Figure, above_zero("give for example 120, in HV")] | None = Field(
         None, description="Vickers hardness (HV), for wear calculations"
     )
     density: Annotated[Density, above_zero("give for example 8.5 g/cm3")] | None = Field(
-        None, description="Density, such as 8.5 g/cm3; the `density` of a wheel takes precedence"
+        None, description="Density; the `density` of a wheel takes precedence"
     )
     spread: Annotated[Figure, AfterValidator(_check_spread)] = Field(
         Figure.parse("0.3"), description="Relative uncertainty of the strength to either side, 0 to less than 1"
@@ -141,6 +139,8 @@ LengthOff = Annotated[Quantity, Dimension("length or fraction", plain=True)]
 class _DeclaredError(Declared):
     """A fixed error, or one that is drawn for each tooth, wheel or pair. A plain value is fixed."""
 
+    dimension: ClassVar[str]
+
     @model_validator(mode="after")
     def _has_one_key(self) -> _DeclaredError:
         given = [key for key in ("value", "normal", "uniform") if getattr(self, key) is not None]
@@ -162,11 +162,13 @@ class _DeclaredError(Declared):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["number", "string"]}, handler(schema))
+        return also({"type": ["number", "string"], "format": cls.dimension}, handler(schema))
 
 
 class AngleError(_DeclaredError):
-    """Error of an angle, fixed or random."""
+    """Error of an angle, fixed or random. A plain value is fixed; a number is a fraction of the nominal value."""
+
+    dimension = "angle or fraction"
 
     value: AngleOff | None = Field(None, description="Fixed error")
     normal: AngleOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
@@ -174,7 +176,9 @@ class AngleError(_DeclaredError):
 
 
 class LengthError(_DeclaredError):
-    """Error of a length, fixed or random."""
+    """Error of a length, fixed or random. A plain value is fixed; a number is a fraction of the tooth depth."""
+
+    dimension = "length or fraction"
 
     value: LengthOff | None = Field(None, description="Fixed error")
     normal: LengthOff | None = Field(None, description="Standard deviation of a normal distribution about 0")
@@ -193,7 +197,7 @@ class MeasuredTeeth(Declared):
         None, fail_fast=True, description="Deviation of each tip radius; positive if it is too large"
     )
     aperture_deviation: tuple[AngleOff, ...] | None = Field(
-        None, fail_fast=True, description="Deviation of each tooth's aperture; positive if it is too wide"
+        None, fail_fast=True, description="Deviation of the aperture angle of each tooth; positive if it is too wide"
     )
 
     @property
@@ -227,7 +231,7 @@ class WheelManufacture(Declared):
     )
     tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Deviation of each tip radius")
     aperture_deviation: Annotated[AngleError, short_for("value")] | None = Field(
-        None, description="Deviation of each tooth's aperture"
+        None, description="Deviation of the aperture angle of each tooth"
     )
     measured: MeasuredTeeth | None = Field(None, description="Deviations measured on a real wheel, tooth by tooth")
     source: str | None = Field(None, description="Key of the source in `sources`")

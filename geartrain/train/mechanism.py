@@ -96,7 +96,7 @@ class BearingFriction(Declared):
     0.5
     """
 
-    sliding: FrictionTorque = Field(description="Sliding friction torque, such as 0.5 mN m, opposed to the rotation")
+    sliding: FrictionTorque = Field(description="Sliding friction torque, opposed to the rotation")
     static: FrictionTorque | None = Field(
         None, description="Static friction torque that must be exceeded to start; at least `sliding`, default `sliding`"
     )
@@ -124,7 +124,7 @@ class BearingFriction(Declared):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["string", "number"]}, handler(schema))
+        return also({"type": ["string", "number"], "format": "torque"}, handler(schema))
 
 
 def _read_bearing(raw: object) -> object:
@@ -271,7 +271,7 @@ class Teeth(Declared):
         return range(self.search[0], self.search[1] + 1) if len(self.search) == 2 else sorted(set(self.search))
 
     @property
-    def chances(self) -> dict[int, Fraction]:
+    def probabilities(self) -> dict[int, Fraction]:
         """Prior probability of each count by `weights`, in ascending order of counts; the sum is 1.
 
         Without weights all counts of `range`, `choices` or `search` are equally probable. Counts of weight 0 are left
@@ -279,7 +279,7 @@ class Teeth(Declared):
 
         Examples
         --------
-        >>> Teeth(value=64, range=(63, 65), weights=(1, 3, 0)).chances
+        >>> Teeth(value=64, range=(63, 65), weights=(1, 3, 0)).probabilities
         {63: Fraction(1, 4), 64: Fraction(3, 4)}
         """
         counts = self.allowed
@@ -289,7 +289,7 @@ class Teeth(Declared):
         whole, found = sum(weights), dict.fromkeys(sorted(counts), Fraction(0))
         for count, weight in zip(counts, weights, strict=True):  # a count may be listed twice
             found[count] += weight / whole
-        return {count: chance for count, chance in found.items() if chance}
+        return {count: probability for count, probability in found.items() if probability}
 
     @property
     def fault_of_weights(self) -> str | None:
@@ -342,7 +342,7 @@ class Wheel(Declared):
     >>> Wheel(teeth=20).count
     20
     >>> doubtful = Wheel(teeth={"value": 64, "range": (64, 66)})
-    >>> doubtful.count, doubtful.doubt.allowed
+    >>> doubtful.count, doubtful.uncertainty.allowed
     (64, (64, 65, 66))
     """
 
@@ -389,7 +389,7 @@ class Wheel(Declared):
         return self.teeth if isinstance(self.teeth, int) else self.teeth.value
 
     @property
-    def doubt(self) -> Teeth | None:
+    def uncertainty(self) -> Teeth | None:
         """Declared range or choices of an uncertain tooth count; None for a certain one."""
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
@@ -464,7 +464,8 @@ class Link(Declared):
         None, description="Mass of a link on a moving carrier; default from its wheels, like `inertia`"
     )
     bearing: DeclaredBearing | None = Field(
-        None, description="Friction torque of its bearing, opposed to the rotation, or {sliding, static}; default none"
+        None,
+        description="Friction torque of its bearing, opposed to rotation, or `{sliding, static}`; default none",
     )
     drag: (
         Annotated[TorsionalDamping, not_below_zero("give its magnitude: drag is always opposed to the rotation")] | None
@@ -490,7 +491,7 @@ class Axis(Declared):
 
     direction: tuple[Figure, Figure, Figure] = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
-        description="Direction vector about which speeds are positive; default z",
+        description="Direction vector about which speeds are positive; default [0, 0, 1]",
     )
     position: tuple[Length, Length, Length] | None = Field(
         None, description="A point of the axis, as three lengths; default unknown"
@@ -564,7 +565,7 @@ class GearPair(Declared):
     tooth_form: DeclaredToothForm | None = Field(None, description="Tooth form; default the train's")
     friction: DeclaredFriction | None = Field(
         None,
-        description="Coefficient of friction between teeth, {sliding, static, deviation}, or a friction law; "
+        description="Coefficient of friction between teeth, `{sliding, static, deviation}`, or a friction law; "
         "default the train's",
     )
     restitution: DeclaredRestitution | None = Field(
@@ -582,11 +583,12 @@ class GearPair(Declared):
     )
     efficiency: DeclaredEfficiency | None = Field(
         None,
-        description="Basic efficiency with the carrier fixed, at most 1: a number, a percentage, or {forward, backward}"
-        "; default from friction and tooth form",
+        description="Basic efficiency with the carrier fixed, at most 1: a number or a percentage, or "
+        "`{forward, backward}`; default from friction and tooth form",
     )
     share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
-        None, description="Share of a torque, relative to the shares of other pairs with a common wheel; above 0"
+        None,
+        description="Share of the torque of a wheel with several pairs, relative to its other pairs; above 0",
     )
     driver: Id | None = Field(None, description="Id of the driving wheel; default from the power flow")
     phase: Figure | None = Field(

@@ -89,13 +89,13 @@ class Graduation(Declared):
     divisions: Whole = Field(
         1, description="Number of divisions along all turns; default the sum of the spans of its names"
     )
-    cell: str = Field("", description="Name of one division, such as month; default from a named scale, else cell")
+    cell: str = Field("", description="Name of one division; default from a named scale, else cell")
     names: Annotated[
         tuple[Annotated[DialName, short_for("name")], ...],
         AlsoShort({"enum": [*NAMED_SCALES]}),
-    ] = Field((), description="Labels of divisions: a named scale, a list for equal parts, or a list of {name, span}")
+    ] = Field((), description="Labels of divisions: a named scale, a list for equal parts, or a list of `{name, span}`")
     numerals: Annotated[DialNumerals, short_for("style")] | None = Field(
-        None, description="Numerals at the lines: roman, arabic, or {style, every, to}; default counted from 0"
+        None, description="Numerals at the lines: roman, arabic, or `{style, every, to}`; default counted from 0"
     )
     glyphs: Annotated[dict[Whole, str], AfterValidator(FrozenDict)] = Field(
         {}, validate_default=True, description="Engraved texts of single divisions, by their number from 1"
@@ -201,7 +201,7 @@ class Dial(Graduation):
     Train : has them as `dials`, by name
     """
 
-    face: str | None = Field(None, description="Side from which the dial is read, such as front or back")
+    face: str | None = Field(None, description="Side from which the dial is read, front or back")
     turns: Whole = Field(1, description="Number of turns of a spiral scale")
     counted: Literal["clockwise", "counter-clockwise"] = Field(
         "clockwise", description="Sense in which the divisions are counted, as seen by the reader"
@@ -277,7 +277,7 @@ class Target(Declared):
 
     name: str | None = Field(None, description="Name of an astronomical period; `geartrain periods` lists them")
     period: Annotated[Span, AfterValidator(_period_above_zero)] | None = Field(
-        None, description="Time for `turns` turns, such as 29.53059 d; above 0"
+        None, description="Time or length of `turns` turns, above 0"
     )
     speed: Figure | None = Field(
         None, description="Speed in the train's unit with its sign; 0 is compared by difference"
@@ -290,8 +290,8 @@ class Target(Declared):
     )
     tolerance: Share | None = Field(
         None,
-        description="Maximum relative error, such as 20 ppm; for a speed of 0 the maximum difference in the train's "
-        "unit, as a plain number. `check` fails if it is exceeded; a target without tolerance is only reported",
+        description="Maximum relative error, above which `geartrain check` fails; for a speed of 0 the maximum "
+        "difference, as a plain number in the train's unit; default the error is only reported",
     )
     source: str | None = Field(None, description="Key of the source in `sources`")
     note: str | None = Field(None, description="Remark for readers")
@@ -350,7 +350,7 @@ class Expect(Declared):
     """
 
     value: Figure = Field(
-        description="Expected speed in the train's unit; integers and fractions are exact, decimals to their digits"
+        description="Expected speed in the train's unit: exact for integers and fractions, to the digits of a decimal"
     )
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
@@ -386,7 +386,7 @@ class Published(Declared):
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
         None, description="Maximum difference, in the unit of the value; default by its digits"
     )
-    place: str | None = Field(None, description="Place in the source, such as a page or table")
+    place: str | None = Field(None, description="Page or table of the source")
     source: str | None = Field(None, description="Key of the source in `sources`")
 
     @model_validator(mode="after")
@@ -414,9 +414,9 @@ class Output(Declared):
     of: Id | None = Field(None, description="Link that turns; default the name of the output")
     relative_to: Id | None = Field(None, description="Link to which the speed is relative; default the frame")
     expect: Annotated[Expect, short_for("value")] | None = Field(None, description="Required speed in the train's unit")
-    published: Published | None = Field(None, description="Value that a source prints")
+    published: Published | None = Field(None, description="Value printed in a source, which must agree")
     targets: tuple[Annotated[Target, short_for("name")], ...] = Field(
-        (), description="Astronomical or other targets of the output"
+        (), description="Periods or speeds with which the output is compared"
     )
     dial: Id | None = Field(None, description="Name of the dial on which the output is read")
     hand: Literal["needle", "hour", "minute", "seconds"] = Field(
@@ -444,7 +444,7 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """Unit of speeds: one turn per period, time or length.
+    """Unit of all speeds: a speed of 1 is one turn per this time, length or period.
 
     See Also
     --------
@@ -452,7 +452,7 @@ class SpeedUnit(Declared):
     """
 
     per: str = Field(
-        description="Name of an astronomical period, or a time or length such as 7 d or 18 ft: one turn per this"
+        description="A time (`12 h`, `7 d`), a length (`18 ft`), or the name of a period that `geartrain periods` lists"
     )
 
 
@@ -464,7 +464,7 @@ class View(Declared):
     Train : has it as `view`
     """
 
-    from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, such as front")
+    from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, front or back")
     positive: Literal["clockwise", "counter-clockwise"] = Field(
         "counter-clockwise", description="Sense of rotation of a positive speed"
     )

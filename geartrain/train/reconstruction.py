@@ -136,7 +136,7 @@ class MeasuredGeometry(Declared):
 
 
 class Reconstruction(Declared):
-    """Rules for the explanation of evidence. A declaration that has them is evidence, not a train.
+    """Rules for the reconstruction of a train from surviving parts; a declaration that has them is not a train.
 
     Its links are the surviving arbors, its gears are pairs that were observed in mesh, and an output without `of` is a
     pointer whose arbor is unknown (`of: new` if that arbor is known not to survive).

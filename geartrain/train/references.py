@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from geartrain.errors import Loc, Problem, dotted, suggest
-from geartrain.numerics.quantity import Quantity
+from geartrain.numerics.quantity import Quantity, units_of
 from geartrain.train.declaration import Train
 from geartrain.train.manufacturing import material_table
 from geartrain.train.outputs import Output, Target
@@ -35,7 +36,7 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
         yield Problem("inputs mix units", why, "give all inputs a unit, or none", train.place(*plain[0]))
     if train.unit is not None and train.unit_days is None:
         why = f"the train's unit is one turn per {train.unit.per}, which is not a time, but '{named[1]}' is"
-        fix = "write all inputs as plain numbers, or declare `unit: {per: ...}` as a time"
+        fix = "write all inputs as plain numbers, or give a time, such as `unit: {per: 1 h}`"
         yield Problem("inputs mix units", f"{why} a speed in time", fix, train.place(*named[0]))
 
 
@@ -96,7 +97,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             yield Problem(
                 f"'{target.name}' is a speed per year",
                 "the train's unit is not a year",
-                "declare `unit: {per: year_tropical_J2000}`, or give a period",
+                "add `unit: {per: year_tropical_J2000}`, or give a period",
                 place,
             )
             return
@@ -106,14 +107,14 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             yield Problem(
                 f"the target '{target.period}' is a length",
                 "the train's unit is not a length",
-                "declare `unit: {per: ...}` as a length",
+                "add for example `unit: {per: 18 ft}`",
                 place,
             )
     elif target.speed is None and train.unit_days is None:
         yield Problem(
             "a period cannot be a target of this train",
-            "the train's unit is not a time",
-            "declare `unit: {per: ...}` as a time",
+            "the train's unit is not a time" if train.unit else "the train has no unit of time",
+            "add for example `unit: {per: 1 d}`: a speed of 1 is then one turn per day",
             place,
         )
 
@@ -124,9 +125,19 @@ def _epoch_units(train: Train) -> Iterator[Problem]:
         yield Problem(
             "the epoch needs a unit of time",
             f"`unit` converts turns to days; {f'{train.unit.per} is not a time' if train.unit else 'none is declared'}",
-            "declare `unit: {per: ...}` as a time, such as year_tropical_J2000",
+            "add for example `unit: {per: year_tropical_J2000}`",
             train.place("epoch"),
         )
+
+
+def _suggested_unit(train: Train, per: str) -> str:
+    """Return a correction of a unit that cannot be read."""
+    number, name = re.fullmatch(r"([\d./ ]*)(.*)", per.strip(), re.DOTALL).groups()  # type: ignore[union-attr]
+    if name in ("rpm", "turn/s", "deg/s", "rad/s"):
+        link = next(iter(train.inputs), "sun")
+        return f"leave `unit` out, and write inputs with their unit: `inputs: {{{link}: 30 {name}}}`"
+    otherwise = f"write for example `unit: {{per: {number.strip() or 1} h}}`; units: {units_of('time or length')}"
+    return otherwise if number.strip() else suggest(name, period_table(), otherwise=otherwise, wide=True)
 
 
 def declared_units(train: Train) -> Iterator[Problem]:
@@ -135,8 +146,8 @@ def declared_units(train: Train) -> Iterator[Problem]:
     if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
         yield Problem(
             f"'{train.unit.per}' is not a unit",
-            "a unit is a row of the table of periods, a time or a length",
-            suggested_period(train.unit.per),
+            "`per` is a time, a length, or a period listed by `geartrain periods`",
+            _suggested_unit(train, train.unit.per),
             train.place("unit"),
         )
     elif (
@@ -195,8 +206,21 @@ def find_problems(train: Train) -> Iterator[Problem]:
     yield from declared_units(train)
 
 
+_HOMES = {
+    "link": "links: {{{}: {{}}}}",
+    "clutch": "clutches: {{{}: {{fixes: {link}}}}}",
+    "dial": "dials: {{{}: {{}}}}",
+    "source": "sources: {{{}: author and year}}",
+}
+"""Declarations of the parts to which others refer by name."""
+
+
 def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
-    fix = suggest(name, known, otherwise=f"declare the {kind}, or correct the name")
+    names = list(known)
+    few = f"use one of: {', '.join(names)}; or " if 0 < len(names) <= 12 else "correct the name, or " if names else ""
+    link = next((link for link in train.links if link != train.frame), train.frame)
+    line = f"`{_HOMES[kind].format(name, link=link)}`" if kind in _HOMES else f"the {kind}"
+    fix = suggest(name, names, otherwise=f"{few}declare {line}")
     return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` refers to it", fix, train.place(*loc))
 
 
@@ -209,7 +233,7 @@ def _unknown_wheel(train: Train, name: str, at: int) -> Problem:
     if not own:
         why, fix = f"'{name}' is a link without wheels", f"declare its wheel: `{name}: {{wheels: {{w: 20}}}}`"
     else:
-        why, fix = f"'{name}' is a link; its wheels are {own}", "name one of them"
+        why, fix = f"'{name}' is a link, and a pair names two wheels", f"write one of its wheels: {own}"
     return Problem(unknown.what, why, fix, unknown.place)
 
 
@@ -221,7 +245,7 @@ def _links(train: Train) -> Iterator[Problem]:
         yield Problem(
             "no link 'frame'",
             "it is the fixed link, unless the key `frame` names another one",
-            f"declare it, or add for example `frame: {next(iter(links), 'case')}`",
+            f"add `frame: {{}}` to `links`, or name the fixed link: `frame: {next(iter(links), 'case')}`",
             train.place("links"),
         )
     elif train.frame not in links:
@@ -230,7 +254,7 @@ def _links(train: Train) -> Iterator[Problem]:
     for at, joint in enumerate(train.revolutes):
         labels.add(joint.axis)
         for link in joint.pair:
-            if link not in links:
+            if link not in links and link != train.frame:
                 yield _unknown(train, "link", link, links, "revolutes", at, "pair")
         if joint.pair[0] == joint.pair[1]:
             yield Problem(

@@ -50,7 +50,7 @@ class SpringDrive(Declared):
     """
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
-        description="Torsional stiffness: torque per radian of winding, such as 0.02 N m/rad"
+        description="Torsional stiffness: torque per radian of winding"
     )
     turns: Annotated[Figure, not_below_zero("give the turns of winding at the start, 0 or more")] = Field(
         description="Turns of winding at the start"
@@ -75,10 +75,10 @@ class HandDrive(Declared):
     Drive : has it as `hand`
     """
 
-    torque: DriveTorque | None = Field(None, description="Constant torque of the hand, such as 0.5 N m")
-    rate: Speed | None = Field(None, description="Speed that the hand keeps, such as 30 rpm")
+    torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
+    rate: Speed | None = Field(None, description="Speed that the hand keeps")
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 5 N m/rad")] | None = Field(
-        None, description="Torque per radian by which the crank lags behind the hand, such as 5 N m/rad; default rigid"
+        None, description="Torque per radian by which the crank lags behind the hand; default rigid"
     )
     inertia: Annotated[Inertia, not_below_zero("give an inertia of 0 or more")] | None = Field(
         None, description="Moment of inertia of arm and crank; default 0"
@@ -119,12 +119,10 @@ class Drive(Declared):
     ('weight', 0.08)
     """
 
-    rate: Speed | None = Field(
-        None, description="Constant speed of the input in real time, for any load, such as 30 rpm"
-    )
-    torque: DriveTorque | None = Field(None, description="Constant torque, such as 0.5 N m")
+    rate: Speed | None = Field(None, description="Constant speed of the input in real time, for any load")
+    torque: DriveTorque | None = Field(None, description="Constant torque")
     weight: Annotated[Mass, above_zero("give a mass such as 4 kg")] | None = Field(
-        None, description="Mass of a weight on a line around a drum, such as 4 kg; needs `drum`"
+        None, description="Mass of a weight on a line around a drum; needs `drum`"
     )
     drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
         None,
@@ -196,11 +194,11 @@ class Escapement(Declared):
     link: Id = Field(description="Link of the escape wheel")
     teeth: Count = Field(description="Tooth count of the escape wheel")
     beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
-        description="Time between beats, each of which lets half a tooth pass, such as 1 s"
+        description="Time between beats, each of which lets half a tooth pass"
     )
     pendulum: Annotated[MeasuredLength, above_zero("give a length such as 994 mm")] | None = Field(
         None,
-        description="Length of its pendulum from the suspension to the middle of the bob, such as 994 mm; default none",
+        description="Length of its pendulum from the suspension to the middle of the bob; default none",
     )
 
     @model_validator(mode="after")
@@ -264,7 +262,7 @@ class State(Declared):
     StateCase : prescriptions in force in one state
     """
 
-    engaged: tuple[Id, ...] = Field((), description="Names of engaged clutches and brakes")
+    engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are engaged, by name")
     fixed: tuple[Id, ...] | None = Field(None, description="Links fixed to the frame; default the train's")
     locks: tuple[tuple[Id, Id], ...] | None = Field(
         None, description="Pairs of links that are locked together; default the train's"
@@ -288,7 +286,7 @@ class State(Declared):
 class Erratum(Declared):
     """An error in a published source."""
 
-    place: Id = Field(description="Place in the source, such as a page or table")
+    place: Id = Field(description="Page or table of the source")
     printed: Id = Field(description="Printed value or statement")
     right: Id = Field(description="Correct value or statement")
     why: str = Field(description="Evidence for the correction")

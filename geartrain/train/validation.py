@@ -7,6 +7,7 @@ fix.
 
 from __future__ import annotations
 
+import re
 import types
 from collections.abc import Iterator, Mapping
 from functools import cache
@@ -30,6 +31,7 @@ from geartrain.numerics.containers import collector_paused
 from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_forms
 from geartrain.teeth.contact_coefficients import CoulombFriction
 from geartrain.train.declaration import Train
+from geartrain.train.examples import example_line
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems
 from geartrain.train.yaml_nodes import YamlNode, node_from_data, texts
@@ -153,14 +155,14 @@ def _laws() -> dict[str, type[BaseModel]]:
     return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _union_tags(law)}
 
 
-_SHAPES = {
-    "dict_type": "a mapping of keys to values",
-    "model_type": "a mapping of keys to values",
-    "tuple_type": "a list in brackets",
-    "list_type": "a list in brackets",
-    "string_type": "a text or a number",
-    "too_long": "a shorter list",
-    "too_short": "a longer list",
+_SHAPES: dict[str, tuple[str, type]] = {
+    "dict_type": ("a mapping of keys to values", dict),
+    "model_type": ("a mapping of keys to values", dict),
+    "tuple_type": ("a list in brackets", list),
+    "list_type": ("a list in brackets", list),
+    "string_type": ("a text or a number", str),
+    "too_long": ("a shorter list", list),
+    "too_short": ("a longer list", list),
 }
 
 
@@ -168,9 +170,16 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     loc: Loc = error["loc"]
     kind, context = error["type"], error.get("ctx", {})
     key = str(loc[-1]) if loc else ""
+    if kind in ("extra_forbidden", "missing") and (joined := _without_space(loc, error["input"])):
+        fix = f"write `{joined.replace(':', ': ', 1)}`"
+        what, why = f"no space after the colon in `{joined}`", "without it the colon is part of the key"
+        return Problem(what, why, fix, place(loc))
     if kind == "extra_forbidden":
         allowed = tuple(_keys_at(loc[:-1]))
-        return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", suggest(key, allowed), place(loc))
+        fix = suggest(key, allowed)
+        if key == "teeth" and "wheels" in allowed:
+            fix = f"write `{loc[-2]}: {{wheels: {{w: {error['input']}}}}}`: teeth belong to a wheel, here named w"
+        return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", fix, place(loc))
     if kind == "missing" and isinstance(loc[-1], int):
         return Problem(
             f"{_where(loc[:-1])} is too short",
@@ -193,10 +202,22 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     shown = repr(error["input"])
     got = f"the given value is {shown if len(shown) <= 60 else shown[:57] + '...'}"
     if kind in _SHAPES:
-        return Problem(f"{_where(loc)} is not {_SHAPES[kind]}", got, f"write {_SHAPES[kind]}", place(loc))
+        shape, of = _SHAPES[kind]
+        line = example_line(loc, of)
+        fix = f"write for example `{line}`" if line else f"write {shape}"
+        return Problem(f"{_where(loc)} is not {shape}", got, fix, place(loc))
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
-    return Problem(what, got, "see `geartrain schema`", place(loc))
+    return Problem(what, got, "see `geartrain inspect schema`", place(loc))
+
+
+def _without_space(loc: Loc, value: Any) -> str:
+    """Return the key in a path that contains a colon and has no value, or begins with a known key; empty if none."""
+    for at, step in enumerate(loc):
+        start, colon, _ = str(step).partition(":")
+        if colon and (value is None or isinstance(value, dict) or start in _keys_at(loc[:at])):
+            return str(step)
+    return ""
 
 
 def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
@@ -296,6 +317,8 @@ def _check_short_forms(
     wrong = [gear for gear in short_gears if len(names := _wheels(gear)) != 2 or not all(names)]
     if short_joints is not None and single:
         lists += [_single_link(axis, short_joints.keys.get(axis, short_joints.place)) for axis in single]
+    if len(wrong) == 2 == len(short_gears) and all(_MARK not in gear.value for gear in wrong):  # gears: [a, b]
+        raise DeclarationError(_invalid_pair(YamlNode(" ".join(gear.value for gear in wrong), wrong[0].place)))
     if lists or wrong:  # texts are composed only for the problems that are shown
         raise DeclarationError(first_problems(chain(lists, map(_invalid_pair, wrong)), len(lists) + len(wrong)))
 
@@ -308,7 +331,7 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
         several = len(listed) > 1
         what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
         fix = f"write `{form.format(*names)}`" + (", and the others likewise" if several else "")
-        yield Problem(what, "pairs are not written as bare lists", fix, listed[0].place)
+        yield Problem(what, f"each entry has the form `{form.format('a', 'b')}`", fix, listed[0].place)
 
 
 def _single_link(axis: str, place: str) -> Problem:
@@ -330,8 +353,10 @@ def _wheels(gear: YamlNode) -> list[str]:
 
 
 def _invalid_pair(gear: YamlNode) -> Problem:
-    why = "the short form of a pair is two wheels with a tilde between them"
-    return Problem(f"'{gear.value}' is not a gear pair", why, "write for example `sun ~ planet`", gear.place)
+    names = re.split(r"\s*[-,/]\s*|\s+", gear.value.strip())
+    fix = f"write `{' ~ '.join(names)}`" if len(names) == 2 and all(names) else "write for example `sun ~ planet`"
+    why = "a pair is two wheels with a tilde between them"
+    return Problem(f"'{gear.value}' is not a gear pair", why, fix, gear.place)
 
 
 def _pair(gear: YamlNode) -> YamlNode:

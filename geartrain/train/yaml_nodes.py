@@ -104,12 +104,14 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
         return Problem(
             "the line contains a tab", "YAML is indented with spaces only", "replace the tab by spaces", place
         )
-    return Problem(
-        "the YAML cannot be read here",
-        why,
-        "check indentation, brackets, quotes and colons near this line",
-        place,
-    )
+    if "did not find expected key" in why:
+        why = "a key and a colon are expected here, as far to the right as the keys above"
+        fix = "write `key: value`, and indent all keys of a mapping equally"
+    elif "','" in why:
+        why, fix = "a comma or a closing bracket is missing", "close every { with } and every [ with ]"
+    else:
+        fix = "check indentation, brackets, quotes and colons near this line"
+    return Problem("the YAML cannot be read here", why, fix, place)
 
 
 class _Builder:
@@ -281,20 +283,20 @@ def as_yaml(data: Mapping[str, Any]) -> str:
 def _section(key: str, value: Any) -> str:
     """Return the text of one top-level key, with one entry per line."""
     if isinstance(value, Mapping) and value:
-        lines = [f"  {_line(name)}: {_line(part)}\n" for name, part in value.items()]
+        lines = [f"  {on_one_line(name)}: {on_one_line(part)}\n" for name, part in value.items()]
     elif isinstance(value, list | tuple) and value:
-        lines = [f"  - {_line(part)}\n" for part in value]
+        lines = [f"  - {on_one_line(part)}\n" for part in value]
     else:
-        return f"{_line(key)}: {_line(value)}\n"
-    return f"{_line(key)}:\n{''.join(lines)}"
+        return f"{on_one_line(key)}: {on_one_line(value)}\n"
+    return f"{on_one_line(key)}:\n{''.join(lines)}"
 
 
-def _line(value: Any) -> str:
+def on_one_line(value: Any) -> str:
     """Return a value on one line. Numbers are written by `repr`, as a declaration keeps the text of its numbers."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_line(key)}: {_line(part)}" for key, part in value.items()) + "}"
+        return "{" + ", ".join(f"{on_one_line(key)}: {on_one_line(part)}" for key, part in value.items()) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_line, value)) + "]"
+        return "[" + ", ".join(map(on_one_line, value)) + "]"
     if isinstance(value, int | float) and not isinstance(value, bool):
         return repr(value)
     # dumped as a list entry, so that texts with commas and brackets are quoted

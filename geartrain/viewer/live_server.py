@@ -1,4 +1,5 @@
-"""Local web server for the pages of a train that is being edited; they are rebuilt when one of its files is saved.
+"""Local web server for the page of a train that is being edited; the page is rebuilt when a file of the train is
+saved.
 
 One page shows the report and the animated train side by side. It keeps a connection to the server; when a new version
 is announced, both are reloaded, and camera, crank and selected state are restored.
@@ -33,7 +34,7 @@ class LivePages:
 
 
 class LiveServer:
-    """Server of the pages of a train on the local address only, until it is interrupted.
+    """Web server for the pages of a train, reachable only from this computer, that runs until it is interrupted.
 
     Parameters
     ----------
@@ -75,7 +76,7 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Build the pages; if the train has errors, keep the message to display it."""
+        """Rebuild the pages; if the train has errors, keep the last pages and store the message."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
@@ -83,12 +84,12 @@ class LiveServer:
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
-        """Serve the pages until interrupted.
+        """Serve the pages until the process is interrupted (Ctrl+C).
 
         Parameters
         ----------
         report : callable
-            Function called after each change with the error message, empty if it has none.
+            Function called after each change with the error message; the message is empty if the train has no error.
         """
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(report))
@@ -172,8 +173,8 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page: its script, frames of this server, and the connection
-        to it.
+        """Return the content security policy of the outer page: its script, frames of this server, and the web
+        socket to it.
         """
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]

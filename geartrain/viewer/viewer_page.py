@@ -1,4 +1,4 @@
-"""Conversion of scenes to a self-contained HTML page that loads nothing; names in a train are always escaped."""
+"""Conversion of scenes to a self-contained HTML page. All names of the train are escaped."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
 Shown = Literal["page", "embed", "kiosk"]
-"""Layout of a page."""
+"""Layout of the page: the whole page, a frame inside another page, or an exhibition screen."""
 
 _IN_SCRIPTS: dict[str, str | int | None] = {
     "<": "\\u003c",
@@ -38,7 +38,7 @@ _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 def page(
     scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True, shown: Shown = "page"
 ) -> str:
-    """Build a self-contained HTML page with animated trains; it works from a file and makes no network requests.
+    """Build a self-contained HTML page with animated trains; it works as a local file and makes no network requests.
 
     Parameters
     ----------
@@ -51,12 +51,13 @@ def page(
     teeth : bool
         False to draw plain discs until the user switches teeth on.
     shown : {"page", "embed", "kiosk"}
-        The whole page, or the picture with three buttons, for a frame in another page or for an exhibition screen.
+        Layout: the whole page, or only the picture with three buttons, for a frame in another page ("embed") or for
+        an exhibition screen ("kiosk").
 
     Returns
     -------
     str
-        The whole document. Names in a train are escaped.
+        HTML document. Names in a train are escaped.
 
     Raises
     ------
@@ -79,6 +80,7 @@ def page(
                 "pass one scene, or two with compare=True",
             )
         )
+    # the default layout needs no entry
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
     program = _built("viewer.js")
@@ -100,12 +102,12 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
     train : GearTrain
         Train to show.
     state : str, optional
-        Name of one of its states.
+        A declared state; by default all states can be selected.
 
     Returns
     -------
     str
-        Whole document, as returned by `page`.
+        HTML document, as returned by `page`.
 
     Examples
     --------
@@ -123,7 +125,7 @@ def train_page(train: GearTrain, state: str | None = None) -> str:
 
 @dataclass(frozen=True)
 class EmbeddedPage:
-    """Page of an animated train inside another page, displayed by notebooks.
+    """Animated page of a train that a notebook displays inside a frame.
 
     Examples
     --------
@@ -147,7 +149,7 @@ class EmbeddedPage:
 
 
 def frame_of(address: str, title: str, height: int = 480) -> str:
-    """Return an HTML element that shows the page of a train inside another page.
+    """Return an HTML `iframe` element that shows the page of a train inside another page.
 
     Parameters
     ----------
@@ -173,7 +175,7 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
 
 
 def json_in_script(data: object) -> str:
-    """Return JSON that is safe inside a script element, whatever its strings contain."""
+    """Return JSON text that is safe inside a script element, whatever characters its strings contain."""
     # NaN is not valid JSON
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.translate(str.maketrans(_IN_SCRIPTS))
@@ -184,7 +186,7 @@ def _names(scenes: Sequence[Scene]) -> str:
 
 
 def _words(scene: Scene) -> str:
-    """Return the text for readers without scripts."""
+    """Return the HTML text for browsers that run no scripts: title, state and verdict."""
     state = f" ({scene.state})" if scene.state else ""
     verdict = scene.verdict.get("text", "")
     return f"<h1>{escape(scene.title or scene.name)}{escape(state)}</h1>\n<p>{escape(str(verdict))}</p>"
@@ -203,7 +205,6 @@ def own_script_only(program: str) -> str:
 
 
 def _built(name: str) -> str:
-    """Return a file of the built viewer without newlines at its ends."""
     return _part(f"built/{name}").strip("\n")
 
 

@@ -61,8 +61,8 @@ if TYPE_CHECKING:
     from geartrain.workshop.sizes.best_sizes import find_tooth_sizes as find_tooth_sizes
     from geartrain.workshop.sizes.size_design import SizeLimit as SizeLimit
     from geartrain.workshop.sizes.size_design import ToothSizes as ToothSizes
-    from geartrain.workshop.sizes.size_search import ChanceLimit as ChanceLimit
     from geartrain.workshop.sizes.size_search import PairTrials as PairTrials
+    from geartrain.workshop.sizes.size_search import ProbabilityLimit as ProbabilityLimit
     from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
     from geartrain.workshop.sizes.tooth_sizes_plot import train_sizes_figure as train_sizes_figure
     from geartrain.workshop.sizes.train_size_search import BestTrainSizes as BestTrainSizes
@@ -75,7 +75,6 @@ __all__ = [
     "BestTrainSizes",
     "BudgetCause",
     "BudgetQuestion",
-    "ChanceLimit",
     "ClearanceCase",
     "CrankLoad",
     "ExportFile",
@@ -91,6 +90,7 @@ __all__ = [
     "PointerBudget",
     "PointerErrorCourse",
     "PointerErrorStatistics",
+    "ProbabilityLimit",
     "RatioDrift",
     "SizeLimit",
     "SobolIndices",
@@ -151,7 +151,7 @@ _PLACES = {
     **dict.fromkeys(("run_course", "run_trials"), "monte_carlo.trial_run"),
     **dict.fromkeys(("BestToothSizes", "OutlineAgreement", "find_tooth_sizes"), "sizes.best_sizes"),
     **dict.fromkeys(("SizeLimit", "ToothSizes"), "sizes.size_design"),
-    **dict.fromkeys(("ChanceLimit", "PairTrials"), "sizes.size_search"),
+    **dict.fromkeys(("ProbabilityLimit", "PairTrials"), "sizes.size_search"),
     **dict.fromkeys(("tooth_sizes_figure", "train_sizes_figure"), "sizes.tooth_sizes_plot"),
     **dict.fromkeys(("BestTrainSizes", "PairSizes", "find_train_sizes"), "sizes.train_size_search"),
 }

@@ -1,4 +1,4 @@
-"""Result types of the workshop commands that print JSON."""
+"""Types of the results that the workshop commands print as JSON."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return the result type of each workshop command (or command with option) that prints JSON."""
+    """Return the result type of each workshop command that prints JSON, by name of the command."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.workshop.sizes.best_sizes import BestToothSizes
@@ -16,5 +16,5 @@ def answers() -> dict[str, Any]:
         "montecarlo": MonteCarloResult,
         "budget": TrainBudget,
         "optimise": BestTrainSizes,
-        "mesh triangular --best": BestToothSizes,
+        "mesh --form triangular --objective": BestToothSizes,
     }

@@ -61,7 +61,7 @@ def test_floats_are_as_far_off_as_a_third_of_a_turn_is() -> None:
     assert row_of(found, SPEEDS, "exact").error is None
     third = abs(Fraction(1 / 3) * 3 - 1)
     assert row_of(found, SPEEDS, "floats").error == pytest.approx(float(third), rel=1e-6)
-    assert set(found.left_out) == {TRANSMISSIONS, MOTION, TORQUES}
+    assert set(found.neglected) == {TRANSMISSIONS, MOTION, TORQUES}
 
 
 def test_tables_are_within_their_tolerance_and_the_formula_is_the_reference(moon: TrainAccuracy) -> None:
@@ -97,8 +97,8 @@ def test_motion_is_off_as_a_sum_of_the_transmissions_themselves_is(moon: TrainAc
 
 def test_teeth_whose_transmission_is_their_ratio_have_nothing_to_measure_and_it_is_said_so() -> None:
     found = find_accuracy(load("planetary-24-18-60-involute"), positions=10)
-    assert "exact ratio" in found.left_out[TRANSMISSIONS]
-    assert "no transmission error" in found.left_out[MOTION]
+    assert "exact ratio" in found.neglected[TRANSMISSIONS]
+    assert "no transmission error" in found.neglected[MOTION]
     assert {row.stage for row in found.methods} == {SPEEDS, TORQUES}
 
 
@@ -110,22 +110,25 @@ def test_the_balance_of_torques_is_exact_with_losses_of_pairs_and_of_bearings() 
 
 def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: object) -> None:
     path = train_file(LOCKED)  # type: ignore[operator]
-    done = call("bench", path, "--json")
+    done = call("inspect", "bench", path, "--json")
     assert done.exit_code == 1
     (found,) = json.loads(done.stdout)["states"]
     assert found["methods"] == []
-    assert set(found["left_out"]) == {SPEEDS, TRANSMISSIONS, MOTION, TORQUES}
+    assert set(found["neglected"]) == {SPEEDS, TRANSMISSIONS, MOTION, TORQUES}
 
 
 def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(train_file: object) -> None:
-    done = call("bench", "moon-triangular", "--positions", 100)
+    done = call("inspect", "bench", "moon-triangular", "--samples", 100)
     assert done.exit_code == 0
     for stage in (SPEEDS, TRANSMISSIONS, MOTION):
         assert f"\n{stage}\n{'-' * len(stage)}\n" in done.stdout
     assert "torques: no loads are declared" in done.stdout
     states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")
     path = train_file(states.replace("{expect: 1/2}", "{}"))  # type: ignore[operator]
-    assert [each["state"] for each in json.loads(call("bench", path, "--json").stdout)["states"]] == ["one", "other"]
+    assert [each["state"] for each in json.loads(call("inspect", "bench", path, "--json").stdout)["states"]] == [
+        "one",
+        "other",
+    ]
 
 
 def test_a_train_without_tooth_forms_brings_no_tooth() -> None:

@@ -52,7 +52,7 @@ def as_json(value: object) -> object:
 
 
 def test_an_editor_accepts_every_shipped_train_and_refuses_a_slip() -> None:
-    found = json.loads(call("schema").stdout)
+    found = json.loads(call("inspect", "schema").stdout)
     Draft202012Validator.check_schema(found)
     validator = Draft202012Validator(found)
     for path in shipped().values():

@@ -22,7 +22,11 @@ from playwright.sync_api import Browser, Page, expect
 from viewing import GALLERY
 
 ROOT = Path(__file__).parent.parent.parent
-DOCS = sorted(path.name for path in (ROOT / "docs").glob("*.md"))
+DOCS = sorted(
+    path.relative_to(ROOT / "docs").as_posix()
+    for folder in (ROOT / "docs", ROOT / "docs" / "api")
+    for path in folder.glob("*.md")
+)
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 ACCURACY = sorted(name for name in DOCS if "accuracy" in name)
 
@@ -49,7 +53,8 @@ class Links(HTMLParser):
 
 def pages(site: Path) -> Iterator[Path]:
     """Pages of the documentation, without those of trains and the one for wrong addresses."""
-    return (path for path in sorted(site.glob("*.html")) if path.name != "404.html")
+    found = sorted([*site.glob("*.html"), *site.glob("api/*.html")])
+    return (path for path in found if path.name != "404.html")
 
 
 def test_the_navigation_lists_every_page_once() -> None:
@@ -77,7 +82,8 @@ def test_notebooks_are_kept_without_outputs_and_shown_with_them(site: Path, shee
 
 
 def test_every_page_is_in_the_site_those_of_accuracy_with_their_pictures(site: Path) -> None:
-    assert {path.stem for path in pages(site)} == {name.removesuffix(".md") for name in DOCS}
+    shown = {path.relative_to(site).with_suffix("").as_posix() for path in pages(site)}
+    assert shown == {name.removesuffix(".md") for name in DOCS}
     assert len(ACCURACY) >= 6
     for name in ACCURACY:
         shown = Links(site / name.replace(".md", ".html")).fetched
@@ -225,14 +231,14 @@ def test_formulas_are_shown_without_scripts_and_blocks_have_the_names_of_their_f
 
 
 def test_the_reference_of_python_is_made_from_the_docstrings(site: Path) -> None:
-    text = (site / "api.html").read_text(encoding="utf-8")
-    assert ":::" not in text
-    names = Links(site / "api.html").ids
+    texts = {path: path.read_text(encoding="utf-8") for path in site.glob("api/*.html")}
+    assert not any(":::" in text for text in texts.values())
+    names = {name for path in texts for name in Links(path).ids}
     rooms = [f"geartrain.{room}" for room in SHOWING]
     wanted = {f"{room}.{name}" for room in rooms for name in importlib.import_module(room).__all__}
     assert wanted - names == set()
     assert {"geartrain.analysis.load", "geartrain.analysis.GearTrain.solve", "geartrain.viewer.page"} <= names
-    assert re.search(r">Parameters:</span>", text), "sections of numpydoc are read"
+    assert re.search(r">Parameters:</span>", texts[site / "api" / "analysis.html"]), "sections of numpydoc are read"
 
 
 # ------------------------------------------------------------------------------------------------------- in a browser
@@ -253,7 +259,7 @@ def sheet(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
     context.close()
 
 
-@pytest.mark.parametrize("name", ["index", "theory", "gallery", "api"])
+@pytest.mark.parametrize("name", ["index", "theory", "gallery", "api/index", "api/analysis"])
 def test_a_page_opens_from_disk_without_errors_or_requests(
     name: str, site: Path, sheet: tuple[Page, list[str]]
 ) -> None:

@@ -1,4 +1,4 @@
-"""`mesh triangular --best` and `--vary radii`: what is told, limits with units, what is refused."""
+"""`mesh --objective` and `--vary radii`: what is told, limits with units, what is refused."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from commands import call
 
-PAIR = ("mesh", "triangular", "--teeth", 48, 96)
-BEST = (*PAIR, "--friction", "0.2", "--best", "loss", "--free", "window=0.4:0.6")
+PAIR = ("mesh", 48, 96, "--form", "triangular")
+BEST = (*PAIR, "--friction", "0.2", "--objective", "loss", "--free", "window=0.4:0.6")
 
 
 def test_the_page_tells_the_sizes_as_a_declaration_has_them() -> None:
-    done = call(*BEST, "--radii", "0.98")
+    done = call(*BEST, "-p", "radii=0.98")
     assert done.exit_code == 0, done.output
     told = " ".join(done.stdout.split())
     assert "{form: triangular, half_angle: 30 deg, window: 0." in told
@@ -22,7 +22,7 @@ def test_the_page_tells_the_sizes_as_a_declaration_has_them() -> None:
 
 
 def test_limits_have_units_and_are_kept() -> None:
-    requested = (*BEST, "--radii", "0.98", "--within", "error=0.0474deg", "--within", "jam=0.9", "--json")
+    requested = (*BEST, "-p", "radii=0.98", "--within", "error=0.0474deg", "--within", "jam=0.9", "--json")
     best = json.loads(call(*requested).stdout)["best"]
     assert best["error"] <= 0.0474 * 0.017453292519943295
     assert best["jam"] >= 0.9
@@ -30,25 +30,25 @@ def test_limits_have_units_and_are_kept() -> None:
 
 
 def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
-    done = call(*BEST, "--radii", "0.98", "--within", "stops=5%", "--set", "pitch_deviation=1 %")
+    done = call(*BEST, "-p", "radii=0.98", "--within", "stops=5%", "--cutting", "pitch_deviation=1 %")
     assert "jams or clashes in 0 % of the trials" in " ".join(done.stdout.split()), done.output
 
 
 @pytest.mark.parametrize(
     ("more", "word"),
     [
-        (("--best", "speed"), "not an objective"),
-        (("--best", "error", "--free", "depth"), "not a free parameter"),
-        (("--best", "error", "--free", "window=0.5"), "NAME=LOW:HIGH"),
-        (("--best", "error", "--within", "depth=1"), "NAME=LIMIT"),
-        (("--best", "error", "--within", "error=1 m"), "an angle is required"),
-        (("--best", "error", "--within", "stops=5%"), "needs errors"),
-        (("--best", "error", "--clearance-factor", "1.01"), "cannot be combined with --best"),
-        (("--best", "error", "--vary", "window=0.1:0.9:3"), "cannot be combined with --best"),
-        (("--best", "loss"), "without friction"),
-        (("--free", "radii"), "give --best"),
-        (("--set", "pitch_deviation=1 %"), "give --best"),
-        (("--window", "0.5", "--radii", "0"), "out of range"),
+        (("--objective", "speed"), "not an objective"),
+        (("--objective", "error", "--free", "depth"), "not a free parameter"),
+        (("--objective", "error", "--free", "window=0.5"), "NAME=LOW:HIGH"),
+        (("--objective", "error", "--within", "depth=1"), "NAME=LIMIT"),
+        (("--objective", "error", "--within", "error=1 m"), "an angle is required"),
+        (("--objective", "error", "--within", "stops=5%"), "needs cutting errors"),
+        (("--objective", "error", "-p", "clearance_factor=1.01"), "cannot be combined with --objective"),
+        (("--objective", "error", "--vary", "window=0.1:0.9:3"), "cannot be combined with --objective"),
+        (("--objective", "loss"), "without friction"),
+        (("--free", "radii"), "give --objective"),
+        (("--cutting", "pitch_deviation=1 %"), "give --objective"),
+        (("-p", "window=0.5", "-p", "radii=0"), "out of range"),
     ],
 )
 def test_what_cannot_be_requested_is_refused(more: tuple[str, ...], word: str) -> None:
@@ -61,14 +61,14 @@ def test_what_cannot_be_requested_is_refused(more: tuple[str, ...], word: str) -
 def test_a_picture_of_the_designs_and_of_a_front(tmp_path: Path) -> None:
     for aims in ("loss", "loss,error"):
         picture = tmp_path / f"{aims}.svg"
-        done = call(*PAIR, "--friction", "0.2", "--best", aims, "--free", "window=0.4:0.6", "--plot", picture)
+        done = call(*PAIR, "--friction", "0.2", "--objective", aims, "--free", "window=0.4:0.6", "--plot", picture)
         assert done.exit_code == 0, done.output
         assert ("front" in picture.read_text(encoding="utf-8")) is (aims == "loss,error")
 
 
 def test_radii_are_varied_as_one_number() -> None:
     """The best of three is pitch-true radii's better neighbour, and beside it the phases change."""
-    done = call(*PAIR, "--window", "0.5", "--friction", "0.2", "--vary", "radii=0.94:1:4")
+    done = call(*PAIR, "-p", "window=0.5", "--friction", "0.2", "--vary", "radii=0.94:1:4")
     rows = [line.split(",") for line in done.stdout.splitlines()]
     assert rows[0][0] == "radii"
     assert [round(float(row[0]), 3) for row in rows[1:]] == [0.94, 0.96, 0.98, 1.0]
@@ -78,7 +78,7 @@ def test_radii_are_varied_as_one_number() -> None:
 
 def test_one_number_stands_for_two_radii() -> None:
     sizes = [
-        json.loads(call(*PAIR, "--window", "0.5", "--radii", radii, "--json").stdout)["sizes"]["radii"]
+        json.loads(call(*PAIR, "-p", "window=0.5", "-p", f"radii={radii}", "--json").stdout)["sizes"]["radii"]
         for radii in ("1", "pitch_true", "49/50")
     ]
     assert sizes[0] == sizes[1] == [1.0, 2.0]

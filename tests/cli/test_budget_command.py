@@ -11,7 +11,7 @@ from commands import call
 
 from geartrain.errors import GearTrainError
 
-REQUESTED = ("budget", "freeth-2008", "--output", "moon", "--turns", "1", "--samples", "64")
+REQUESTED = ("budget", "freeth-2008", "--of", "moon", "--turns", "1", "--samples", "64")
 
 
 def told(*more: str) -> Any:

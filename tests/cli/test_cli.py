@@ -7,6 +7,7 @@ import inspect
 import itertools
 import json
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -17,7 +18,7 @@ from typing import Any
 
 import networkx as nx
 import pytest
-from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, ended, verbs
+from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, ended, functions, verbs
 from jsonschema import Draft202012Validator
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT, train_files
@@ -69,6 +70,14 @@ def test_every_verb_that_exists_has_help_and_every_option_of_it_is_in_the_docs(v
         assert option.name == "help" or option.help, f"{option.name} has a help text"
 
 
+@pytest.mark.parametrize("verb", [name for name, _ in functions()])
+def test_the_example_of_every_command_is_one_of_its_command_lines(verb: str) -> None:
+    command = dict(verbs())[verb]
+    (example,) = re.findall(r"Example: `geartrain ([^`]*)`", command.help)
+    assert example.startswith(f"{verb} ")
+    command.make_context(verb, shlex.split(example)[len(verb.split()) :])
+
+
 def test_usage_names_the_command_as_it_was_started(monkeypatch: pytest.MonkeyPatch) -> None:
     """By the script, or by `python -m geartrain` where there is none on the path; never by what called it in Python."""
     monkeypatch.setattr(sys.modules["__main__"], "__package__", "pytest", raising=False)
@@ -117,9 +126,9 @@ def test_a_comparison_says_the_verdict_of_trains_without_outputs(train_file: Wri
     assert "locked" in out + err
 
 
-@pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "equations", "graph"])
+@pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "inspect equations", "inspect graph"])
 def test_a_missing_file_has_no_result_and_a_reason(verb: str, tmp_path: Path) -> None:
-    code, out, err = run(verb, tmp_path / "penestri-2002.yaml")
+    code, out, err = run(*verb.split(), tmp_path / "penestri-2002.yaml")
     assert (code, out) == (2, "")
     assert "the file does not exist" in err
     assert "pennestri-2002" in err
@@ -224,7 +233,7 @@ def test_every_key_of_the_json_is_the_promised_one() -> None:
 
 
 def test_the_json_of_one_output_or_state_leaves_out_what_was_not_requested() -> None:
-    data = json.loads(run("solve", "pennestri-2002", "--output", "moon", "--json")[1])
+    data = json.loads(run("solve", "pennestri-2002", "--of", "moon", "--json")[1])
     assert set(data) == TOP
     assert data["mobility"] is None
     (answer,) = data["states"]
@@ -233,7 +242,7 @@ def test_the_json_of_one_output_or_state_leaves_out_what_was_not_requested() -> 
     data = json.loads(run("solve", "zf-8hp70", "--state", "R", "--json")[1])
     assert set(data) == TOP
     assert [answer["state"] for answer in data["states"]] == ["R"]
-    data = json.loads(run("solve", "zf-8hp70", "--output", "OUT", "--json")[1])
+    data = json.loads(run("solve", "zf-8hp70", "--of", "OUT", "--json")[1])
     assert set(data) == TOP
     assert len(data["states"]) == 9
 
@@ -259,10 +268,10 @@ def test_the_json_of_a_free_train_leaves_out_what_is_undetermined(train_file: Wr
 def test_a_pointer_is_solved_without_what_does_not_drive_it(train_file: Write) -> None:
     path = train_file(FREE)
     assert run("solve", path)[0] == 1
-    code, out, _ = run("solve", path, "--output", "b")
+    code, out, _ = run("solve", path, "--of", "b")
     assert code == 0
     assert "-1/3" in out
-    assert run("solve", path, "--output", "d")[0] == 1
+    assert run("solve", path, "--of", "d")[0] == 1
 
 
 def test_a_part_of_the_work_gives_the_same_number_for_every_pointer_of_the_cosmos() -> None:
@@ -307,16 +316,16 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true() ->
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["solve", "zf-8hp70", "--output", "OOT"], ["no output or link 'OOT'", "did you mean 'OUT'?"]),
+        (["solve", "zf-8hp70", "--of", "OOT"], ["no output or link 'OOT'", "did you mean 'OUT'?"]),
         (["solve", "planetary", "--state", "ring fixt"], ["no state 'ring fixt'", "did you mean 'ring fixed'?"]),
-        (["equations", "zf-8hp70", "--state", "9"], ["no state '9'", "1, 2, 3, 4, 5, 6, 7, 8, R"]),
+        (["inspect", "equations", "zf-8hp70", "--state", "9"], ["no state '9'", "1, 2, 3, 4, 5, 6, 7, 8, R"]),
         (["solve", "worm", "--state", "1"], ["no state '1'", "leave the state out"]),
-        (["solve", "worm", "--method", "exakt"], ["'exakt'", "auto, exact or sparse"]),
-        (["graph", "worm", "--as", "dott"], ["'dott'", "labels, edges, matrix, dot, graphml, json"]),
-        (["graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),
+        (["solve", "worm", "--method", "exakt"], ["'exakt'", "did you mean 'exact'?"]),
+        (["inspect", "graph", "worm", "--as", "dott"], ["'dott'", "did you mean 'dot'?"]),
+        (["inspect", "graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),
         (["report", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
         (["compare", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
-        (["schema", "--as", "yaml"], ["'yaml'", "json, markdown or answers"]),
+        (["inspect", "schema", "--as", "yaml"], ["'yaml'", "json, markdown, answers"]),
         (["periods", "month_synodik"], ["no name contains 'month_synodik'", "month_synodic"]),
     ],
 )
@@ -371,7 +380,7 @@ def _row(terms: list[tuple[str, str, str]]) -> Row:
 def test_the_printed_equations_hold_every_pair_and_are_satisfied_by_the_speeds(name: str) -> None:
     train = load(name)
     answers = list(train.answers())
-    blocks = run("equations", name)[1].split("\n\n")
+    blocks = run("inspect", "equations", name)[1].split("\n\n")
     assert len(blocks) == len(answers)
     for answer, block in zip(answers, blocks, strict=True):
         rows = list(text_rows(block))
@@ -386,7 +395,7 @@ def test_the_printed_equations_hold_every_pair_and_are_satisfied_by_the_speeds(n
 
 def test_gear_rows_carry_the_tooth_numbers_of_the_paper() -> None:
     teeth = {name: wheel.count for name, (_, wheel) in load("pennestri-2002").declaration.wheels.items()}
-    rows = {label: row for label, row, _ in text_rows(run("equations", "pennestri-2002")[1])}
+    rows = {label: row for label, row, _ in text_rows(run("inspect", "equations", "pennestri-2002")[1])}
     for line in TABLES_1_TO_3.strip().splitlines():
         pair, i, j, k, z_i, z_j = line.split()
         first, second = Fraction(teeth[z_i] or 0), Fraction(teeth[z_j] or 0)
@@ -398,9 +407,9 @@ def test_gear_rows_carry_the_tooth_numbers_of_the_paper() -> None:
 
 @pytest.mark.parametrize("name", ["pennestri-2002", "humpage", "freeth-2021", "wolfrom-175"])
 def test_latex_says_the_same_as_text(name: str) -> None:
-    latex = run("equations", name, "--latex")[1]
+    latex = run("inspect", "equations", name, "--latex")[1]
     rows = list(latex_rows(latex))
-    assert rows == list(text_rows(run("equations", name)[1]))
+    assert rows == list(text_rows(run("inspect", "equations", name)[1]))
     assert len(rows) > len(load(name).circuits)
     assert latex.count("\\begin{align}") == latex.count("\\end{align}") == 1
     assert latex.count("{") == latex.count("}")
@@ -408,7 +417,7 @@ def test_latex_says_the_same_as_text(name: str) -> None:
 
 def test_latex_escapes_names_that_mean_something_there(train_file: Write) -> None:
     text = RIGHT.replace("b: {wheels", '"b_1 & 5%#$": {wheels').replace("frame, b]", 'frame, "b_1 & 5%#$"]')
-    _, out, _ = run("equations", train_file(text), "--latex")
+    _, out, _ = run("inspect", "equations", train_file(text), "--latex")
     assert "\\text{b\\_1 \\& 5\\%\\#\\$}" in out
 
 
@@ -427,10 +436,10 @@ def test_a_large_train_is_listed_by_its_edges_unless_the_square_is_requested(tra
         }
         file = train_file(json.dumps(data), f"row{count}.yaml")
         for form, found in sizes.items():
-            code, told, _ = run("graph", file, *(["--as", form] if form else []))
+            code, told, _ = run("inspect", "graph", file, *(["--as", form] if form else []))
             assert code == 0
             found.append(len(told))
-        _, told, _ = run("graph", file)
+        _, told, _ = run("inspect", "graph", file)
         rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in told.splitlines() if " | g" in line]
         joints = [["frame", f"g{at}", "revolute", f"A{at}"] for at in wheels]
         pairs = [[f"g{at}", f"g{at + 1}", "gear", f"w{at}~w{at + 1}"] for at in wheels[:-1]]
@@ -460,9 +469,9 @@ FORMS = {".graphml": "graphml", ".json": "json", ".dot": "dot", ".gv": "dot", ".
 @pytest.mark.parametrize(("suffix", "form"), FORMS.items())
 def test_a_form_of_graph_is_chosen_by_suffix_or_by_name(tmp_path: Path, suffix: str, form: str) -> None:
     by_suffix, by_name = tmp_path / f"a{suffix}", tmp_path / "b.json"
-    assert run("graph", "pennestri-2002", "-o", by_suffix)[:2] == (0, "")
-    assert run("graph", "pennestri-2002", "--as", form, "-o", by_name)[0] == 0
-    code, out, _ = run("graph", "pennestri-2002", "--as", form)
+    assert run("inspect", "graph", "pennestri-2002", "-o", by_suffix)[:2] == (0, "")
+    assert run("inspect", "graph", "pennestri-2002", "--as", form, "-o", by_name)[0] == 0
+    code, out, _ = run("inspect", "graph", "pennestri-2002", "--as", form)
     assert code == 0
     assert (
         by_suffix.read_text(encoding="utf-8").rstrip() == by_name.read_text(encoding="utf-8").rstrip() == out.rstrip()
@@ -471,14 +480,14 @@ def test_a_form_of_graph_is_chosen_by_suffix_or_by_name(tmp_path: Path, suffix: 
 
 
 def test_the_graph_holds_the_edges_of_the_paper(tmp_path: Path) -> None:
-    run("graph", "pennestri-2002", "-o", tmp_path / "a.graphml")
+    run("inspect", "graph", "pennestri-2002", "-o", tmp_path / "a.graphml")
     expected = paper_edges()
     assert len(expected) == 37
     assert read_graphml(tmp_path / "a.graphml") == expected
 
 
 def test_the_matrix_in_numbers_is_the_matrix_in_letters() -> None:
-    data = json.loads(run("graph", "pennestri-2002", "--as", "matrix")[1])
+    data = json.loads(run("inspect", "graph", "pennestri-2002", "--as", "matrix")[1])
     rows, columns = data["labels"]
     ones = {frozenset((rows[i], columns[j])) for i, row in enumerate(data["values"]) for j, n in enumerate(row) if n}
     assert ones == set(paper_edges())
@@ -501,7 +510,7 @@ def keys(part: object, place: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def test_every_property_of_the_schema_is_described() -> None:
-    found = json.loads(run("schema")[1])
+    found = json.loads(run("inspect", "schema")[1])
     assert found["$schema"] == "https://json-schema.org/draft/2020-12/schema"
     Draft202012Validator.check_schema(found)
     properties = dict(keys(found))
@@ -539,7 +548,7 @@ SOUND: dict[str, Any] = {
     ids=lambda place: ".".join(map(str, place)) or "train",
 )
 def test_the_schema_accepts_a_train_and_refuses_a_key_it_does_not_know_anywhere(place: tuple[str | int, ...]) -> None:
-    validator = Draft202012Validator(json.loads(run("schema")[1]))
+    validator = Draft202012Validator(json.loads(run("inspect", "schema")[1]))
     data = json.loads(json.dumps(SOUND))
     assert validator.is_valid(data)
     part = data
@@ -551,9 +560,9 @@ def test_the_schema_accepts_a_train_and_refuses_a_key_it_does_not_know_anywhere(
 
 def test_the_schema_is_written_for_editors_and_for_readers(tmp_path: Path) -> None:
     out = tmp_path / "schema.json"
-    assert run("schema", "-o", out)[0] == 0
-    assert out.read_text(encoding="utf-8") == run("schema")[1]
-    markdown = run("schema", "--as", "markdown")[1]
+    assert run("inspect", "schema", "-o", out)[0] == 0
+    assert out.read_text(encoding="utf-8") == run("inspect", "schema")[1]
+    markdown = run("inspect", "schema", "--as", "markdown")[1]
     assert markdown.rstrip() == (ROOT / "docs" / "reference.md").read_text(encoding="utf-8").rstrip()
 
 
@@ -584,12 +593,12 @@ def test_the_version_is_the_packages() -> None:
     assert run("--version")[1].strip() == f"geartrain {version('geartrain')}"
 
 
-@pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "equations", "graph"])
+@pytest.mark.parametrize("verb", ["report", "check", "solve", "compare", "inspect equations", "inspect graph"])
 def test_unusable_input_is_said_on_standard_error_with_its_line_and_without_a_traceback(
     train_file: Write, verb: str
 ) -> None:
     path = train_file(UNUSABLE)
-    done = ended(verb, path)
+    done = ended(*verb.split(), path)
     assert done.returncode == 2
     assert f"{path}:3: unknown key 'geers'" in done.stderr
     assert "did you mean 'gears'?" in done.stderr
@@ -597,7 +606,7 @@ def test_unusable_input_is_said_on_standard_error_with_its_line_and_without_a_tr
 
 
 def test_a_pipe_that_closes_early_ends_quietly() -> None:
-    command = f"{sys.executable} -m geartrain schema | head -n 1"  # more than a pipe takes in one go
+    command = f"{sys.executable} -m geartrain inspect schema | head -n 1"  # more than a pipe takes in one go
     done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False)
     assert done.stdout == "{\n"
     assert "Traceback" not in done.stderr

@@ -112,7 +112,7 @@ def test_a_train_that_its_drive_does_not_move_is_said_to_stand_still(
 
 
 def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pin: Path, tmp_path: Path) -> None:
-    printed = call("dynamics", pin, *TURN, "--csv").output
+    printed = call("dynamics", pin, *TURN, "-o", "-.csv").output
     assert call("dynamics", pin, *TURN, "-o", tmp_path / "x.csv").exit_code == 0
     assert (tmp_path / "x.csv").read_text(encoding="utf-8") == printed
     rows = list(csv.DictReader(printed.splitlines()))
@@ -190,7 +190,7 @@ def test_a_plain_rate_is_in_turns_a_second(pin: Path, text: str) -> None:
         (("--turns", "0"), "turns must be above 0"),
         (("--turns", "x"), "number of turns"),
         (("--restitution", "1.5"), "from 0 to 1"),
-        (("--output", "c"), "'c'"),
+        (("--of", "c"), "'c'"),
         (("--state", "s"), "s"),
     ],
 )

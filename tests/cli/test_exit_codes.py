@@ -127,8 +127,8 @@ def test_a_fault_deep_inside_is_one_too(
 
     monkeypatch.setattr("geartrain.analysis.gear_train.GearTrain.solve", fail)
     monkeypatch.setattr("geartrain.analysis.gear_train.load", fail)
-    for verb in ("solve", "report", "check", "compare", "torques", "equations", "graph"):
-        assert run(verb, "worm")[0] == 3, verb
+    for verb in ("solve", "report", "check", "compare", "torques", "inspect equations", "inspect graph"):
+        assert run(*verb.split(), "worm")[0] == 3, verb
 
 
 def test_an_interrupt_is_exit_130_without_a_traceback(
@@ -149,7 +149,7 @@ def test_an_interrupt_while_python_evaluates_a_string_is_exit_130(tmp_path: Path
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process")
 def test_ctrl_c_in_the_middle_is_exit_130() -> None:
-    command = [sys.executable, "-m", "geartrain", "motion", "moon-triangular", "--samples", "9000000", "--csv"]
+    command = [sys.executable, "-m", "geartrain", "motion", "moon-triangular", "--samples", "9000000", "-o", "-.csv"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         next_line(process.stdout)
@@ -197,7 +197,7 @@ def test_all_exit_codes_are_told_where_exit_codes_are_told() -> None:
 
 # ------------------------------------------------------------------------------------------------------------- resumed
 
-CUT = ("montecarlo", "moon-triangular", "--output", "moon", "--set", "pitch_deviation=2 %")
+CUT = ("montecarlo", "moon-triangular", "--of", "moon", "--cutting", "pitch_deviation=2 %")
 
 
 @pytest.mark.parametrize("question", [(*CUT, "--trials", "2"), DOUBT])
@@ -231,7 +231,7 @@ def test_a_journal_of_another_question_is_refused_and_kept(
     text = kept.read_bytes()
     code, out, err = run(*CUT, "--trials", "2", "--seed", "8", "--resume")
     assert (code, out) == (2, "")
-    assert "the journal belongs to another question" in err
+    assert "the journal belongs to another run" in err
     assert "seed is 7 there and 8 here" in err
     assert kept.name in err
     assert kept.read_bytes() == text

@@ -41,43 +41,46 @@ inputs: {a: 1}
 outputs: {b: }
 """
 
-TRIANGULAR = ("mesh", "triangular", "--teeth", "48", "96")
-CLEARED = (*TRIANGULAR, "--clearance-factor", "1.01")
+TRIANGULAR = ("mesh", "48", "96", "--form", "triangular")
+CLEARED = (*TRIANGULAR, "-p", "clearance_factor=1.01")
 SIZED = (*CLEARED, "--module", "2mm")
 CONJUGATE = {
-    "involute": ("pressure-angle:angle", "shift", "addendum", "dedendum", "centre-distance"),
-    "cycloidal": ("rolling", "addendum", "arcs", "centre-distance"),
-    "lantern": ("pin-diameter", "pin-radius", "arcs", "addendum", "pins"),
-    "uniform_stress": ("pressure-angle:angle", "arcs"),
-    "uniform_temperature": ("heat", "depth", "least-angle:angle", "arcs"),
-    "least_friction": ("pressure-angle:angle", "margin", "arcs"),
+    "involute": ("pressure_angle:angle", "shift", "addendum", "dedendum", "centre_distance", "backlash"),
+    "cycloidal": ("rolling", "addendum", "arcs"),
+    "lantern": ("pin_diameter", "pin_radius", "arcs", "addendum", "pins"),
+    "uniform_stress": ("pressure_angle:angle", "arcs"),
+    "uniform_temperature": ("heat", "depth", "minimum_angle:angle", "arcs"),
+    "least_friction": ("pressure_angle:angle", "margin", "arcs"),
 }
-SHARED = ("friction", "bevel:angle", "backlash", "driver", "module:length")
-OUTLINED = ("clearance:length", "fillet:length", "bore:length", "rim:length", "tolerance:length", "wheel")
-OUTLINED += ("module:length",)
+SHARED = ("friction", "shaft-angle:angle", "driver", "module:length")
+OUTLINED = tuple(f"blank={key}:length" for key in ("clearance", "fillet", "bore", "rim", "tolerance"))
+OUTLINED += ("wheel", "module:length")
 
 # the command without the option, and the options of each kind; {pair} is a small train, {out} a folder that is new
 CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
     (
         TRIANGULAR,
-        ("half-angle:angle", "clearance-factor", "excess", "window", "backlash", "centre-distance", "radii", "driver"),
+        (
+            *("p=half_angle:angle", "p=clearance_factor", "p=excess", "p=window", "p=backlash", "p=centre_distance"),
+            *("p=radii", "driver"),
+        ),
     ),
-    (CLEARED, ("half-angle:angle", "module:length", "friction", "radii")),
+    (CLEARED, ("p=half_angle:angle", "module:length", "friction", "p=radii")),
     ((*SIZED, "--rate", "1turn/s", "--load", "1N*m"), ("inertia:inertia",)),
     ((*SIZED, "--inertia", "1kg*m2", "--load", "1N*m"), ("rate:speed",)),
     ((*SIZED, "--inertia", "1kg*m2", "--rate", "1turn/s"), ("load:torque",)),
-    ((*CLEARED, "--teeth-plot", "{out}/t.svg"), ("at:angle",)),
-    (("mesh", "pin", "--offset", "2"), ("pin-radius", "pin-radius:length")),
-    (("mesh", "pin", "--pin-radius", "10"), ("offset", "offset:length", "friction", "driver")),
-    (("mesh", "pin", "--pin-radius", "10", "--offset", "12", "--driver", "slot"), ("friction",)),
-    (("mesh", "compare", "--teeth", "24", "36"), ("arcs", "pressure-angle:angle", "bevel:angle", "forms")),
+    ((*CLEARED, "--plot", "{out}/t.svg"), ("at:angle",)),
+    (("pin", "10"), ("", ":length")),
+    (("pin", "10", "5"), ("friction", "driver")),
+    (("pin", "10", "12", "--driver", "slot"), ("friction",)),
+    (("mesh", "24", "36", "--compare"), ("p=arcs", "p=pressure_angle:angle", "shaft-angle:angle", "form")),
     *(
-        (("mesh", form, "--teeth", "24", "36", *more), (*own, *SHARED))
+        (("mesh", "24", "36", "--form", form, *more), (*(f"p={key}" for key in own), *SHARED))
         for form, own in CONJUGATE.items()
-        for more in ((), ("--friction", "0.1", "--backlash", "0.01"))
+        for more in ((), ("--friction", "0.1"))
     ),
     *(
-        (("mesh", form, "--teeth", "24", "36", "--module", "1mm", "--profile", "{out}/w.svg"), OUTLINED)
+        (("mesh", "24", "36", "--form", form, "--module", "1mm", "--profile", "{out}/w.svg"), OUTLINED)
         for form in ("involute", "lantern")
     ),
     (("motion", "{pair}", "--samples", "40"), ("turns", "seed", "phases", "tabulated", "output")),
@@ -152,11 +155,16 @@ def requested(option: str, value: str) -> list[str]:
     """The option with a value, in the unit of its kind."""
     name, _, kind = option.partition(":")
     if not name:
-        return [value]
+        return ["--", f"{value}{UNITS.get(kind, '')}"]
     if kind == "few" and value in ("1e9", "9" * 25):
         value = "7"
     unit = UNITS.get(kind, "")
-    return [f"--{name}={value}{' ' * bool(unit)}{unit}"]
+    flag, equals, key = name.partition("=")
+    return (
+        [f"-{'-' * (len(flag) > 1)}{flag}", f"{key}{equals}{value}{' ' * bool(unit)}{unit}"]
+        if equals
+        else [f"--{name}={value}{' ' * bool(unit)}{unit}"]
+    )
 
 
 def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
@@ -170,16 +178,16 @@ def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
 
 KEPT = [
     *(
-        ("mesh triangular --teeth 48 96 --clearance-factor 1.01", option, value)
-        for option, values in {"half-angle:angle": ("1e-300", "1e-9"), "module:length": ("0", "-1", "1e300")}.items()
+        ("mesh 48 96 --form triangular -p clearance_factor=1.01", option, value)
+        for option, values in {"p=half_angle:angle": ("1e-300", "1e-9"), "module:length": ("0", "-1", "1e300")}.items()
         for value in values
     ),
-    ("mesh triangular --teeth 48 96 --clearance-factor 1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
-    ("mesh triangular --teeth 48 96 --clearance-factor 1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
-    ("mesh pin --offset 2", "pin-radius", "1e300"),
-    ("mesh pin --pin-radius 10", "offset:length", "1e300"),
-    ("mesh compare --teeth 24 36", "bevel:angle", "1e-300"),
-    ("mesh cycloidal --teeth 24 36", "bevel:angle", "1e-300"),
+    ("mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
+    ("mesh 48 96 --form triangular -p clearance_factor=1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
+    ("pin 10", "", "1e300"),
+    ("pin 10", ":length", "1e300"),
+    ("mesh 24 36 --compare", "shaft-angle:angle", "1e-300"),
+    ("mesh 24 36 --form cycloidal", "shaft-angle:angle", "1e-300"),
     ("motion {pair} --samples 40", "turns", "1e300"),
     ("motion {pair} --samples 40", "turns", "nan"),
     ("motion {pair} --samples 40", "turns", "-inf"),
@@ -215,7 +223,7 @@ def said(text: str, option: str, value: str, folder: Path, number: int) -> str:
     told = (
         ["--json"] if base[0] in ("mesh", "motion", "posterior", "teeth", "sphere") and "--profile" not in base else []
     )
-    arguments = [*command(base, folder, number), *requested(option, value), *told]
+    arguments = [*command(base, folder, number), *told, *requested(option, value)]
     try:
         with chdir(folder):  # a search that is cut short leaves its journal where it runs
             found = judge(arguments)

@@ -14,7 +14,7 @@ from commands import call, ended, without
 from sampling import first_few
 from shapely.affinity import rotate, translate
 
-PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
+PAIR = ("mesh", 48, 96, "--form", "triangular", "-p", "half_angle=30deg", "--friction", 0.2)
 KEYS = {"teeth", "verdict", "clearance_factor", "window", "sizes", "backlash", "speed_ratio", "transmission_error"}
 KEYS |= {"efficiency", "intervals", "jumps", "course", "impacts", "outlines"}
 
@@ -32,13 +32,13 @@ PRINTED = [
 
 @pytest.mark.parametrize(("z1", "z2", "a", "jumps"), PRINTED)
 def test_the_jumps_are_those_printed(z1: int, z2: int, a: float, jumps: dict[str, float]) -> None:
-    data = json.loads(call("mesh", "triangular", "--teeth", z1, z2, "--clearance-factor", a, "--json").output)
+    data = json.loads(call("mesh", z1, z2, "--form", "triangular", "-p", f"clearance_factor={a}", "--json").output)
     assert {jump["kind"]: round(jump["value"], 4) for jump in data["jumps"]} == jumps
     assert data["speed_ratio"]["mean"] == z1 / z2
 
 
 def test_every_key_of_the_json_is_the_promised_one() -> None:
-    data = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--json").output)
+    data = json.loads(call(*PAIR, "-p", "clearance_factor=1.01", "--json").output)
     assert set(data) == KEYS
     assert set(data["speed_ratio"]) == {"mean", "exact", "min", "max"}
     assert set(data["transmission_error"]) == {"peak_to_peak", "rms", "mean"}
@@ -57,23 +57,27 @@ def test_every_key_of_the_json_is_the_promised_one() -> None:
 @pytest.mark.parametrize(
     ("arguments", "kind", "said"),
     [
-        (["--clearance-factor", 1.001], "jam", "below the window"),
-        (["--clearance-factor", 1.034], "dwell", "above the window"),
-        (["--clearance-factor", 1.05], "apart", "above the window"),
-        (["--clearance-factor", 1.01, "--half-angle", "89deg"], "no valley", "use more teeth or a smaller half_angle"),
+        (["-p", "clearance_factor=1.001"], "jam", "below the window"),
+        (["-p", "clearance_factor=1.034"], "dwell", "above the window"),
+        (["-p", "clearance_factor=1.05"], "apart", "above the window"),
+        (
+            ["-p", "clearance_factor=1.01", "-p", "half_angle=89deg"],
+            "no valley",
+            "use more teeth or a smaller half_angle",
+        ),
     ],
 )
 def test_a_pair_outside_its_window_is_a_verdict_that_names_it(arguments: list[object], kind: str, said: str) -> None:
-    result = call("mesh", "triangular", "--teeth", 48, 96, *arguments)
+    result = call("mesh", 48, 96, "--form", "triangular", *arguments)
     assert result.exit_code == 1
     assert f"Verdict: {kind}" in result.output
     assert said in result.output
-    data = json.loads(call("mesh", "triangular", "--teeth", 48, 96, *arguments, "--json").output)
+    data = json.loads(call("mesh", 48, 96, "--form", "triangular", *arguments, "--json").output)
     assert data["verdict"]["kind"] == kind
 
 
 def test_friction_that_locks_is_a_verdict_with_the_minimum_friction_that_does() -> None:
-    base = ("mesh", "triangular", "--teeth", 96, 72, "--clearance-factor", 1.01, "--friction")
+    base = ("mesh", 96, 72, "--form", "triangular", "-p", "clearance_factor=1.01", "--friction")
     data = json.loads(call(*base, 1.2, "--json").output)
     limit = data["efficiency"]["locks_at"]
     assert (data["efficiency"]["mean"], data["efficiency"]["min"]) == (None, None)
@@ -83,35 +87,34 @@ def test_friction_that_locks_is_a_verdict_with_the_minimum_friction_that_does() 
 
 
 REFUSED = [
-    (["--teeth", 2, 96, "--clearance-factor", 1.01], "at least 3 teeth"),
-    (["--teeth", 48, 96, "--clearance-factor", 1], "above 1"),
-    (["--teeth", 48, 96, "--clearance-factor", "nan"], "'nan' is not a number"),
-    (["--teeth", 48, 96, "--clearance-factor", "inf"], "'inf' is not a number"),
-    (["--teeth", 48, 96, "--excess", 0], "above 0"),
-    (["--teeth", 48, 96, "--window", 1.5], "between 0"),
-    (["--teeth", 48, 96], "exactly one of"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--excess", 0.01], "exactly one of"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "95deg"], "between 0 and 90 deg"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "30"], "has no unit"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--half-angle", "3mm"], "is a length"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--friction", -0.1], "0 or more"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--rate", "3 furlong"], "unknown unit"),
-    (["--teeth", 48, 96, "--centre-distance", "40mm"], "cannot be related to the size of these wheels"),
-    (["--teeth", 48, 96, "--centre-distance", "40", "--radii", "10mm,20mm"], "mix plain numbers"),
-    (["--teeth", 48, 96, "--backlash", "9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
-    (["--teeth", 8, 64, "--window", 0.5], "no clearance lets wheels of 8 and 64"),
-    (["--teeth", 48, 96, "--vary", "clearence=1:2:3"], "cannot be varied"),
-    (["--teeth", 48, 96, "--vary", "clearance-factor=1:2"], "FIRST:LAST:COUNT"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--plot", "x.bmp"], "'.bmp'"),
-    (["--teeth", 48, 96, "--clearance-factor", 1.01, "--profile", "w.svg"], "the module is missing"),
-    (["--teeth", 48, 96, "--module", "1mm", "--clearance-factor", 1.01, "--profile", "w.stl"], "not an outline format"),
-    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance-factor=1.01:1.02:3"], "omit --vary"),
+    ([2, 96, "-p", "clearance_factor=1.01"], "at least 3 teeth"),
+    ([48, 96, "-p", "clearance_factor=1"], "above 1"),
+    ([48, 96, "-p", "clearance_factor=nan"], "'nan' is not a number"),
+    ([48, 96, "-p", "clearance_factor=inf"], "'inf' is not a number"),
+    ([48, 96, "-p", "excess=0"], "above 0"),
+    ([48, 96, "-p", "window=1.5"], "between 0"),
+    ([48, 96, "-p", "clearance_factor=1.01", "-p", "excess=0.01"], "exactly one of"),
+    ([48, 96, "-p", "clearance_factor=1.01", "-p", "half_angle=95deg"], "between 0 and 90 deg"),
+    ([48, 96, "-p", "clearance_factor=1.01", "-p", "half_angle=30"], "has no unit"),
+    ([48, 96, "-p", "clearance_factor=1.01", "-p", "half_angle=3mm"], "is a length"),
+    ([48, 96, "-p", "clearance_factor=1.01", "--friction", -0.1], "0 or more"),
+    ([48, 96, "-p", "clearance_factor=1.01", "--rate", "3 furlong"], "unknown unit"),
+    ([48, 96, "-p", "centre_distance=40mm"], "cannot be related to the size of these wheels"),
+    ([48, 96, "-p", "centre_distance=40", "-p", "radii=10mm,20mm"], "mix plain numbers"),
+    ([48, 96, "-p", "backlash=9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
+    ([8, 64, "-p", "window=0.5"], "no clearance lets wheels of 8 and 64"),
+    ([48, 96, "--vary", "clearence_factor=1:2:3"], "cannot be varied"),
+    ([48, 96, "--vary", "clearance_factor=1:2"], "FIRST:LAST:COUNT"),
+    ([48, 96, "-p", "clearance_factor=1.01", "--plot", "x.bmp"], "'.bmp'"),
+    ([48, 96, "-p", "clearance_factor=1.01", "--profile", "w.svg"], "the module is missing"),
+    ([48, 96, "--module", "1mm", "-p", "clearance_factor=1.01", "--profile", "w.stl"], "not an output format"),
+    ([48, 96, "--profile", "w.svg", "--vary", "clearance_factor=1.01:1.02:3"], "omit --vary"),
 ]
 
 
 @pytest.mark.parametrize(("arguments", "said"), REFUSED, ids=lambda value: str(value)[:40])
 def test_what_cannot_be_a_pair_is_refused_kindly(arguments: list[object], said: str) -> None:
-    done = ended("mesh", "triangular", *arguments)
+    done = ended("mesh", "--form", "triangular", *arguments)
     assert (done.returncode, done.stdout) == (2, "")
     assert said in " ".join(done.stderr.replace("│", " ").split())
     assert "Traceback" not in done.stderr
@@ -119,32 +122,32 @@ def test_what_cannot_be_a_pair_is_refused_kindly(arguments: list[object], said: 
 
 def test_clearances_given_in_five_ways_are_one() -> None:
     sized = ("--module", "0.5mm")
-    first = json.loads(call(*PAIR, "--clearance-factor", "1.015", *sized, "--json").output)
+    first = json.loads(call(*PAIR, "-p", "clearance_factor=1.015", *sized, "--json").output)
     # half the module times the teeth is the least centre distance: 36 mm
     assert first["sizes"]["centre_distance"] == pytest.approx(0.036 * 1.015, rel=1e-14)
     window = first["window"]
     fraction = (1.015 - window["jam"]) / (window["run"] - window["jam"])
     arc = first["backlash"] * first["sizes"]["centre_distance"] * 96 / 144
     for name, value in (
-        ("--excess", "0.015"),
-        ("--centre-distance", "36.54 mm"),
-        ("--window", f"{fraction:.15f}"),
-        ("--backlash", f"{arc * 1000:.15f} mm"),
+        ("-p", "excess=0.015"),
+        ("-p", "centre_distance=36.54 mm"),
+        ("-p", f"window={fraction:.15f}"),
+        ("-p", f"backlash={arc * 1000:.15f} mm"),
     ):
         other = json.loads(call(*PAIR, name, value, *sized, "--json").output)
         assert other["clearance_factor"] == pytest.approx(1.015, rel=1e-12)
 
 
 def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
-    there = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--json").output)
-    back = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--driver", 2, "--json").output)
+    there = json.loads(call(*PAIR, "-p", "clearance_factor=1.01", "--json").output)
+    back = json.loads(call(*PAIR, "-p", "clearance_factor=1.01", "--driver", 2, "--json").output)
     swapped = json.loads(
-        call("mesh", "triangular", "--teeth", 96, 48, "--friction", 0.2, "--clearance-factor", 1.01, "--json").output
+        call("mesh", 96, 48, "--form", "triangular", "--friction", 0.2, "-p", "clearance_factor=1.01", "--json").output
     )
     assert back["speed_ratio"]["mean"] == 2
     for key in ("min", "max"):
         assert back["speed_ratio"][key] == pytest.approx(swapped["speed_ratio"][key], rel=1e-12)
-    reverse = json.loads(call(*PAIR, "--clearance-factor", 1.01, "--backwards", "--json").output)
+    reverse = json.loads(call(*PAIR, "-p", "clearance_factor=1.01", "--backwards", "--json").output)
     for key in ("min", "max"):
         assert reverse["speed_ratio"][key] == there["speed_ratio"][key]
 
@@ -153,8 +156,8 @@ def test_impacts_share_the_drivers_work() -> None:
     data = json.loads(
         call(
             *PAIR,
-            "--clearance-factor",
-            1.01,
+            "-p",
+            "clearance_factor=1.01",
             "--inertia",
             "20 g cm2",
             "--rate",
@@ -178,14 +181,14 @@ def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None
     out = tmp_path / "s.csv"
     result = call(
         "mesh",
+        96,
+        96,
+        "--form",
         "triangular",
-        "--teeth",
-        96,
-        96,
         "--friction",
         0.2,
         "--vary",
-        "clearance-factor=1.0005:1.028:24",
+        "clearance_factor=1.0005:1.028:24",
         "-o",
         out,
     )
@@ -205,7 +208,7 @@ def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None
 
 
 def test_a_sweep_of_two_has_every_combination() -> None:
-    result = call(*PAIR, "--vary", "clearance-factor=1.005:1.025:3", "--vary", "half-angle=20deg:40deg:2", "--json")
+    result = call(*PAIR, "--vary", "clearance_factor=1.005:1.025:3", "--vary", "half_angle=20deg:40deg:2", "--json")
     rows = json.loads(result.stdout)
     assert [(row["clearance_factor"], row["half_angle"]) for row in rows] == [
         (a, b) for a in (1.005, 1.015, 1.025) for b in (20.0, 40.0)
@@ -215,12 +218,9 @@ def test_a_sweep_of_two_has_every_combination() -> None:
 @pytest.mark.parametrize("suffix", first_few(1, [".svg", ".png", ".pdf"]))
 def test_pictures_are_written_whole(tmp_path: Path, suffix: str) -> None:
     transmission, teeth = tmp_path / f"law{suffix}", tmp_path / f"teeth{suffix}"
-    assert (
-        call(
-            *PAIR, "--clearance-factor", 1.01, "--plot", transmission, "--teeth-plot", teeth, "--at", "-5deg"
-        ).exit_code
-        == 0
-    )
+    requested = (*PAIR, "-p", "clearance_factor=1.01", "--plot")
+    assert call(*requested, transmission).exit_code == 0
+    assert call(*requested, teeth, "--at", "-5deg").exit_code == 0
     starts = {".svg": b"<?xml", ".png": b"\x89PNG", ".pdf": b"%PDF"}
     for path in (transmission, teeth):
         assert path.read_bytes().startswith(starts[suffix])
@@ -228,7 +228,7 @@ def test_pictures_are_written_whole(tmp_path: Path, suffix: str) -> None:
 
 
 def test_a_page_of_a_pair_needs_no_plots() -> None:
-    requested: list[object] = [*PAIR, "--clearance-factor", "1.01"]
+    requested: list[object] = [*PAIR, "-p", "clearance_factor=1.01"]
     done = without("matplotlib", "scipy", arguments=requested)
     assert (done.returncode, done.stderr) == (0, "")
     refused = without("matplotlib", "scipy", arguments=[*requested, "--plot", "x.svg"])
@@ -237,16 +237,16 @@ def test_a_page_of_a_pair_needs_no_plots() -> None:
 
 
 def test_a_pin_has_a_page_and_its_limits() -> None:
-    data = json.loads(call("mesh", "pin", "--pin-radius", "9.6mm", "--offset", "1.1mm", "--json").output)
+    data = json.loads(call("pin", "9.6mm", "1.1mm", "--json").output)
     assert degrees(data["amplitude"]) == pytest.approx(6.5796, abs=5e-5)
     assert data["speed_ratio"]["exact"] == "1"
     for arguments, said in (
-        (["--pin-radius", "9mm", "--offset", "9mm"], "through the slot's axis"),
-        (["--pin-radius", "1mm", "--offset", "9mm", "--driver", "slot"], "cannot drive"),
-        (["--pin-radius", "9mm", "--offset", "-1mm"], "an offset of 0 or more"),
-        (["--pin-radius", "9mm", "--offset", "8mm", "--driver", "slot", "--friction", "2"], "locks"),
+        (["9mm", "9mm"], "through the slot's axis"),
+        (["1mm", "9mm", "--driver", "slot"], "cannot drive"),
+        (["--", "9mm", "-1mm"], "an offset of 0 or more"),
+        (["9mm", "8mm", "--driver", "slot", "--friction", "2"], "locks"),
     ):
-        done = ended("mesh", "pin", *arguments)
+        done = ended("pin", *arguments)
         assert done.returncode == 2
         assert said in done.stderr
 
@@ -254,7 +254,7 @@ def test_a_pin_has_a_page_and_its_limits() -> None:
 def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_do(tmp_path: Path) -> None:
     from geartrain.teeth import Triangular
 
-    requested = ("mesh", "triangular", "--teeth", 15, 24, "--window", 0.5, "--module", "2mm", "--bore", "3mm")
+    requested = ("mesh", 15, 24, "--form", "triangular", "-p", "window=0.5", "--module", "2mm", "--blank", "bore=3mm")
     cut = []
     for wheel in (1, 2):
         file = tmp_path / f"w{wheel}.csv"
@@ -289,13 +289,13 @@ REFUSED_TRANSMISSIONS = [
     (["--friction", "stribek,static=1"], "'stribeck'"),
     (["--friction", "stribeck,static=0.2"], "kinetic: Field required"),
     (["--friction", "dokos", "--vary", "window=0.1:0.9:3"], "needs a coefficient of friction"),
-    (["--friction", "dokos", "--best", "loss"], "needs a coefficient of friction"),
+    (["--friction", "dokos", "--objective", "loss"], "needs a coefficient of friction"),
 ]
 
 
 @pytest.mark.parametrize(("arguments", "said"), REFUSED_TRANSMISSIONS, ids=lambda value: str(value)[:40])
 def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str) -> None:
-    done = ended("mesh", "triangular", "--teeth", 48, 96, "--window", 0.5, *arguments)
+    done = ended("mesh", 48, 96, "--form", "triangular", "-p", "window=0.5", *arguments)
     assert done.returncode == 2
     assert said in " ".join(done.stderr.split())
 
@@ -303,12 +303,12 @@ def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str
 def test_a_pair_under_a_law_of_friction_tells_its_speed_and_what_acts_at_every_angle(tmp_path: Path) -> None:
     requested = (
         "mesh",
-        "triangular",
-        "--teeth",
         48,
         96,
-        "--clearance-factor",
-        1.01,
+        "--form",
+        "triangular",
+        "-p",
+        "clearance_factor=1.01",
         "--friction",
         TRANSMISSION,
         "--module",
@@ -333,10 +333,10 @@ def test_a_pair_under_a_law_of_friction_tells_its_speed_and_what_acts_at_every_a
 def test_the_second_wheel_drives_at_its_own_speed() -> None:
     requested = (
         "mesh",
-        "involute",
-        "--teeth",
         24,
         36,
+        "--form",
+        "involute",
         "--friction",
         "buckingham",
         "--module",

@@ -1,4 +1,4 @@
-"""`geartrain mesh compare` and `geartrain mesh FORM` as their user meets them: ratios, pages, pictures, refusals."""
+"""`geartrain mesh` with its forms and `--compare` as their user meets them: ratios, pages, pictures, refusals."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ import pytest
 from commands import call, ended, without
 from places import DATA
 
+from geartrain.teeth.any_tooth_form import TOOTH_FORMS, tooth_form
+
 PRINTED = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 ROWS = {(row[0], row[1].split(" Q*")[0]): row[2:] for row in PRINTED["performance"]}
 COLUMNS = ("loss", "stress", "off_pitch", "heat", "flash")
@@ -25,14 +27,18 @@ NAMES = {
     "uniform_temperature_b": "UT-b",
     "least_friction": "MF psi_hi=25 u=0.15",
 }
-PAIR = ("--teeth", 24, 36)
+PAIR = (24, 36)
 KEYS = {"form", "teeth", "verdict", "pitch_radii", "flanks", "thickness", "arcs", "contact_ratio", "pressure_angles"}
 KEYS |= {"losses_and_stresses", "efficiency", "outlines"}
 
 
+def forms(names: str) -> tuple[str, ...]:
+    return tuple(word for name in names.split(",") for word in ("--form", name))
+
+
 @cache
 def compared(*arguments: object) -> dict[str, Any]:
-    done = call("mesh", "compare", *arguments, "--json")
+    done = call("mesh", *arguments, "--compare", "--json")
     assert done.exit_code in (0, 1), done.output
     found: dict[str, Any] = json.loads(done.output)
     return found
@@ -41,7 +47,7 @@ def compared(*arguments: object) -> dict[str, Any]:
 @pytest.mark.parametrize("pair", ["spur(24,36)", "spur(12,60)", "bevel(24,36)", "bevel(15,45)"])
 def test_the_ratios_are_those_of_the_printed_tables(pair: str) -> None:
     kind, z1, z2 = re.fullmatch(r"(\w+)\((\d+),(\d+)\)", pair).groups()  # type: ignore[union-attr]
-    data = compared("--teeth", z1, z2, "--forms", ALL, *(("--bevel", "90deg") if kind == "bevel" else ()))
+    data = compared(z1, z2, *forms(ALL), *(("--shaft-angle", "90deg") if kind == "bevel" else ()))
     assert {form["form"] for form in data["forms"]} == set(NAMES)
     for form in data["forms"]:
         _, *printed, slowest = ROWS[pair, NAMES[form["form"]]]
@@ -53,19 +59,19 @@ def test_the_ratios_are_those_of_the_printed_tables(pair: str) -> None:
 
 
 def test_uniform_temperature_has_the_depth_of_the_involute_in_all_readings() -> None:
-    forms = ",".join(f"uniform_temperature_{reading}" for reading in "abc")
-    data = compared(*PAIR, "--forms", forms)
+    readings = ",".join(f"uniform_temperature_{reading}" for reading in "abc")
+    data = compared(*PAIR, *forms(readings))
     assert [form["ratios"]["depth"] for form in data["forms"]] == pytest.approx([1, 1, 1], abs=1e-9)
     assert "the working depth" in data["matched"]
     assert data["forms"][2]["ratios"]["one_pair"]["stress"] is not None
 
 
 def test_a_form_that_cannot_run_has_its_faults_in_place_of_numbers() -> None:
-    done = call("mesh", "compare", *PAIR, "--bevel", "90deg", "--forms", "involute,lantern")
+    done = call("mesh", *PAIR, "--compare", "--shaft-angle", "90deg", *forms("involute,lantern"))
     assert done.exit_code == 1
     assert re.search(r"^lantern +- +refused ", done.output, re.M)
     assert "no mate in closed form" in " ".join(done.output.split())
-    data = compared(*PAIR, "--arcs", "0.7,0.7", "--pressure-angle", "10deg", "--forms", "involute")
+    data = compared(*PAIR, "-p", "arcs=0.7,0.7", "-p", "pressure_angle=10deg", *forms("involute"))
     (form,) = data["forms"]
     # the dedendum of gear 1 ends where the line of action touches its base circle: R1 tan psi, in pitches
     assert not form["runs"]
@@ -78,7 +84,7 @@ def test_a_form_that_cannot_run_has_its_faults_in_place_of_numbers() -> None:
 
 
 def test_the_pins_of_a_lantern_are_set_beside_an_involute_with_their_arcs() -> None:
-    data = compared(*PAIR, "--forms", "lantern")
+    data = compared(*PAIR, *forms("lantern"))
     lantern, beside = data["forms"]
     assert lantern["arcs"] == pytest.approx(beside["arcs"])
     lost, arc = -lantern["arcs"][0], lantern["arcs"][1]
@@ -100,10 +106,10 @@ def test_the_pins_of_a_lantern_are_set_beside_an_involute_with_their_arcs() -> N
 
 def test_a_table_a_page_and_data_say_the_same(tmp_path: File) -> None:
     for name in ("c.md", "c.html", "c.json"):
-        assert call("mesh", "compare", *PAIR, "--forms", ALL, "-o", tmp_path / name).exit_code == 0
+        assert call("mesh", *PAIR, "--compare", *forms(ALL), "-o", tmp_path / name).exit_code == 0
     page, table = ((tmp_path / name).read_text(encoding="utf-8") for name in ("c.html", "c.md"))
     data = json.loads((tmp_path / "c.json").read_text(encoding="utf-8"))
-    assert data == compared(*PAIR, "--forms", ALL)
+    assert data == compared(*PAIR, *forms(ALL))
     for form in data["forms"]:
         assert f"| {form['form']}" in table
         assert f"{form['ratios']['one_pair']['loss']:.4f}" in table
@@ -113,7 +119,7 @@ def test_a_table_a_page_and_data_say_the_same(tmp_path: File) -> None:
 
 @pytest.mark.parametrize("form", ["involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature"])
 def test_every_key_of_a_form_is_the_promised_one(form: str) -> None:
-    data = json.loads(call("mesh", form, *PAIR, "--friction", 0.05, "--json").output)
+    data = json.loads(call("mesh", *PAIR, "--form", form, "--friction", 0.05, "--json").output)
     assert set(data) == KEYS
     assert data["form"] == form
     assert data["verdict"]["kind"] == "runs"
@@ -122,7 +128,7 @@ def test_every_key_of_a_form_is_the_promised_one(form: str) -> None:
 
 
 def test_a_page_of_a_pair_has_textbook_numbers() -> None:
-    data = json.loads(call("mesh", "involute", *PAIR, "--json").output)
+    data = json.loads(call("mesh", *PAIR, "--json").output)
     base = [R * cos(radians(20)) for R in (12, 18)]
     lengths = [sqrt((R + 1) ** 2 - b * b) - R * sin(radians(20)) for R, b in zip((12, 18), base, strict=True)]
     # the tip of gear 2 begins the contact, the tip of gear 1 ends it; pi cos psi is the base pitch
@@ -130,59 +136,65 @@ def test_a_page_of_a_pair_has_textbook_numbers() -> None:
     slide = (1 / 12 + 1 / 18) * max(lengths)
     assert data["losses_and_stresses"]["sliding"] == pytest.approx(slide, rel=1e-6)
     assert data["flanks"][0][1] == pytest.approx(13, rel=1e-12)
-    text = call("mesh", "involute", *PAIR).output
+    text = call("mesh", *PAIR).output
     assert "Verdict: the teeth run" in text
     assert "Contact ratio 1.64717" in text
 
 
 def test_the_efficiency_tends_to_the_printed_loss_and_the_driver_is_named() -> None:
-    done = json.loads(call("mesh", "uniform_stress", *PAIR, "--friction", 1e-6, "--json").output)
+    done = json.loads(call("mesh", *PAIR, "--form", "uniform_stress", "--friction", 1e-6, "--json").output)
     assert (1 - done["efficiency"]["mean"]) / 1e-6 == pytest.approx(0.109176344569, rel=1e-5)
-    assert "wheel of 36 drives the wheel of 24" in call("mesh", "uniform_stress", *PAIR, "--driver", 2).output
+    assert "wheel of 36 drives the wheel of 24" in call("mesh", *PAIR, "--form", "uniform_stress", "--driver", 2).output
 
 
 def test_faults_are_told_with_what_would_fit_and_the_exit_code_is_that_of_a_verdict() -> None:
-    done = call("mesh", "involute", "--teeth", 8, 60)
+    done = call("mesh", 8, 60, "--form", "involute")
     assert done.exit_code == 1
     fits = float(re.search(r"addendum of at most ([\d.]+) modules", done.output)[1])  # type: ignore[index]
     # the tip circle through the point where the line of action touches the base circle of gear 1
     most = sqrt((30 * cos(radians(20))) ** 2 + (34 * sin(radians(20))) ** 2) - 30
     assert fits == pytest.approx(most, abs=5e-4)
-    assert call("mesh", "involute", "--teeth", 8, 60, "--addendum", f"1,{fits - 0.001}").exit_code in (0, 1)
+    assert call("mesh", 8, 60, "--form", "involute", "-p", f"addendum=1,{fits - 0.001}").exit_code in (0, 1)
 
 
 REFUSED = [
-    (["compare", *PAIR, "--forms", "involut"], "--forms", "did you mean 'involute'"),
-    (["compare", *PAIR, "--forms", "rubber"], "--forms", "give one or more of: involute"),
-    (["compare", *PAIR, "--forms", ""], "--forms", "give one or more of"),
-    (["compare", *PAIR, "--pressure-angle", "50deg"], "--pressure-angle", "between 0 and 45 deg"),
-    (["compare", *PAIR, "--pressure-angle", "20"], "--pressure-angle", "has no unit"),
-    (["compare", *PAIR, "--arcs", "0.5,x"], "--arcs", "in pitches"),
-    (["compare", *PAIR, "--arcs", "-1,2"], "--arcs", "in pitches"),
-    (["compare", *PAIR, "--arcs", "0.2,0.2"], "--arcs", "the contact ratio is 0.4"),
-    (["compare", "--teeth", 8, 9], "--arcs", "end the approach before 0.463"),
-    (["compare", "--teeth", 2, 36], "--teeth", "at least 3 teeth"),
-    (["compare", "--teeth", 36, 24, "--internal"], "--teeth", "cannot contain"),
-    (["compare", *PAIR, "--internal", "--bevel", "90deg"], "--bevel", "parallel"),
-    (["compare", *PAIR, "--bevel", "200deg"], "--teeth", "between 0 and 180 deg"),
-    (["compare", *PAIR, "-o", "x.pdf"], "-o", ".md, .html, .json"),
-    (["involute", *PAIR, "--pressure-angle", "95deg"], "--pressure-angle", "between 0 and 90 deg"),
-    (["uniform_stress", *PAIR, "--pressure-angle", "45deg"], "--pressure-angle", "between 0 and 45 deg"),
-    (["uniform_temperature", *PAIR, "--reading", "d"], "--reading", "'d' is not a valid value"),
-    (["involute", *PAIR, "--friction", "-1"], "--friction", "0 or more"),
-    (["involute", *PAIR, "--centre-distance", "20"], "--teeth", "too short"),
-    (["involute", *PAIR, "--backlash", "0.1mm"], "--module", "has a unit, but the module is unknown"),
-    (["involute", *PAIR, "--module", "-2mm"], "--module", "above 0"),
-    (["involute", *PAIR, "--profile", "w.svg"], "--module", "to scale"),
-    (["involute", *PAIR, "--module", "2mm", "--profile", "w.step"], "--profile", ".svg, .dxf, .csv"),
-    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--fillet", "9mm"], "--fillet", "at most"),
-    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--bore", "43mm"], "--bore", "43 mm"),
-    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--rim", "4mm"], "--rim", "omit --rim"),
-    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--tolerance", "0mm"], "--tolerance", "above 0"),
-    (["involute", *PAIR, "--module", "2mm", "--profile", "/no/where/w.svg"], "/no/where", "the folder does not exist"),
-    (["involute", *PAIR, "--bevel", "90deg", "--module", "2mm", "--profile", "w.svg"], "--profile", "on a sphere"),
-    (["involute", "--teeth", 8, 60, "--module", "2mm", "--profile", "w.svg"], "--profile", "addendum of at most"),
-    (["involut", *PAIR], "involut", "No such command"),
+    (["--compare", *PAIR, "--form", "involut"], "--form", "did you mean 'involute'"),
+    (["--compare", *PAIR, "--form", "rubber"], "--form", "give one or more of: involute"),
+    (["--compare", *PAIR, "--form", ""], "--form", "give one or more of"),
+    (["--compare", *PAIR, "-p", "pressure_angle=50deg"], "-p pressure_angle", "between 0 and 45 deg"),
+    (["--compare", *PAIR, "-p", "pressure_angle=20"], "-p pressure_angle", "has no unit"),
+    (["--compare", *PAIR, "-p", "arcs=0.5,x"], "-p arcs", "in pitches"),
+    (["--compare", *PAIR, "-p", "arcs=-1,2"], "-p arcs", "in pitches"),
+    (["--compare", *PAIR, "-p", "arcs=0.2,0.2"], "-p arcs", "the contact ratio is 0.4"),
+    (["--compare", 8, 9], "-p arcs", "end the approach before 0.463"),
+    (["--compare", 2, 36], "Z1 Z2", "at least 3 teeth"),
+    (["--compare", 36, 24, "--internal"], "Z1 Z2", "cannot contain"),
+    (["--compare", *PAIR, "--internal", "--shaft-angle", "90deg"], "--shaft-angle", "parallel"),
+    (["--compare", *PAIR, "--shaft-angle", "200deg"], "Z1 Z2", "between 0 and 180 deg"),
+    (["--compare", *PAIR, "-o", "x.pdf"], "-o", ".md, .html, .json"),
+    ([*PAIR, "-p", "pressure_angle=95deg"], "-p pressure_angle", "between 0 and 90 deg"),
+    ([*PAIR, "--form", "uniform_stress", "-p", "pressure_angle=45deg"], "-p pressure_angle", "between 0 and 45 deg"),
+    ([*PAIR, "--form", "uniform_temperature", "-p", "reading=d"], "-p reading", "'d' is not a valid value"),
+    ([*PAIR, "--friction", "-1"], "--friction", "0 or more"),
+    ([*PAIR, "-p", "centre_distance=20"], "Z1 Z2", "too short"),
+    ([*PAIR, "-p", "backlash=0.1mm"], "Z1 Z2", "give the `module` of both wheels"),
+    ([*PAIR, "--module", "-2mm"], "--module", "above 0"),
+    ([*PAIR, "--profile", "w.svg"], "--module", "to scale"),
+    ([*PAIR, "--module", "2mm", "--profile", "w.step"], "--profile", ".svg, .dxf, .csv"),
+    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "fillet=9mm"], "--blank fillet", "at most"),
+    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "bore=43mm"], "--blank bore", "43 mm"),
+    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "rim=4mm"], "--blank rim", "omit --blank rim"),
+    ([*PAIR, "--module", "2mm", "--profile", "w.svg", "--blank", "tolerance=0mm"], "--blank tolerance", "above 0"),
+    ([*PAIR, "--module", "2mm", "--profile", "/no/where/w.svg"], "/no/where", "the folder does not exist"),
+    ([*PAIR, "--shaft-angle", "90deg", "--module", "2mm", "--profile", "w.svg"], "--profile", "on a sphere"),
+    ([8, 60, "--module", "2mm", "--profile", "w.svg"], "--profile", "addendum of at most"),
+    ([*PAIR, "--form", "involut"], "involut", "did you mean 'involute'?"),
+    ([*PAIR, "-p", "presure_angle=25deg"], "-p presure_angle", "did you mean 'pressure_angle'?"),
+    ([*PAIR, "-p", "shift"], "-p", "KEY=VALUE"),
+    ([*PAIR, "--form", "cycloidal", "--helix", "18deg"], "--helix", "does not apply to cycloidal teeth"),
+    ([*PAIR, "--inertia", "1 kg mm2"], "--inertia", "does not apply to involute teeth"),
+    ([*PAIR, "--form", "lantern", "--form", "cycloidal"], "--form", "add --compare"),
+    ([], "Z1 Z2", "the tooth counts are missing"),
 ]
 
 
@@ -204,7 +216,7 @@ def test_what_cannot_be_answered_is_refused_with_place_and_what_to_do(
 def test_a_missing_library_is_named_with_its_package(
     missing: str, package: str, option: str, file: str, tmp_path: File
 ) -> None:
-    arguments: list[object] = ["mesh", "involute", *PAIR, "--module", "2mm", option, tmp_path / file]
+    arguments: list[object] = ["mesh", *PAIR, "--module", "2mm", option, tmp_path / file]
     done = without(missing, arguments=arguments)
     assert done.returncode == 2
     assert f"{missing} is not installed" in done.stderr
@@ -213,7 +225,7 @@ def test_a_missing_library_is_named_with_its_package(
 
 
 def test_an_outline_as_svg_needs_neither(tmp_path: File) -> None:
-    arguments: list[object] = ["mesh", "involute", *PAIR, "--module", "2mm", "--profile", tmp_path / "w.svg"]
+    arguments: list[object] = ["mesh", *PAIR, "--module", "2mm", "--profile", tmp_path / "w.svg"]
     done = without("scipy", arguments=arguments)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "w.svg").exists()
@@ -264,7 +276,7 @@ def test_forms_differ_in_colour_or_dashes_and_in_both_where_there_are_few() -> N
 def test_a_comparison_is_drawn_to_a_file(tmp_path: File) -> None:
     pytest.importorskip("matplotlib")
     file = tmp_path / "c.svg"
-    assert call("mesh", "compare", *PAIR, "--forms", "involute,uniform_stress", "--plot", file).exit_code == 0
+    assert call("mesh", *PAIR, "--compare", *forms("involute,uniform_stress"), "--plot", file).exit_code == 0
     text = file.read_text(encoding="utf-8")
     assert all(f'id="{name}"' in text for name in ("involute", "uniform_stress", "pitch point"))
 
@@ -284,39 +296,36 @@ def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> Non
 
 
 def test_a_friction_that_locks_is_part_of_the_verdict() -> None:
-    done = call("mesh", "involute", *PAIR, "--friction", 2)
+    done = call("mesh", *PAIR, "--friction", 2)
     assert done.exit_code == 1
     assert "but friction locks them" in " ".join(done.output.split())
     assert "the teeth run" not in done.output
 
 
-def test_every_field_of_a_form_is_an_option_of_its_command() -> None:
-    import typer.main
+@pytest.mark.parametrize("form", [form for form in TOOTH_FORMS if form != "ideal"])
+def test_the_keys_of_a_form_are_those_of_its_declaration(form: str) -> None:
+    model = tooth_form(form)
+    declared = {*model.model_json_schema()["properties"]} - {"form", "stiffness", "damping"}
+    rows = json_rows(call("mesh", "--form", form, "--keys", "-o", "-").output)
+    assert {*rows} == declared - (set() if model.any_distance else {"centre_distance"})
+    for key, default in rows.items():
+        if default:
+            counts = (11, 12) if model.ringed else (24, 36)
+            assert call("mesh", *counts, "--form", form, "-p", f"{key}={default}").exit_code in (0, 1)
 
-    from geartrain.cli import app
-    from geartrain.teeth.any_tooth_form import tooth_forms
-    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 
-    mesh = typer.main.get_command(app).commands["mesh"]  # type: ignore[attr-defined]
-    for name, form in tooth_forms().items():
-        if name == "ideal":
-            continue
-        properties = form.model_json_schema()["properties"].keys() - {"stiffness", "damping"}
-        fields = {f"--{field.replace('_', '-')}" for field in properties} - {"--form", "--centre-distance"}
-        options = {option for each in mesh.commands[name].params for option in each.opts}
-        assert fields <= options, name
-        assert ("--centre-distance" in options) == form.any_distance
-        of_conjugate = {"--internal", "--bevel", "--clearance", "--fillet", "--rim"} - fields
-        of_conjugate -= {"--internal"} if name == "triangular" else set()
-        assert of_conjugate & options == (of_conjugate if issubclass(form, ConjugateToothForm) else set()), name
+def json_rows(text: str) -> dict[str, str]:
+    """Key and default of each row of a table in Markdown."""
+    cells = [[cell.strip() for cell in line.split("|")[1:3]] for line in text.splitlines() if line.startswith("|")]
+    return dict(cells[2:])
 
 
 def test_teeth_without_a_path_are_cut_as_finely_as_is_requested_and_the_page_tells_what_was_cut(tmp_path: File) -> None:
-    requested = ("mesh", "circular_arc", "--teeth", 60, 8, "--module", "2mm", "--wheel", 1)
+    requested = ("mesh", 60, 8, "--form", "circular_arc", "--module", "2mm", "--wheel", 1)
     points = {}
     for tolerance in ("0.001mm", "0.1mm"):
         file = tmp_path / f"w{tolerance}.csv"
-        done = call(*requested, "--profile", file, "--tolerance", tolerance)
+        done = call(*requested, "--profile", file, "--blank", f"tolerance={tolerance}")
         assert re.search(r"\npitch diameter +120\b", done.output)
         assert re.search(r"\ncentre distance +68\b", done.output)
         points[tolerance] = len(file.read_text(encoding="utf-8").splitlines())
@@ -345,9 +354,9 @@ def test_a_page_on_teeth_off_their_design_distance_does_not_say_that_they_keep_t
 
 
 def test_an_option_that_is_no_text_is_read_as_its_form_has_it() -> None:
-    done = call("mesh", "least_friction", "--teeth", 24, 36, "--literal", "--json")
+    done = call("mesh", 24, 36, "--form", "least_friction", "-p", "literal=true", "--json")
     assert json.loads(done.stdout)["form"] == "least_friction"
-    plain = call("mesh", "least_friction", "--teeth", 24, 36, "--json")
+    plain = call("mesh", 24, 36, "--form", "least_friction", "--json")
     assert json.loads(done.stdout) != json.loads(plain.stdout)
-    pins = ("mesh", "lantern", "--teeth", 12, 45)
-    assert call(*pins, "--pins", 1).stdout != call(*pins).stdout == call(*pins, "--pins", 2).stdout
+    pins = ("mesh", 12, 45, "--form", "lantern")
+    assert call(*pins, "-p", "pins=1").stdout != call(*pins).stdout == call(*pins, "-p", "pins=2").stdout

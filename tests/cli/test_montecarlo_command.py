@@ -74,7 +74,7 @@ def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path
 def test_everything_that_can_be_requested_stands_in_one_document(train_file: Write, here: Path) -> None:
     found = ask(
         train_file(PAIR),
-        *("--trials", 128, "--output", "b", "--clearance", "1.01:1.03:2", "--sobol"),
+        *("--trials", 128, "--of", "b", "--vary", "clearance_factor=1.01:1.03:2", "--sobol"),
         "--json",
     )
     assert found.exit_code == 0, found.output
@@ -134,7 +134,7 @@ def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path)
         requested | {"geartrain": "0.0.0"},
     ]
     for other in others:
-        with pytest.raises(QuestionError, match="another question"):
+        with pytest.raises(QuestionError, match="another run"):
             Journal(here / "j", other)
     Journal(here / "j", requested).close()
 
@@ -165,23 +165,23 @@ def test_a_full_disk_is_said_and_the_name_requested_for_is_not_taken(here: Path)
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--trials", "0"), "number of trials is 0"),
-        (("--trials", "-5"), "number of trials is -5"),
-        (("--set", "pitch_deviation=120 %"), "tooth vanishes"),
-        (("--set", "pitch_deviation=45 %"), "cannot be cut"),
-        (("--set", "pitch_deviation=20 deg"), "tooth vanishes"),
-        (("--set", "tip=0.1 mm"), "needs a module"),
-        (("--set", "colour=3 %"), "does not set an error"),
-        (("--set", "pitch_deviation=3 apples"), "does not set an error"),
-        (("--set", "pitch_deviation=-3 %"), "is negative"),
-        (("--set", "x9.pitch_deviation=3 %"), "wheel 'x9'"),
-        (("--set", "p.centre=3 %"), "pair 'p'"),
-        (("--set", "pitch_deviation=0"), "declares no errors"),
-        (("--output", "nothing"), "no output or link"),
+        (("--trials", "0"), "0 is not a valid number of trials"),
+        (("--trials", "-5"), "-5 is not a valid number of trials"),
+        (("--cutting", "pitch_deviation=120 %"), "tooth vanishes"),
+        (("--cutting", "pitch_deviation=45 %"), "cannot be cut"),
+        (("--cutting", "pitch_deviation=20 deg"), "tooth vanishes"),
+        (("--cutting", "tip=0.1 mm"), "needs a module"),
+        (("--cutting", "colour=3 %"), "is not a valid setting of an error"),
+        (("--cutting", "pitch_deviation=3 apples"), "is not a valid setting of an error"),
+        (("--cutting", "pitch_deviation=-3 %"), "is negative"),
+        (("--cutting", "x9.pitch_deviation=3 %"), "wheel 'x9'"),
+        (("--cutting", "p.centre=3 %"), "pair 'p'"),
+        (("--cutting", "pitch_deviation=0"), "declares no errors"),
+        (("--of", "nothing"), "no output or link"),
         (("--state", "fast"), "no state"),
-        (("--clearance", "1.03:1.01:3"), "not a sweep"),
-        (("--clearance", "0.5:1.5:3"), "not a sweep"),
-        (("--clearance", "a:b"), "not a sweep"),
+        (("--vary", "clearance_factor=1.03:1.01:3"), "not a sweep"),
+        (("--vary", "window=0.5:1.5:3"), "not a sweep"),
+        (("--vary", "clearance_factor=a:b"), "not a sweep"),
     ],
 )
 def test_what_cannot_be_requested_is_refused_with_what_why_and_what_to_do(
@@ -222,9 +222,9 @@ def test_without_its_extra_it_says_which_one(here: Path, monkeypatch: pytest.Mon
 
 
 def test_sweeps_read_as_they_are_written() -> None:
-    assert read_clearances("1.01:1.03:3") == pytest.approx([1.01, 1.02, 1.03])
-    assert read_clearances("0.5") == [0.5]
-    assert len(read_clearances("0.1:0.9")) == 9
+    assert read_clearances("clearance_factor=1.01:1.03:3") == pytest.approx([1.01, 1.02, 1.03])
+    assert read_clearances("window=0.5:0.5:1") == [0.5]
+    assert len(read_clearances("window=0.1:0.9:9")) == 9
 
 
 def test_a_few_wheels_that_cannot_be_cut_are_left_out_and_said(train_file: Write) -> None:

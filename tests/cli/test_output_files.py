@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import socket
 import stat
 import sys
@@ -20,15 +21,15 @@ from geartrain.numerics.files.atomic import check_folder
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no socket in a folder")
 
-PAIR = ("--teeth", "20", "30")
+PAIR = ("20", "30")
 SIZED = (*PAIR, "--module", "1mm")
 FORMS = ("involute", "cycloidal", "lantern", "circular-arc", "uniform-stress", "uniform-temperature", "least-friction")
-MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
-SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")
+MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--of", "moon")
+SIZED_TRAIN = ("optimise", "moon-triangular", "--of", "moon", "--objective", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
-ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "pitch_deviation=2 %")
+ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--of", "moon", "--cutting", "pitch_deviation=2 %")
 IN_TIME = ("--rate", "1", "--turns", "2", "--skip", "0", "--steps", "100", "--no-fast")
-BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
+BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--of", "moon")
 
 # command and writing option -> the rest of a question, and the suffixes it may be written with
 REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -38,12 +39,12 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("export", "-o"): (("export", "planetary-24-18-60"), (".dot",)),
     ("compare", "-o"): (("compare", "worm"), (".md", ".html", ".json")),
     ("solve", "-o"): (("solve", "worm"), (".txt", "")),
-    ("equations", "-o"): (("equations", "worm"), (".txt",)),
+    ("inspect equations", "-o"): (("inspect", "equations", "worm"), (".txt",)),
     ("init", "-o"): (("init", "clock"), (".yaml",)),
     ("format", "-o"): (("format", "{loaded}"), (".yaml",)),
-    ("formula", "-o"): (("formula", "worm"), (".md", ".html", ".json")),
+    ("inspect formula", "-o"): (("inspect", "formula", "worm"), (".md", ".html", ".json")),
     ("gearbox", "-o"): (("gearbox", "simpson-set"), (".md", ".html", ".json")),
-    ("graph", "-o"): (("graph", "worm"), (".md", ".dot", ".graphml", ".json")),
+    ("inspect graph", "-o"): (("inspect", "graph", "worm"), (".md", ".dot", ".graphml", ".json")),
     ("torques", "-o"): (("torques", "worm"), (".md", ".json")),
     ("strength", "-o"): (("strength", "worm"), (".md", ".json")),
     ("torques", "--plot"): (("torques", "{loaded}"), (".svg",)),
@@ -63,35 +64,41 @@ REQUESTED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("teeth set", "-o"): (("teeth", "set", "7/2", "--kind", "planetary"), (".md", ".json", ".yaml")),
     ("teeth orrery", "-o"): (("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40"), (".md", ".json", ".yaml")),
     ("reconstruct", "-o"): (("reconstruct", "metonic-l-m"), (".md", ".html", ".json")),
-    ("reconstruct", "--page"): (("reconstruct", "metonic-l-m", "--turning", "1"), (".html",)),
+    ("reconstruct", "--page"): (("reconstruct", "metonic-l-m", "--animated", "1"), (".html",)),
     ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
     ("posterior", "--plot"): (DOUBT, (".svg",)),
     ("optimise", "-o"): (SIZED_TRAIN, (".md", ".html", ".json", ".yaml")),
     ("optimise", "--plot"): (SIZED_TRAIN, (".svg",)),
-    ("bench", "-o"): (("bench", "worm"), (".md", ".html", ".json")),
-    ("schema", "-o"): (("schema",), (".json",)),
-    ("mesh triangular", "-o"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".md", ".json")),
-    ("mesh triangular", "--plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
-    ("mesh triangular", "--teeth-plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
-    ("mesh triangular", "--profile"): (("mesh", "triangular", *SIZED, "--window", "0.5"), (".svg",)),
-    ("mesh pin", "-o"): (("mesh", "pin", "--pin-radius", "10", "--offset", "5"), (".md", ".json")),
-    ("mesh compare", "-o"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".md", ".json")),
-    ("mesh compare", "--plot"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".svg",)),
+    ("inspect bench", "-o"): (("inspect", "bench", "worm"), (".md", ".html", ".json")),
+    ("inspect schema", "-o"): (
+        (
+            "inspect",
+            "schema",
+        ),
+        (".json",),
+    ),
+    ("mesh triangular", "-o"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".md", ".json")),
+    ("mesh triangular", "--plot"): (("mesh", *PAIR, "--form", "triangular", "-p", "window=0.5"), (".svg",)),
+    ("mesh triangular", "--profile"): (("mesh", *SIZED, "--form", "triangular", "-p", "window=0.5"), (".svg",)),
+    ("pin", "-o"): (("pin", "10", "5"), (".md", ".json")),
+    ("mesh compare", "-o"): (("mesh", *PAIR, "--compare", "--form", "cycloidal"), (".md", ".json")),
+    ("mesh compare", "--plot"): (("mesh", *PAIR, "--compare", "--form", "cycloidal"), (".svg",)),
 }
-for _form, _pair in [*((form.replace("-", "_"), PAIR) for form in FORMS), ("pin_ring", ("--teeth", "11", "12"))]:
+for _form, _pair in [*((form.replace("-", "_"), PAIR) for form in FORMS), ("pin_ring", ("11", "12"))]:
+    _verb = "mesh" if _form == "involute" else f"mesh {_form}"
     _sized = (*_pair, *SIZED[len(PAIR) :])
-    REQUESTED[f"mesh {_form}", "-o"] = (("mesh", _form, *_pair), (".md",))
-    REQUESTED[f"mesh {_form}", "--plot"] = (("mesh", _form, *_pair), (".svg",))
-    REQUESTED[f"mesh {_form}", "--profile"] = (("mesh", _form, *_sized), (".svg",))
+    REQUESTED[_verb, "-o"] = (("mesh", *_pair, "--form", _form), (".md",))
+    REQUESTED[_verb, "--plot"] = (("mesh", *_pair, "--form", _form), (".svg",))
+    REQUESTED[_verb, "--profile"] = (("mesh", *_sized, "--form", _form), (".svg",))
 FOLDER = ("export", "--to")
-FOUND = ("reconstruct", "--write")  # tests of its own: tests/cli/test_reconstruct_command.py
+FOUND = ("reconstruct", "--to")  # tests of its own: tests/cli/test_reconstruct_command.py
 TRAINS: dict[str, Path] = {}
 
 Case = tuple[str, str, str]
 PARQUET = pytest.mark.needs("pyarrow")
 CASES = [(command, option, suffix) for (command, option), (_, suffixes) in REQUESTED.items() for suffix in suffixes]
 FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in REQUESTED.items()]
-OTHER_FORMS = {f"mesh {form.replace('-', '_')}" for form in FORMS} - {"mesh involute", "mesh uniform_stress"}
+OTHER_FORMS = {f"mesh {form.replace('-', '_')}" for form in FORMS} - {"mesh uniform_stress"}
 
 
 def few_forms(cases: list[Case], quick: list[Case]) -> list[Any]:
@@ -134,7 +141,9 @@ def ask(command: str, option: str, path: object, *more: object) -> Any:
 
 def test_every_option_that_names_a_file_is_tried_here() -> None:
     reads = {("sphere", "--graph")}
-    assert set(writing()) - reads == {*REQUESTED, FOLDER, FOUND}
+    assert set(writing()) - reads == {
+        (re.sub("^mesh .*", "mesh", verb), option) for verb, option in (*REQUESTED, FOLDER, FOUND)
+    }
 
 
 @pytest.fixture
@@ -245,7 +254,7 @@ def test_a_picture_beside_an_answer_needs_a_file(here: Path) -> None:
 
 def test_two_results_of_one_command_never_share_a_file(here: Path) -> None:
     (here / "b.svg").symlink_to("a.svg")
-    requested = ("mesh", "triangular", *PAIR, "--window", "0.5", "--plot", "a.svg", "--teeth-plot")
+    requested = ("mesh", *SIZED, "--form", "triangular", "--plot", "a.svg", "--profile")
     for second in ("a.svg", "b.svg", "./a.svg"):
         assert "two results have the same file" in refused(call(*requested, second, "--force"))
     assert [path.name for path in here.iterdir()] == ["b.svg"]

@@ -51,7 +51,7 @@ def test_counts(name: str, counts: list[tuple[int, ...]]) -> None:
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["counts"] == [
-        dict(zip(("added", "mechanisms", "bags", "classes"), row, strict=True)) for row in counts
+        dict(zip(("added", "solutions", "multisets", "classes"), row, strict=True)) for row in counts
     ]
     assert found["complete"] is True
     assert found["best"] == []
@@ -59,7 +59,7 @@ def test_counts(name: str, counts: list[tuple[int, ...]]) -> None:
 
 def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
     folder = tmp_path / "found"
-    result = call("reconstruct", "moon-c-e", "--write", folder)
+    result = call("reconstruct", "moon-c-e", "--to", folder)
     assert result.exit_code == 0
     assert "24" in result.stdout
     files = sorted(folder.iterdir())
@@ -68,8 +68,8 @@ def test_the_best_are_written_as_trains(tmp_path: Path) -> None:
         assert load(path).solve()
         assert call("check", path).exit_code == 0
     before = [path.read_bytes() for path in files]
-    assert ended("reconstruct", "moon-c-e", "--write", folder).returncode == 2
-    assert call("reconstruct", "moon-c-e", "--write", folder, "--force").exit_code == 0
+    assert ended("reconstruct", "moon-c-e", "--to", folder).returncode == 2
+    assert call("reconstruct", "moon-c-e", "--to", folder, "--force").exit_code == 0
     assert [path.read_bytes() for path in files] == before
 
 
@@ -87,7 +87,7 @@ def test_nothing_found_is_a_verdict_and_what_cannot_be_requested_is_none(tmp_pat
     assert "No train explains it with 1 added wheel or fewer." in result.stdout
     assert call("reconstruct", path, "-k", "0", "--count").exit_code == 1
     assert ended("reconstruct", "planetary-24-18-60").returncode == 2
-    assert ended("reconstruct", path, "--count", "--write", tmp_path / "out").returncode == 2
+    assert ended("reconstruct", path, "--count", "--to", tmp_path / "out").returncode == 2
     path.write_text(NONE + "locks: [[a, a]]\n", encoding="utf-8")
     assert ended("reconstruct", path).returncode == 2
 
@@ -95,33 +95,31 @@ def test_nothing_found_is_a_verdict_and_what_cannot_be_requested_is_none(tmp_pat
 def test_a_train_of_which_an_arbor_is_lost(tmp_path: Path) -> None:
     """1 to 8: four pairs of counts, and two equal wheels of the arbor before."""
     folder = tmp_path / "found"
-    result = call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot", "--json", "--write", folder)
+    result = call("reconstruct", "isfahan-astrolabe-1221", "--lost", "pivot", "--json", "--to", folder)
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["original"] == [1, 8]
-    assert [count["mechanisms"] for count in found["counts"]] == [0, 0, 8]
-    assert "ranks 1 to 8" in " ".join(
-        call("reconstruct", "isfahan-astrolabe-1221", "--without", "pivot").stdout.split()
-    )
+    assert [count["solutions"] for count in found["counts"]] == [0, 0, 8]
+    assert "ranks 1 to 8" in " ".join(call("reconstruct", "isfahan-astrolabe-1221", "--lost", "pivot").stdout.split())
     assert len(list(folder.iterdir())) == 10
     again = json.loads(call("reconstruct", folder / "evidence.yaml", "--json").stdout)
     assert again["counts"] == found["counts"]
     assert again["best"] == found["best"]
     assert again["original"] is None
-    assert ended("reconstruct", "isfahan-astrolabe-1221", "--without", "year").returncode == 2
-    assert ended("reconstruct", "back-train", "--without", "m").returncode == 2
+    assert ended("reconstruct", "isfahan-astrolabe-1221", "--lost", "year").returncode == 2
+    assert ended("reconstruct", "back-train", "--lost", "m").returncode == 2
 
 
 def test_the_family_tree_is_written_beside_the_trains(tmp_path: Path) -> None:
-    call("reconstruct", "back-train", "--best", "1", "--write", tmp_path / "one")
+    call("reconstruct", "back-train", "--best", "1", "--to", tmp_path / "one")
     found = json.loads((tmp_path / "one" / "family.json").read_text(encoding="utf-8"))
-    assert [branch["mechanisms"] for branch in found["family"]] == [4, 2, 1, 1, 2, 1, 1]
+    assert [branch["solutions"] for branch in found["family"]] == [4, 2, 1, 1, 2, 1, 1]
     assert [branch["parent"] for branch in found["family"]] == [None, 0, 1, 1, 0, 4, 4]
     assert found["family"][0]["meshes"] == ["b2 > l1"]
     assert found["family"][0]["weight"] == 1
     assert found["family"][2]["trains"] == [{"rank": 1, "weight": 0.25, "counts": {"m_new1": 27, "new_metonic1": 53}}]
-    assert found["counts"][2]["mechanisms"] == 4
+    assert found["counts"][2]["solutions"] == 4
     assert len(found["question"]) == 64
 
 
@@ -139,9 +137,9 @@ def test_what_is_told_beyond_counts() -> None:
     holds("reconstruct", found)
     told = {(one["kind"], one["subject"]): one for one in found["marginals"]}
     yes = {answer["answer"]: answer for answer in told["mesh", "e4 > f1"]["answers"]}["yes"]
-    assert yes == {"answer": "yes", "weight": 0.25, "mechanisms": 1}
-    assert told["needed", "53"]["answers"][0]["mechanisms"] == 2
-    assert told["mesh", "b2 > l1"]["answers"] == [{"answer": "yes", "weight": 1, "mechanisms": 4}]
+    assert yes == {"answer": "yes", "weight": 0.25, "solutions": 1}
+    assert told["needed", "53"]["answers"][0]["solutions"] == 2
+    assert told["mesh", "b2 > l1"]["answers"] == [{"answer": "yes", "weight": 1, "solutions": 4}]
     assert found["next_facts"][0]["bits"] == 1.5
     assert (found["assumptions"], found["missing"], found["listed"]) == ([], None, 4)
     alone = json.loads(call("reconstruct", "metonic-l-m", "--json").stdout)
@@ -156,7 +154,7 @@ def test_what_is_told_beyond_counts() -> None:
 def test_assumptions_are_dropped_where_that_is_requested() -> None:
     found = json.loads(call("reconstruct", "back-train", "--assumptions", "--count", "--json").stdout)
     holds("reconstruct", found)
-    trains = {one["change"]: one["mechanisms"] for one in found["assumptions"]}
+    trains = {one["change"]: one["solutions"] for one in found["assumptions"]}
     assert trains["without the sense of any dial"] == [0, 0, 29]
     assert found["marginals"] == []
     assert "\nwithout the sense of any dial " in call("reconstruct", "back-train", "--assumptions").stdout
@@ -169,7 +167,7 @@ def test_why_nothing_fits(tmp_path: Path) -> None:
     found = json.loads(call("reconstruct", path, "--json").stdout)
     holds("reconstruct", found)
     assert found["missing"]["dials"] == [{"dial": "sun", "fewest": None, "refused": None}]
-    assert [one["change"] for one in found["missing"]["doubts"]] == ["if added wheels may have 10 to 80 teeth"]
+    assert [one["change"] for one in found["missing"]["uncertainties"]] == ["if added wheels may have 10 to 80 teeth"]
     page = call("reconstruct", path).stdout
     assert "fails: no train with 1 added wheel or fewer" in page
     assert "Changes of the evidence that would help" in page
@@ -202,7 +200,7 @@ def test_what_is_requested_is_told_before_the_search(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(reconstruction, "find_reconstructions", none)
     result = call("reconstruct", "back-train")
     assert result.exit_code != 0
-    assert "question: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
+    assert "problem: 6 arbors with 10 wheels; 2 dials; at most 2 added wheels of 12 to 225 teeth" in result.stderr
     assert "possible paths: 22 to metonic, 4 to saros" in result.stderr
 
 
@@ -213,7 +211,7 @@ def test_the_time_is_told_where_it_is_long(monkeypatch: pytest.MonkeyPatch) -> N
     found = json.loads(result.stdout)
     holds("reconstruct", found)
     assert found["expected"]["seconds"] == 6000
-    assert found["counts"][3]["mechanisms"] == 60
+    assert found["counts"][3]["solutions"] == 60
 
 
 STOP_AFTER = 3
@@ -252,7 +250,7 @@ def test_assumptions_are_the_same_with_workers(tmp_path: Path, monkeypatch: pyte
 
 def test_a_page_shows_the_tree_and_the_trains_turning(tmp_path: Path) -> None:
     page = tmp_path / "found.html"
-    result = call("reconstruct", "moon-c-e", "--page", page, "--turning", "1")
+    result = call("reconstruct", "moon-c-e", "--page", page, "--animated", "1")
     assert result.exit_code == 0
     text = page.read_text(encoding="utf-8")
     assert "The family tree" in text
@@ -272,7 +270,7 @@ def test_plain_growth_gives_the_same_answer(monkeypatch: pytest.MonkeyPatch) -> 
 
     def grown(problem: ReconstructionProblem, *_: object) -> Reconstructions:
         found = explanations(problem)
-        trees = [(each.counts.added, tree) for each in found for tree in sorted(each.mechanisms)]
+        trees = [(each.counts.added, tree) for each in found for tree in sorted(each.solutions)]
         listed = tuple(Candidate(package_arbor(tree), added, 1 / len(trees), (1, len(trees))) for added, tree in trees)
         return Reconstructions(tuple(ExplanationCount(*each.counts) for each in found), True, listed)
 
@@ -331,7 +329,7 @@ def test_the_places_of_known_trains_are_told() -> None:
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        (("--same", "E4=e3"), "it is used only with --rank"),
+        (("--same", "E4=e3"), "give --rank too"),
         (("--rank", "price-1974", "--same", "E4"), "such as E4=e3"),
         (("--rank", "price-1974", "--same", "E44=e3"), "'E44' is not a wheel or an output"),
         (("--rank", "vitruvius-hodometer"), "no wheel of 'b'"),
@@ -367,7 +365,7 @@ def test_the_report_is_written(tmp_path: Path) -> None:
     call("reconstruct", "metonic-l-m", "-o", tmp_path / "found.html")
     assert "<h1" in (tmp_path / "found.html").read_text("utf-8")
     call("reconstruct", "metonic-l-m", "-o", tmp_path / "found.json")
-    assert json.loads((tmp_path / "found.json").read_text("utf-8"))["counts"][1]["mechanisms"] == 2
+    assert json.loads((tmp_path / "found.json").read_text("utf-8"))["counts"][1]["solutions"] == 2
     assert call("reconstruct", "metonic-l-m", "-o", "-").stdout.startswith("# Trains that explain metonic-l-m")
     same = tmp_path / "one.html"
     result = ended("reconstruct", "metonic-l-m", "-o", same, "--page", same)

@@ -60,13 +60,13 @@ def test_a_train_without_load_is_said_to_give_nothing_out(train_file: Write) -> 
         PIN.replace("b: {}}\nrev", "b: {bearing: 1 N m}}\nrev").replace("loads: {b: -10 N m}", ""), "idle.yaml"
     )
     text = " ".join(call("torques", path, "--turns", "1", *SAMPLES).output.split())
-    assert "nothing is taken out; the maximum power" in text
+    assert "no power is taken out; the maximum power" in text
     assert "No net energy is taken out: all energy put in is lost." in text
     assert "Efficiency, energy" not in text
 
 
 def test_every_position_stands_in_the_table(pin: Path, tmp_path: Path) -> None:
-    printed = call("torques", pin, "--turns", "2", *SAMPLES, "--csv").output
+    printed = call("torques", pin, "--turns", "2", *SAMPLES, "-o", "-.csv").output
     rows = list(csv.DictReader(io.StringIO(printed)))
     assert list(rows[0]) == ["turns", "torque_a", "starting", "lost_a~b"]
     assert len(rows) >= 300
@@ -94,7 +94,7 @@ def test_another_link_can_be_requested_and_a_period_followed(pin: Path) -> None:
     assert "no torque ripples" in requested.stderr
 
 
-@pytest.mark.parametrize("words", [("--csv",), ("--input", "a")])
+@pytest.mark.parametrize("words", [("-o", "-.csv"), ("--of", "a")])
 def test_options_of_a_run_need_turns(pin: Path, words: tuple[str, ...]) -> None:
     done = call("torques", pin, *words)
     assert done.exit_code == 2

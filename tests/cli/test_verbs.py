@@ -54,7 +54,7 @@ def test_the_version_is_told_by_the_shell_alone() -> None:
     assert verbs_in(modules) <= {"common", "verbs"}
 
 
-@pytest.mark.parametrize("more", [(), ("--output", "carrier")])
+@pytest.mark.parametrize("more", [(), ("--of", "carrier")])
 def test_solve_brings_the_rooms_that_solve_and_no_other_verb(more: tuple[str, ...]) -> None:
     modules = loaded("solve", "planetary-24-18-60", *more)
     assert rooms(modules) <= BEHIND_SOLVE
@@ -80,9 +80,6 @@ def test_motion_imports_only_the_tooth_forms_that_the_train_names_and_the_comput
 def test_commands_of_a_wing_are_in_the_folder_of_their_capability_and_all_others_in_the_command_line() -> None:
     homes = {name: function.__module__.split(".") for name, function in functions()}
     assert all(home[1] == "cli" or (home[1] in WINGS and home[-1].endswith("verb")) for home in homes.values())
-    assert {name for name, home in homes.items() if home[1:3] == ["cli", "mesh"]} == {
-        name for name in homes if name.startswith("mesh ")
-    }
 
 
 def test_help_lists_every_verb_with_what_it_does() -> None:
@@ -95,7 +92,7 @@ def test_help_lists_every_verb_with_what_it_does() -> None:
 
 def test_help_lists_every_command_under_a_heading() -> None:
     shown = call("--help").output
-    headings = ("Start", "Look", "Speeds", "Teeth, losses and motion", "Search", "Make", "Data")
+    headings = ("Start", "Look", "Speeds", "Teeth, losses and motion", "Search", "Make")
     places = [shown.index(f"─ {heading} ─") for heading in headings]
     assert places == sorted(places)
     assert "─ Commands ─" not in shown

@@ -101,7 +101,7 @@ def test_all_states_stand_in_one_page_or_the_one_that_is_named(here: Path) -> No
 
 
 def test_two_trains_stand_side_by_side(here: Path) -> None:
-    assert call("view", "price-1974", "freeth-2006", "--no-teeth").exit_code == 0
+    assert call("view", "price-1974", "freeth-2006", "--discs").exit_code == 0
     scenes, options = scenes_of(here / "price-1974-freeth-2006.html")
     assert [scene["name"] for scene in scenes] == ["price-1974", "freeth-2006"]
     assert options == {"compare": True, "teeth": False}

@@ -1,4 +1,4 @@
-"""`--workers` and `--dask`: the same bytes whoever works, and one line on standard error that says who does."""
+"""`--workers` and `--workers`: the same bytes whoever works, and one line on standard error that says who does."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from clusters import PATIENCE, alive, small_cluster, until
+from commands import call
 
 Write = Callable[..., Path]
 
@@ -34,7 +35,7 @@ PIN = """
     inputs: {a: 1}
     loads: {b: -10 N m}
 """
-MONTE_CARLO = ("--trials", "400", "--clearance", "1.01:1.03:2", "--sobol", "--json")
+MONTE_CARLO = ("--trials", "400", "--vary", "clearance_factor=1.01:1.03:2", "--sobol", "--json")
 
 
 def command(*words: object) -> list[str]:
@@ -78,7 +79,7 @@ def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(tra
     train = train_file(PAIR)
     local, _ = ended("montecarlo", train, *MONTE_CARLO, "--workers", 1)
     with small_cluster() as cluster:
-        requested = command("montecarlo", train, *MONTE_CARLO, "--dask", cluster.scheduler_address)
+        requested = command("montecarlo", train, *MONTE_CARLO, "--workers", cluster.scheduler_address)
         victim = next(iter(cluster.workers.values())).pid
         running = subprocess.Popen(requested, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
         until(lambda: any(tmp_path.glob("*.partial.jsonl")), "the run to begin")
@@ -90,8 +91,8 @@ def test_a_cluster_prints_the_bytes_of_a_local_run_though_a_worker_is_killed(tra
     assert not list(tmp_path.glob("*.partial.jsonl"))
 
 
-def test_both_workers_and_a_cluster_are_refused(train_file: Write) -> None:
-    requested = command("montecarlo", train_file(PAIR), "--workers", 2, "--dask", "tcp://127.0.0.1:1")
-    done = subprocess.run(requested, capture_output=True, text=True, check=False, timeout=PATIENCE)
-    assert done.returncode == 2
-    assert "both workers and a dask scheduler are given" in done.stderr
+@pytest.mark.parametrize("workers", ["0", "x", "2.5"])
+def test_a_number_of_workers_is_a_positive_integer(train_file: Write, workers: str) -> None:
+    done = call("montecarlo", train_file(PAIR), "--workers", workers)
+    assert done.exit_code == 2
+    assert "error: --workers: " in done.stderr

@@ -1,4 +1,4 @@
-"""The study of motion in time: its oracle of events, and what the kept run says. Times are never judged."""
+"""The study of dynamics: its event-driven reference, and the kept run. Times are never judged."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from studies.dynamics_methods import DRAG, FLANKS, INERTIA, RATE, by_events, stepped, yielding
 from studies.dynamics_study import DynamicsRecords
-from studies.page import read
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
@@ -35,7 +34,7 @@ def test_steps_and_teeth_that_yield_come_to_what_events_say() -> None:
 
 
 def test_the_kept_run_falls_to_the_first_order_and_settles() -> None:
-    (records,) = read(DynamicsRecords, "dynamics")
+    records = DynamicsRecords.read("dynamics")
     # bounces end where flights take two steps, which is not the same blow at each length of the step
     for restitution, within in ((0.0, 0.05), (0.5, 0.15)):
         rows = [row for row in records.pair if (row.restitution, row.method) == (restitution, "rigid steps")]

@@ -1,30 +1,18 @@
-"""The study of trains found again: which are asked, what is kept of a question that does not end, what is told."""
+"""The study of trains found again: which are asked, and what is kept of a question that does not end."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
-from pathlib import Path
 
 import pytest
 from concrete_trees import exact_dial, sure_arbor
-from make_left_out import page
 from studies import left_out_study
-from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
-from studies.left_out_study import (
-    QUICK,
-    fewest_new_arbors,
-    find_trees,
-    forget,
-    left_out,
-    more_left_out,
-    tree_records,
-)
+from studies.left_out_records import LeftOutRecord, LeftOutRecords
+from studies.left_out_study import fewest_new_arbors, find_trees, left_out
 from studies.measurement import gathered
-from studies.page import read
 
 from geartrain import shipped
 from geartrain.search.reconstruct import Additions, ReconstructionProblem, evidence_question, find_reconstructions
@@ -35,17 +23,20 @@ from geartrain.train.declaration_files import read_declaration
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
 
+EMPTY = LeftOutRecords("", [], [])
+QUICK = ("vitruvius-hodometer", "watch-going-train", "isfahan-astrolabe-1221", "four-gear-loop")
+
+
 @pytest.fixture(scope="module")
 def quick() -> LeftOutRecords:
-    return left_out(QUICK)
+    return left_out(EMPTY, QUICK)
 
 
 def test_every_shipped_train_is_requested_or_says_why_not() -> None:
-    trees, not_requested = find_trees(tuple(shipped()))
+    trees, why = find_trees(tuple(shipped()))
     requested = {name for name, _ in trees}
-    assert requested | {row.train for row in not_requested} == set(shipped())
-    assert not requested & {row.train for row in not_requested}
-    why = {row.train: row.why for row in not_requested}
+    assert requested | {*why} == set(shipped())
+    assert not requested & {*why}
     assert why["longcase-clock-bs978"] == "the same parts as longcase-clock"
     assert why["voulgaris-2022"] == "the same parts as freeth-2006 and freeth-2008"
     assert why["worm"].endswith("it has worm wheels")
@@ -62,44 +53,21 @@ def test_of_a_mechanism_with_pins_and_carriers_each_part_is_taken() -> None:
     assert set(trees["freeth-2008", "from e_inner"].driven) == {"moon"}
 
 
-def test_what_is_not_left_out_says_why() -> None:
-    (cover,) = tree_records(["freeth-2008"]).covers
-    assert (cover.links, cover.left_out) == (20, 18)  # all but the crank and b
-    assert cover.others == ["a: it has contrate wheels", "b: a part begins there"]
-    (cover,) = tree_records(["prague-orloj"]).covers
-    assert (cover.left_out, cover.others) == (3, ["sun: a part begins there"])
-
-
 def test_the_quick_run_finds_every_train_again(quick: LeftOutRecords) -> None:
     rows = {(row.train, *row.lost): row for row in quick.rows}
     assert len(rows) == len(quick.rows) == len(quick.whole) == 1 + (4 + 6) + (3 + 3)
     assert not quick.lost
     drum = rows["vitruvius-hodometer", "drum"]  # 1 > 400: the counts are the bounds
-    assert (drum.added, drum.mechanisms, drum.rank) == (1, [0, 1], [1, 1])
+    assert (drum.added, drum.mechanisms, drum.rank) == (1, [0, 1], (1, 1))
     pivot = rows["isfahan-astrolabe-1221", "pivot"]  # (8, 13), (16, 26), (24, 39), (32, 52), beside two equal wheels
-    assert (pivot.added, pivot.mechanisms, pivot.rank) == (2, [0, 0, 8], [1, 8])
+    assert (pivot.added, pivot.mechanisms, pivot.rank) == (2, [0, 0, 8], (1, 8))
     assert all(row.rank[0] <= row.rank[1] <= sum(row.mechanisms) for row in quick.whole if row.rank)
-
-
-def test_what_is_kept_is_read_again(quick: LeftOutRecords) -> None:
-    again = LeftOutRecords.from_dict(json.loads(json.dumps(quick.to_dict())))
-    assert again.to_markdown() == quick.to_markdown()
-
-
-def test_a_stopped_run_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    journal = tmp_path / "left-out.journal"
-    first = left_out(["watch-going-train"], journal=journal)
-    assert len(list(tmp_path.iterdir())) == 2
-    monkeypatch.setattr(left_out_study, "gathered", None)  # whoever asks again fails
-    assert left_out(["watch-going-train"], journal=journal).to_dict() == json.loads(json.dumps(first.to_dict()))
-    forget(journal)
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow
 def test_of_what_is_not_finished_less_is_requested() -> None:
-    full = {tuple(row.lost): row for row in left_out(["watch-going-train"]).rows}
-    found = left_out(["watch-going-train"], limit=0.0)
+    full = {tuple(row.lost): row for row in left_out(EMPTY, ["watch-going-train"]).rows}
+    found = left_out(EMPTY, ["watch-going-train"], limit=0.0)
     assert not found.whole
     assert {tuple(row.lost) for row in found.rows} == {*full}
     for row in found.rows:
@@ -111,7 +79,6 @@ def test_of_what_is_not_finished_less_is_requested() -> None:
         assert row.told[0] <= whole.rank[0]  # meshes that are told can but leave out others
         assert row.first == whole.rank[0]
         assert list(row.mechanisms) == list(whole.mechanisms[:-1])
-    assert "the search comes to the train in 6" in " ".join("\n".join(page(found)).split())
 
 
 def test_explanations_with_as_many_wheels_on_fewer_arbors_weigh_more() -> None:
@@ -148,15 +115,15 @@ def test_a_pointer_of_each_speed_needs_an_arbor() -> None:
 
 @pytest.mark.slow
 def test_a_kept_run_is_added_to() -> None:
-    kept = left_out(["watch-going-train"], limit=0.0)
+    kept = left_out(EMPTY, ["watch-going-train"], limit=0.0)
     rows = [replace(row, reached=None, told=None) for row in kept.rows if len(row.lost) == 1]
     less = replace(kept, rows=rows)
-    more = more_left_out(less, ["watch-going-train"], 60, 60, 5)
+    more = left_out(less, ["watch-going-train"], 60, 60, 5)
     own = [row for row in more.rows if row.train == "watch-going-train"]
     assert [row.reached for row in own] == [True] * 6
     assert all(row.told for row in own)
     assert not any(row.is_whole for row in own)  # pairs are asked to the end only where each alone was
-    assert more_left_out(less, ["watch-going-train"], 60, 60, 0).rows == rows
+    assert left_out(less, ["watch-going-train"], 60, 60, 0).rows == rows
 
 
 def test_what_came_in_time_is_gathered() -> None:
@@ -181,7 +148,7 @@ def test_what_came_in_time_is_gathered() -> None:
 
 
 def test_the_kept_run_found_every_train_again() -> None:
-    (records,) = read(LeftOutRecords, "left-out")
+    records = LeftOutRecords.read("left-out")
     trees = {(tree.train, tree.part): tree for tree in records.trees}
     requested = {(row.train, row.part, tuple(row.lost)) for row in records.rows}
     assert len(requested) == len(records.rows)
@@ -191,33 +158,3 @@ def test_the_kept_run_found_every_train_again() -> None:
     assert not requested
     assert not records.lost
     assert all(row.note for row in records.rows if not row.is_whole)
-
-
-def test_the_page_names_what_was_not_finished_and_what_was_not_found() -> None:
-    rows = [
-        LeftOutRecord("clock", ["a"], 2, [0, 3, 4], [0, 2, 2], [4, 7], True, 0.25, "", "from y"),
-        LeftOutRecord("clock", ["b"], 1, [0, 5], [0, 5], None, True, 1.5, "", "from y"),
-        LeftOutRecord(
-            "clock", ["c"], 3, [0, 0], [0, 0], None, False, None, "not within 60 s", "from y", True, [1, 3], 0
-        ),
-        LeftOutRecord("clock", ["a", "b"], 3, [], [], None, False, None, "more than 4 GB", "from y"),
-    ]
-    tree = TreeRecord("clock", "from y", "x", ["a", "b", "c"], 8, ["hour"], [8, 96])
-    cover = CoverRecord("clock", 4, 3, ["crank: it has worm wheels"])
-    worm = NotAskedRecord("worm", "it has worm wheels")
-    text = "\n".join(page(LeftOutRecords("Trains", [tree], rows, [worm], [cover])))
-    assert "| clock, from y | 3 | 8 | 1 | 6 | 2 | 2 | 2 | 1 | 1 | 1 | 0 | 7 |" in text
-    assert "| a | 3 with 1 | 4 with 2 | 2 | listed | 4 | 7 | open | 250 ms |" in text
-    assert "| b | 5 with 1 | 5 with 1 | 5 | no | open | open | open | 1.5 s |" in text
-    assert "| c | none with 1 | ? with 3 | - | followed | 1 | open | 1 to 3 | not within 60 s |" in text
-    assert "| a, b | - | ? with 3 | - | open | open | open | open | more than 4 GB |" in text
-    assert "From x on; pointers: hour; 8 to 96 teeth. Not asked yet: 2." in text
-    assert "| worm | it has worm wheels |" in text
-    assert "| clock | 4 | 3 | crank: it has worm wheels |" in text
-    said = " ".join(text.split())
-    assert "There are 6 such questions in 1 parts of 1 trains. 2 were asked to the end." in said
-    assert "found in 1 of these; not: clock without b; 0 have too many" in said
-    assert "the search comes to the train in 1." in said
-    assert "found in 2 questions, and missed in 1; 3 are open" in said
-    assert "its rank is known in 1: in 1 nothing weighs more, and in 0 it is the only one" in said
-    assert "1 have explanations with fewer wheels than were lost" in said

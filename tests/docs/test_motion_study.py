@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -39,13 +37,11 @@ def error(rows: dict[tuple[str, str], MotionRecord], family: str, method: str) -
 
 @pytest.mark.parametrize("family", [MOON, PRICE])
 def test_the_more_a_method_counts_the_less_it_errs(rows: dict[tuple[str, str], MotionRecord], family: str) -> None:
-    methods = ("direct", "tabulated, 1e-12", "tabulated, 1e-09", "superposition with lag", "superposition")
-    direct, finest, table, lagged, nominal = (error(rows, family, method) for method in methods)
+    methods = ("direct", "tabulated", "superposition with lag")
+    direct, table, lagged = (error(rows, family, method) for method in methods)
     assert direct < 1e-11
-    assert 0 < finest < 1e-9
-    assert finest < table < 1e-6
+    assert 0 < table < 1e-9
     assert table < 1e-3 * lagged
-    assert lagged < nominal
     typical = [rows[family, method].rms for method in methods]
     assert all(
         rms is not None and rms <= rows[family, method].error for rms, method in zip(typical, methods, strict=True)
@@ -56,9 +52,8 @@ def test_the_more_a_method_counts_the_less_it_errs(rows: dict[tuple[str, str], M
 def test_marching_nears_the_composition_as_its_steps_shrink(
     rows: dict[tuple[str, str], MotionRecord], family: str
 ) -> None:
-    methods = ("marching, RK45", "marching, 10 a position", "marching, 1 a position")
-    adaptive, ten, one = (error(rows, family, method) for method in methods)
-    assert adaptive < ten < one
+    adaptive, fixed = (error(rows, family, method) for method in ("marching, RK45", "marching, 1 a position"))
+    assert adaptive < fixed
     assert adaptive < 0.02
 
 
@@ -90,19 +85,11 @@ def test_every_pair_of_the_differential_train_has_a_transmission(records: Motion
     assert price.outputs["sun"]["peak_to_peak"] < 1e-10
 
 
-def test_records_survive_json_and_print_a_table_for_each_train(records: MotionRecords) -> None:
-    again = MotionRecords.from_dict(json.loads(json.dumps(records.to_dict())))
-    assert again.to_markdown() == records.to_markdown()
-    for train in records.trains:
-        assert f"## {train.family}" in again.to_markdown()
-
-
 def test_memory_is_that_of_a_stretch_of_positions() -> None:
     effort = Effort(200_000, rounds=1, marched=10, sample=1)
     case = MotionCase(MOON, MOON, ("moon",), 95.0, effort)
     case._trace()
     short, chunk, many = case.peaks.values()
-    assert many < 1.2 * case.memory["direct"]
     assert short < many < 16 * 2**23 / 2**20
     assert chunk == pytest.approx(many, rel=0.5)
 

@@ -72,7 +72,7 @@ def test_evidence_of_the_page_has_the_trains_that_are_told(name: str, folder: Pa
     found = requested(name)
     assert found.complete
     assert sorted(added(one.arbor) for one in found.candidates) == ANSWERS[name]
-    assert sum(count.mechanisms for count in found.counts) == len(ANSWERS[name])
+    assert sum(count.solutions for count in found.counts) == len(ANSWERS[name])
 
 
 def test_all_four_trains_of_the_back_turn_both_pointers_as_the_dials_are_divided(folder: Path) -> None:

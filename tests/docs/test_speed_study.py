@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 from studies import speed_study
-from studies.speed_study import SpeedRecords, speeds
+from studies.speed_study import speeds
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
@@ -20,8 +18,6 @@ def test_every_method_on_small_trains_is_right_and_says_how_right() -> None:
         elif row.error is not None:
             assert row.error < 1e-11
     assert {row.family for row in found.rows} == {"chain", "epicyclic", "grid"}
-    again = SpeedRecords.from_dict(json.loads(json.dumps(found.to_dict())))
-    assert again.to_markdown() == found.to_markdown()
 
 
 def test_a_drifting_chain_is_measured_exactly_only(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -30,4 +26,4 @@ def test_a_drifting_chain_is_measured_exactly_only(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(speed_study, "_JUDGED", 20)
     errors = {row.method: row.error for row in speeds(120, 1, ["drift"]).rows}
     assert errors["exact"] == errors["exact, one output"] == 0
-    assert len(errors) == 4
+    assert len(errors) == 2

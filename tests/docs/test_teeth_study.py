@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations_with_replacement, product
@@ -10,31 +9,18 @@ from math import prod
 
 import pytest
 from studies import tooth_number_methods as ways
-from studies.records import seconds_text
 from studies.tooth_number_methods import RatioCase
 from studies.tooth_number_records import (
     CHAIN,
-    CONVERGENTS,
     EVERY,
-    FACTORED,
-    FORK,
     METHODS,
-    PAIRS,
     PRINTED,
     PRODUCTS,
-    RATIO,
     TRAIN,
-    WALKED,
     TeethGrowth,
-    TeethRecord,
     TeethRecords,
-    miss_text,
-    times,
 )
 from studies.tooth_number_study import tooth_numbers
-
-from geartrain.analysis import GearTrain
-from geartrain.kinematics.formulas.output_formulas import with_counts
 
 pytestmark = pytest.mark.slow  # the script of an accuracy page, no part of the package
 
@@ -152,39 +138,26 @@ def test_convergents_are_factored_as_by_hand() -> None:
 def test_a_convergent_that_cannot_be_cut_is_passed_over() -> None:
     case = RatioCase("", Fraction(10007, 10009), 1, (12, 13), (14, 15))
     assert ways.factored(case, "convergent").error is None
-    assert ways.by_stage(case, ways.convergent_pairs).error is None
 
 
 def test_one_stage_takes_the_nearest_of_all_pairs() -> None:
     case = RatioCase("", Fraction("2.7182818"), 1, (20, 80), (10, 30))
     truth = min(abs(Fraction(a, b) / case.value - 1) for a in case.top for b in case.beneath)
-    assert ways.by_stage(case, ways.nearest_pairs).error == truth
-    assert ways.by_stage(case, ways.convergent_pairs).error >= truth
+    assert ways.by_stage(case).error == truth
 
 
 def test_more_tries_are_never_worse() -> None:
     case = RatioCase("", Fraction("13.368267"), 3, (30, 100), (12, 40))
-    found = [ways.by_stage(case, ways.nearest_pairs, width) for width in (1, 2, 4, 8)]
+    found = [ways.by_stage(case, width) for width in (1, 2, 4, 8)]
     errors = [one.error for one in found]
     assert errors == sorted(errors, key=lambda error: error or 0, reverse=True)
     assert [one.tries for one in found] == [1, 4, 16, 64]
 
 
 def test_pairs_near_a_share_below_one_keep_their_sides() -> None:
-    for pick in (ways.nearest_pairs, ways.convergent_pairs):
-        for a, b in pick(Fraction("0.9"), range(30, 41), range(35, 51), 3):
-            assert a in range(30, 41)
-            assert b in range(35, 51)
-
-
-def test_trains_turn_as_their_counts_say() -> None:
-    train = ways.fork(1, 2, (12, 20), (Fraction(3, 2), Fraction(4, 3)), "1e-3")
-    wheels = ["a0", "b0", "aC0", "bC0", "aC1", "bC1", "aD0", "bD0", "aD1", "bD1"]
-    counts = dict(zip(wheels, range(11, 21), strict=True))
-    assert set(train.wheels) == set(wheels)
-    solved = GearTrain(with_counts(train, counts)).solve()
-    assert abs(solved["C1"]) == Fraction(11 * 13 * 15, 12 * 14 * 16)
-    assert abs(solved["D1"]) == Fraction(11 * 17 * 19, 12 * 18 * 20)
+    for a, b in ways._nearest_pairs(range(30, 41), range(35, 51), Fraction("0.9"), 3):
+        assert a in range(30, 41)
+        assert b in range(35, 51)
 
 
 # growth --------------------------------------------------------------------------------------------------------------
@@ -207,46 +180,3 @@ def test_counted_solutions_are_those_of_loops(records: TeethRecords) -> None:
     products = [a * b for a in floats for b in floats]
     assert not any(abs(each / end - 1) < 1e-12 for each in products for end in (low, high))
     assert rows[2].solutions == sum(low <= each <= high for each in products)
-
-
-def test_two_outputs_count_both(records: TeethRecords) -> None:
-    apart = next(row for row in grown(records, FORK) if not row.shared)
-    number = 1
-    for wanted in (Fraction("2.23607"), Fraction("1.61803")):
-        pairs = product(range(15, 31), range(15, 31))
-        number *= sum(abs(Fraction(a, b) / wanted - 1) <= Fraction(1, 1000) for a, b in pairs)
-    assert apart.solutions == number
-    assert apart.considered == 16**4
-
-
-def test_a_share_is_extrapolated_and_says_so(records: TeethRecords) -> None:
-    row = replace(grown(records, RATIO)[0], seconds=3.0, share=0.25)
-    assert row.whole == 12.0
-    assert "12 s, from 0.25 of it" in replace(records, growth=[row]).to_markdown()
-    assert replace(row, seconds=None).whole is None
-
-
-# records -------------------------------------------------------------------------------------------------------------
-
-
-def test_records_survive_json_and_print_as_tables(records: TeethRecords) -> None:
-    again = TeethRecords.from_dict(json.loads(json.dumps(records.to_dict())))
-    assert again.to_markdown() == records.to_markdown()
-    text = again.to_markdown()
-    assert "## pi, 3 stages of 12:30" in text
-    assert all(f"| {method} |" in text for method in (FACTORED, WALKED, CONVERGENTS, PAIRS, PRODUCTS, TRAIN, EVERY))
-
-
-def test_figures_are_written_as_a_reader_wants_them(records: TeethRecords) -> None:
-    assert [seconds_text(each) for each in (None, 0.00021, 0.5, 3.0, 150.0)] == [
-        "-",
-        "210 us",
-        "500 ms",
-        "3 s",
-        "2.5 min",
-    ]
-    assert (miss_text(None), miss_text(Fraction(0)), miss_text(Fraction(1, 400))) == ("none found", "0", "0.0025")
-    assert (times(Fraction(1, 2), Fraction(1, 4)), times(Fraction(0), Fraction(0))) == ("2", "1")
-    assert (times(Fraction(1), Fraction(0)), times(None, Fraction(1))) == ("-", "-")
-    row: TeethRecord = records.rows[0]
-    assert replace(row, error=None).miss is None

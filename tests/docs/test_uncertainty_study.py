@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from fractions import Fraction
-from itertools import product
 from math import exp, log
 
 import numpy as np
@@ -86,7 +84,7 @@ def test_the_pair_of_the_sum_jams_where_neighbours_use_up_its_backlash_and_only_
 def test_counts_in_a_batch_are_solved_trains(records: UncertaintyRecords) -> None:
     requested = Counted("freeth-2008", 40)
     singles = requested.singly(8)
-    assert len(requested.question.doubts) == 35
+    assert len(requested.question.uncertainties) == 35
     assert requested.differing(singles) == 0
     error, share = requested.off(singles)
     assert error < 1e-15 * 5
@@ -98,7 +96,7 @@ def test_counts_in_a_batch_are_solved_trains(records: UncertaintyRecords) -> Non
         assert abs(speeds["metonic"]) == month
         assert float(requested.told()["metonic"][0][at]) == pytest.approx(float(speeds["metonic"]), rel=1e-14)
     rates = [row for row in records.rates if row.family == COUNTS]
-    assert len(rates) == 4
+    assert len(rates) == 3
     assert rates[0].method == SINGLY
 
 
@@ -107,7 +105,7 @@ def test_some_drawn_combinations_fit_and_most_do_not() -> None:
     fits = requested.decided()
     assert 0.01 < fits.mean() < 0.5
     declared = [
-        all(doubt.declared == requested.counts[wheel][at] for wheel, doubt in requested.question.doubts.items())
+        all(doubt.declared == requested.counts[wheel][at] for wheel, doubt in requested.question.uncertainties.items())
         for at in range(2000)
     ]
     assert fits[declared].all()
@@ -132,9 +130,8 @@ def test_a_comparison_tells_what_differs(errors: str) -> None:
 # ------------------------------------------------------------------------------------------------ estimates and workers
 
 
-def test_trials_are_the_same_for_any_number_of_workers_and_others_for_another_seed(records: UncertaintyRecords) -> None:
-    assert [row.workers for row in records.workers] == [1, 2]
-    assert all(row.same for row in records.workers)
+def test_trials_are_the_same_for_any_number_of_workers_and_others_for_another_seed() -> None:
+    assert (jams(NORMAL, 2, workers=1) == jams(NORMAL, 2, workers=2)).all()
     one, other = jams(NORMAL, 1), jams(NORMAL, 1, seed=9)
     assert one.shape == (BLOCK,)
     assert (one != other).any()
@@ -196,10 +193,3 @@ def test_what_is_done_together_is_what_the_loop_does(records: UncertaintyRecords
         assert row.error is None or row.error < (5e-4 if row.family == DISPLACED else 1e-6)
         assert row.method != SINGLY or row.ratio == 1
     assert {row.family for row in records.rates} == {COUNTS, PLACES, EVERY, DISPLACED}
-
-
-def test_records_survive_json_and_print_a_table_for_each_family(records: UncertaintyRecords) -> None:
-    again = UncertaintyRecords.from_dict(json.loads(json.dumps(records.to_dict())))
-    assert again.to_markdown() == records.to_markdown()
-    for family, row in product((COUNTS, PLACES, EVERY, DISPLACED), ("|",)):
-        assert f"## {family.capitalize()}\n\n{row}" in again.to_markdown()

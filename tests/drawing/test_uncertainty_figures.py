@@ -338,7 +338,7 @@ def test_the_command_draws_what_it_is_requested_for(tmp_path: Path) -> None:
     train = tmp_path / "pair.yaml"
     train.write_text(PAIR, encoding="utf-8")
     plot = tmp_path / "map.svg"
-    requested = ("montecarlo", train, "--trials", 20, "--clearance", "0.2:0.8:2", "--picture", "map", "--plot", plot)
+    requested = ("montecarlo", train, "--trials", 20, "--vary", "window=0.2:0.8:2", "--picture", "map", "--plot", plot)
     done = call(*requested)
     assert done.exit_code == 0, done.output
     assert "probability of a jam" in plot.read_text(encoding="utf-8")

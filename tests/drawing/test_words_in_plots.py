@@ -22,39 +22,39 @@ from geartrain.dynamics import MotionRun
 from geartrain.scene.palette import THEMES
 from geartrain.workshop.monte_carlo.monte_carlo_plots import ErrorBands, histogram_figure, pointer_error_figure
 
-CUT = ["montecarlo", "moon-triangular", "--set", "pitch_deviation=2%"]
-PAIR = ["mesh", "triangular", "--teeth", 60, 30]
+CUT = ["montecarlo", "moon-triangular", "--cutting", "pitch_deviation=2%"]
+PAIR = ["mesh", 60, 30, "--form", "triangular"]
 QUICK = [
-    ["mesh", "triangular", "--teeth", 60, 30, "--clearance-factor", "1.05", "--vary", "friction=0:0.5:6"],
-    ["mesh", "triangular", "--teeth", 60, 30, "--vary", "clearance-factor=1.01:1.2:7", "--vary", "friction=0:0.5:6"],
-    ["mesh", "triangular", "--teeth", 60, 30, "--clearance-factor", "1.05"],
-    ["mesh", "involute", "--teeth", 24, 36],
+    ["mesh", 60, 30, "--form", "triangular", "-p", "clearance_factor=1.05", "--vary", "friction=0:0.5:6"],
+    ["mesh", 60, 30, "--form", "triangular", "--vary", "clearance_factor=1.01:1.2:7", "--vary", "friction=0:0.5:6"],
+    ["mesh", 60, 30, "--form", "triangular", "-p", "clearance_factor=1.05"],
+    ["mesh", 24, 36, "--form", "involute"],
     ["torques", "zf-8hp70", "--state", "1"],
     ["torques", "norton-compound"],
     ["sphere", "cube", "--teeth", "4=12"],
     ["motion", "moon-triangular", "--turns", "0.2", "--samples", 101],
     *([*CUT, "--trials", 20, "--picture", picture] for picture in ("errors", "convergence", "pairs")),
-    [*CUT, "--trials", 8, "--output", "moon", "--picture", "course"],
-    [*CUT, "--trials", 8, "--output", "moon", "--sobol", "--picture", "sobol"],
-    [*PAIR, "--best", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"],
-    [*PAIR, "--best", "jam,error", "--free", "window=0.4:0.6"],
-    ["optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window"],
+    [*CUT, "--trials", 8, "--of", "moon", "--picture", "course"],
+    [*CUT, "--trials", 8, "--of", "moon", "--sobol", "--picture", "sobol"],
+    [*PAIR, "--objective", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"],
+    [*PAIR, "--objective", "jam,error", "--free", "window=0.4:0.6"],
+    ["optimise", "moon-triangular", "--of", "moon", "--objective", "jam", "--free", "window"],
 ]  # fmt: skip
 SLOW = [
-    ["montecarlo", "freeth-2021-teeth", "--set", "pitch_deviation=2%", "--trials", 6, "--picture", "course",
-     *("--output", "moon", "--output", "saturn", "--output", "mars")],
-    ["montecarlo", "pennestri-2002-teeth", "--set", "pitch_deviation=2%", "--trials", 8, "--output", "moon", "--sobol",
+    ["montecarlo", "freeth-2021-teeth", "--cutting", "pitch_deviation=2%", "--trials", 6, "--picture", "course",
+     *("--of", "moon", "--of", "saturn", "--of", "mars")],
+    ["montecarlo", "pennestri-2002-teeth", "--cutting", "pitch_deviation=2%", "--trials", 8, "--of", "moon", "--sobol",
      "--picture", "sobol"],
-    ["optimise", "pennestri-2002-teeth", "--output", "moon", "--best", "jam", "--free", "window"],
-    ["montecarlo", "moon-triangular", "--set", "pitch_deviation=2%", "--trials", 20, "--picture", "map"],
+    ["optimise", "pennestri-2002-teeth", "--of", "moon", "--objective", "jam", "--free", "window"],
+    ["montecarlo", "moon-triangular", "--cutting", "pitch_deviation=2%", "--trials", 20, "--picture", "map"],
     ["budget", "freeth-2021"],
     ["budget", "freeth-2008"],
-    ["mesh", "compare", "--teeth", 48, 24],
+    ["mesh", 48, 24, "--compare"],
     ["torques", "longcase-clock-loaded"],
     ["torques", "zf-9hp48", "--state", "1"],
     ["dynamics", "moon-triangular-inertia", "--rate", "1", "--turns", "0.02"],
     ["posterior", "freeth-2008-doubt"],
-    ["mesh", "cycloidal", "--teeth", 60, 8],
+    ["mesh", 60, 8, "--form", "cycloidal"],
 ]  # fmt: skip
 
 
@@ -87,8 +87,8 @@ def test_words_of_a_plot_can_be_read(arguments: list[object], tmp_path: Path) ->
 @pytest.mark.parametrize(
     "arguments",
     [
-        [*PAIR, "--best", "jam,error", "--free", "window=0.4:0.6"],
-        [*CUT, "--trials", 4, "--output", "moon", "--picture", "course"],
+        [*PAIR, "--objective", "jam,error", "--free", "window=0.4:0.6"],
+        [*CUT, "--trials", 4, "--of", "moon", "--picture", "course"],
         [*CUT, "--trials", 4, "--picture", "pairs"],
     ],
     ids=("best", "course", "pairs"),
@@ -104,19 +104,19 @@ def test_a_plot_has_the_colours_of_its_theme(arguments: list[object], theme: str
 
 
 def test_words_of_wheels_in_contact_can_be_read(tmp_path: Path) -> None:
-    check(["mesh", "triangular", "--teeth", 60, 30, "--clearance-factor", "1.05"], tmp_path, "--teeth-plot")
+    check(["mesh", 60, 30, "--form", "triangular", "-p", "clearance_factor=1.05", "--at", "-5deg"], tmp_path)
 
 
 def test_a_sweep_says_what_is_swept(tmp_path: Path) -> None:
     target = tmp_path / "plot.svg"
     call(
         "mesh",
-        "triangular",
-        "--teeth",
         60,
         30,
-        "--clearance-factor",
-        "1.05",
+        "--form",
+        "triangular",
+        "-p",
+        "clearance_factor=1.05",
         "--vary",
         "friction=0:0.5:3",
         "--plot",

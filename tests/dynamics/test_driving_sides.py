@@ -358,7 +358,7 @@ def test_pointers_are_set(name: str) -> None:
     train = shipped.train(name)
     motion = train.motion()
     assert np.abs(motion.at(np.zeros(1)).error).max() < 1e-12
-    row = call("motion", name, "--turns", 1, "--samples", 3, "--csv").stdout.splitlines()[1]
+    row = call("motion", name, "--turns", 1, "--samples", 3, "-o", "-.csv").stdout.splitlines()[1]
     assert max(abs(float(cell)) for at, cell in enumerate(row.split(",")[1:]) if at % 3 < 2) < 1e-12
 
 
@@ -413,7 +413,7 @@ def test_each_state_has_its_own_driver() -> None:
 def test_the_trials_of_a_looped_train_run_without_a_warning() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        arguments = ("--trials", 64, "--set", "pitch_deviation=0.1 deg", "--output", "moon", "--output", "17", "--json")
+        arguments = ("--trials", 64, "--set", "pitch_deviation=0.1 deg", "--of", "moon", "--of", "17", "--json")
         found = call("montecarlo", "pennestri-2002-teeth", *arguments)
     assert found.exit_code in (0, 1)
     assert json.loads(found.stdout)["outputs"]

@@ -237,7 +237,7 @@ def test_a_pin_alone_moves_its_slot_by_its_transmission() -> None:
 
 
 def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
-    arguments = ("motion", "moon-triangular", "--turns", 2, "--samples", 2001, "--output", "moon")
+    arguments = ("motion", "moon-triangular", "--turns", 2, "--samples", 2001, "--of", "moon")
     data = json.loads(call(*arguments, "--json").stdout)
     assert set(data["outputs"]) == {"moon"}
     assert set(data["outputs"]["moon"]) == {
@@ -254,9 +254,9 @@ def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
     assert len(rows) == 2002
     last = [float(value) for value in rows[-1].split(",")]
     assert last[1] - last[2] == pytest.approx(254 / 19 / 5 * 2 * 2 * pi, rel=1e-14)
-    assert call(*arguments, "--csv").stdout == out.read_text(encoding="utf-8")
+    assert call(*arguments, "-o", "-.csv").stdout == out.read_text(encoding="utf-8")
     assert picture.read_bytes().startswith(b"\x89PNG")
-    assert call("motion", "moon-triangular", "--output", "mooon").exit_code != 0
+    assert call("motion", "moon-triangular", "--of", "mooon").exit_code != 0
 
 
 PAIR = """
@@ -438,7 +438,7 @@ def test_an_axis_may_point_down_where_an_output_is_seen_from_another_link(tmp_pa
 
 def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out, partial = tmp_path / "run.csv", tmp_path / "run.partial.csv"
-    arguments = ("motion", "moon-triangular", "--turns", 3, "--samples", 100_001, "--output", "moon", "-o", out)
+    arguments = ("motion", "moon-triangular", "--turns", 3, "--samples", 100_001, "--of", "moon", "-o", out)
     composition = type(load("moon-triangular").motion(outputs=["moon"])._forward)
     whole = composition.at
     calls = []
@@ -481,7 +481,7 @@ def test_an_interrupted_summary_says_what_it_has_seen(tmp_path: Path, monkeypatc
         whole(self, error, rate)
 
     monkeypatch.setattr(RunningStatistics, "add", add)
-    arguments = ("motion", "moon-triangular", "--samples", 100_001, "--output", "moon", "-o", out)
+    arguments = ("motion", "moon-triangular", "--samples", 100_001, "--of", "moon", "-o", out)
     assert call(*arguments).exit_code == 130
     assert not out.exists()
     data = json.loads((tmp_path / "run.partial.json").read_text(encoding="utf-8"))

@@ -147,7 +147,7 @@ def test_the_torque_that_a_free_link_would_need_is_told_and_found_when_named() -
 def test_what_is_lost_where_speeds_are_free_is_named() -> None:
     found = axle("case: 1", "left: -10 N m, right: -10 N m", pair=", efficiency: 0.9").torques()
     assert found.verdict.kind == "incomplete"
-    assert [(each.what, each.where) for each in found.left_out] == [("losses of pairs", ("L",))]
+    assert [(each.what, each.where) for each in found.neglected] == [("losses of pairs", ("L",))]
     assert found.external["case"] == 20
 
 
@@ -155,7 +155,7 @@ def test_a_bearing_that_turns_nobody_knows_which_way_is_named() -> None:
     text = AXLE.format(inputs="case: 1", loads="left: -10 N m, right: -10 N m", rest="", pair="")
     train = load(text.replace("left: {wheels:", "left: {bearing: 1 N m, wheels:"))
     found = train.torques()
-    assert [(each.what, each.where) for each in found.left_out] == [("friction of bearings", ("left",))]
+    assert [(each.what, each.where) for each in found.neglected] == [("friction of bearings", ("left",))]
     known = load(text.replace("case: {}", "case: {bearing: 1 N m}")).torques()
     assert known.verdict.kind == "determined"
     assert known.external["case"] == 21

@@ -326,7 +326,7 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
     monkeypatch.setattr("geartrain.dynamics.motion.motion_run.MotionRun", forbidden)
     train = load("longcase-clock-cycloidal")
     page = to_markdown([describe_train(collect_report(train))])
-    assert "contribute no error: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page
+    assert "contribute no transmission error: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page
     assert collect_report(train).to_dict()["motion"] == []
 
 

@@ -301,7 +301,7 @@ def test_drag_goes_with_the_speed_of_the_moment() -> None:
     tau = 10 * (10 - 5 * np.cos(S)) / (100 + 25 - 100 * np.cos(S))
     assert found.mean == pytest.approx(1 + 0.01 * w * float(np.mean(tau**2)), rel=1e-9)
     assert found.starting.torque == pytest.approx(2, rel=1e-8)
-    assert [each.what for each in train.torques().left_out] == ["viscous drag", "variation within a turn"]
+    assert [each.what for each in train.torques().neglected] == ["viscous drag", "variation within a turn"]
 
 
 def test_other_names_and_another_order_change_nothing() -> None:

@@ -36,7 +36,7 @@ MOON = "extends: moon-triangular\nname: m\nloads: {moon: -1 N mm}\n"
 
 
 def names(found: Any) -> dict[str, tuple[str, ...]]:
-    return {each.what: each.where for each in found.left_out}
+    return {each.what: each.where for each in found.neglected}
 
 
 # ---------------------------------------------------------------------------------------------------------------- pins
@@ -133,33 +133,33 @@ def test_friction_of_a_pin_that_is_not_counted_is_named_wherever_the_result_is_t
     assert found.verdict.kind == "incomplete"
     assert "friction of pins (P)" in found.verdict.text
     assert names(found)["friction of pins"] == ("P",)
-    (why,) = [each.why for each in found.left_out if each.what == "friction of pins"]
+    (why,) = [each.why for each in found.neglected if each.what == "friction of pins"]
     assert what in why
     page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
     assert "Not included: friction of pins (P): " in page
     assert "Not included: friction of pins (P): " in to_markdown([describe_train(collect_report(train))])
     data = torque_figures(train).to_dict()
-    assert data["left_out"][0] == {"what": "friction of pins", "where": ["P"], "why": why}
+    assert data["neglected"][0] == {"what": "friction of pins", "where": ["P"], "why": why}
     if found.efficiency is not None:
         assert f"efficiency {float(found.efficiency):.10g} without friction of pins (P)" in page
         assert "efficiency 1;" not in page
     path = tmp_path / "t.yaml"
     path.write_text(text, encoding="utf-8")
-    assert json.loads(call("torques", path, "--json").output)["states"][0]["left_out"] == data["left_out"]
+    assert json.loads(call("torques", path, "--json").output)["states"][0]["neglected"] == data["neglected"]
     assert f"note {path}: torques do not include friction of pins (P): " in call("check", path).output
 
 
 def test_nothing_is_left_out_of_what_is_declared_in_full() -> None:
     found = load("extends: planetary-24-18-60\nname: p\nloads: {carrier: -1}\n").torques()
     assert found.verdict.kind == "determined"
-    assert found.left_out == ()
+    assert found.neglected == ()
     # nor where a pin carries nothing
     text = PIN.replace("loads: {b: -10 N m}", "loads: {a: 1 N m}\nsolve_for: a").replace("friction: 0.3", "friction: 0")
     idle = text.replace("links: {frame: {}, a: {}, b: {}}", "links: {frame: {}, a: {}, b: {}, c: {}}")
     idle = idle.replace("axis: B}]", "axis: B}, {pair: [frame, c], axis: A}]\nlocks: [[a, c]]")
     found = load(idle.replace("solve_for: a", "solve_for: c")).torques()
     assert found.verdict.kind == "determined"
-    assert found.left_out == ()
+    assert found.neglected == ()
 
 
 def test_friction_on_teeth_without_a_form_is_named() -> None:
@@ -264,7 +264,7 @@ def test_a_bearing_behind_a_retrograde_pointer_says_what_its_mean_speed_hides() 
     found = train.torques()
     assert found.verdict.kind == "incomplete"
     assert names(found)["friction of bearings that reverse"] == ("saturn",)
-    (why,) = [each.why for each in found.left_out if each.what.startswith("friction of bearings")]
+    (why,) = [each.why for each in found.neglected if each.what.startswith("friction of bearings")]
     # by hand: w = 1 - 427/442 tau, with the pin's circle of 14.37 and the axes 1.50 apart
     S = (np.arange(1_000_000) + 0.5) * (2 * pi / 1_000_000)
     pin = 14.37 * np.exp(1j * S)
@@ -289,7 +289,7 @@ def test_a_bearing_of_a_follower_takes_something_though_its_mean_speed_is_none()
     text = text.replace("b: {}}\n", "b: {bearing: 1 N m}}\n", 1).replace("loads: {b: -10 N m}\n", "")
     found = load(text).torques()
     assert found.bearing_loss == 0
-    (why,) = [each.why for each in found.left_out if each.what.startswith("friction of bearings")]
+    (why,) = [each.why for each in found.neglected if each.what.startswith("friction of bearings")]
     # over one turn the follower swings by four amplitudes of asin(r/e)
     assert f"{4 * asin(0.6) / (2 * pi):.4g}" in why
 
@@ -312,7 +312,7 @@ def test_a_bearing_is_named_where_and_only_where_its_speed_changes_sign(share: f
     turns_back = min(speeds) < -Fraction(1, 10**9) and max(speeds) > Fraction(1, 10**9)
     doubtful = min(abs(speed) for speed in speeds) < Fraction(1, 10**8)
     if found.verdict and not doubtful:
-        assert any(each.what.startswith("friction of bearings") for each in found.left_out) == turns_back
+        assert any(each.what.startswith("friction of bearings") for each in found.neglected) == turns_back
 
 
 def test_efficiencies_there_and_back_name_the_bearings_they_leave_out() -> None:
@@ -320,8 +320,8 @@ def test_efficiencies_there_and_back_name_the_bearings_they_leave_out() -> None:
     page = to_markdown([describe_torques(collect_torque_report(train, [train.torques()]))])
     assert "Efficiency from 'sun' to 'carrier': 1 without friction of bearings (carrier)." in page
     data = torque_figures(train).to_dict()
-    assert data["left_out"] == []
-    assert data["drives"]["forward"]["left_out"][0]["where"] == ["carrier"]
+    assert data["neglected"] == []
+    assert data["drives"]["forward"]["neglected"][0]["where"] == ["carrier"]
 
 
 @pytest.mark.needs("matplotlib")

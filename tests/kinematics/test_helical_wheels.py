@@ -279,7 +279,7 @@ def test_the_wheel_of_a_worm_lies_along_its_thread(mate: dict[str, Any]) -> None
 def test_friction_of_a_worm_of_unknown_lead_asks_for_its_helix_angle() -> None:
     placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
     given = {"axes": placed, "pair": {"friction": 0.08}, "loads": {"a": "1 N m"}}
-    (left,) = train({"teeth": 5, "kind": "worm"}, {"teeth": 60}, **given).torques().left_out
+    (left,) = train({"teeth": 5, "kind": "worm"}, {"teeth": 60}, **given).torques().omitted
     assert left.what == "friction of teeth"
     assert "declare the `helix_angle` of the worm" in left.why
     assert "tooth_form" not in left.why
@@ -309,8 +309,10 @@ def test_the_shipped_pair_runs() -> None:
 
 
 def test_a_pair_is_requested_for_by_its_helix() -> None:
-    told = call("mesh", "involute", "--teeth", "21", "50", "--helix", "18deg")
+    told = call("mesh", "21", "50", "--form", "involute", "--helix", "18deg")
     assert "a transverse module is 1.05146222 normal modules" in " ".join(told.stdout.split())
     assert "Contact ratio 1.5" in told.stdout
-    assert call("mesh", "involute", "--teeth", "21", "50", "--helix", "90deg").exception is not None
-    assert "No such option" in call("mesh", "cycloidal", "--teeth", "21", "50", "--helix", "18deg").stderr
+    assert call("mesh", "21", "50", "--form", "involute", "--helix", "90deg").exception is not None
+    assert "--helix: it does not apply to cycloidal teeth" in str(
+        call("mesh", "21", "50", "--form", "cycloidal", "--helix", "18deg").exception
+    )

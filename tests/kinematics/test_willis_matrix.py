@@ -74,9 +74,9 @@ def test_every_shipped_train_has_its_matrix_in_every_state(name: str) -> None:
         assert isinstance(found.matrix, csc_array)
         assert found.matrix.shape == (len(found.labels), len(found.links))
         assert whole.labels == tuple(row.label for row in system.equations)
-        assert {*found.labels, *found.left_out} == set(whole.labels)
+        assert {*found.labels, *found.omitted} == set(whole.labels)
         assert whole.links == system.links
-        assert whole.left_out == ()
+        assert whole.omitted == ()
         assert set(system.links) - set(found.links) == {train.declaration.frame}
         for each in (found, whole):
             entries = each.matrix.tocoo()
@@ -128,7 +128,7 @@ inputs: {INPUTS}
 def test_a_train_that_is_not_determined_has_a_matrix_too() -> None:
     def shape(text: str, inputs: str) -> tuple[Any, ...]:
         found = load(text.replace("INPUTS", inputs)).equations().matrix()
-        return (*found.matrix.shape, int(np.linalg.matrix_rank(found.matrix.toarray())), found.left_out)
+        return (*found.matrix.shape, int(np.linalg.matrix_rank(found.matrix.toarray())), found.omitted)
 
     assert load(LOOPED.replace("INPUTS", "a: 1")).solve().verdict.kind == "locked"
     assert shape(LOOPED, "") == (3, 3, 3, ("frame",))  # locked: three pairs hold three links

@@ -121,7 +121,7 @@ def test_a_long_number_is_told_by_its_decimal_and_the_number_of_its_digits(tmp_p
     file = tmp_path / "long.yaml"
     file.write_text(json.dumps(FAR | {"outputs": {"last": {"of": LAST}}}), encoding="utf-8")
     value = long(999_999_999_999, 17)
-    told = call("solve", file, "--output", "last").output
+    told = call("solve", file, "--of", "last").output
     assert abridged_text(value) == "(720 digits)/(74 digits)"
     assert abridged_text(value) in told
     assert decimal(value, 12) in told
@@ -147,12 +147,15 @@ def test_a_notebook_shows_a_long_number_short() -> None:
 
 TOLD = [("solve",), ("solve", "--json"), ("check",), ("report",), ("report", "--json")]
 SHOWN = [
-    ("solve", "--output", "last", "--json"),
+    ("solve", "--of", "last", "--json"),
     ("report", "-o", "page.html"),
     ("compare", "{}"),
     ("compare", "{}", "--json"),
-    ("equations",),
-    ("equations", "--latex"),
+    (
+        "inspect",
+        "equations",
+    ),
+    ("inspect", "equations", "--latex"),
     ("motion", "--turns", "1"),
     ("motion", "--turns", "1", "--json"),
     ("view", "-o", "view.html"),

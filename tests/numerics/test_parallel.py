@@ -430,7 +430,7 @@ def test_another_question_is_refused_with_the_first_difference(
 ) -> None:
     path = tmp_path / "journal"
     before = kept(path, theirs, [1, 2])
-    with pytest.raises(QuestionError, match="the journal belongs to another question") as caught:
+    with pytest.raises(QuestionError, match="the journal belongs to another run") as caught:
         Journal(path, ours)
     assert caught.value.problems[0].why == said
     assert caught.value.problems[0].place == str(path)

@@ -107,7 +107,7 @@ def test_counts_in_doubt_have_a_row_a_count() -> None:
 
     found = infer_counts(geartrain.load("freeth-2008-doubt").declaration)
     frame = found.to_frame()
-    assert len(frame) == sum(len(each.doubt.counts) for each in found.posteriors.values())
+    assert len(frame) == sum(len(each.uncertainty.counts) for each in found.posteriors.values())
     for _, rows in frame.groupby("wheel"):
         assert rows.prior.sum() == pytest.approx(1)
         assert rows.posterior.sum() == pytest.approx(1)

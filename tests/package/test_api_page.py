@@ -1,4 +1,4 @@
-"""docs/api.md: every room that shows names has its section, and the site finds in it what an import finds."""
+"""docs/api: every package has its page, and the site finds on it what an import finds."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from fields import MarkdownDocstrings
 
 import geartrain
 
-PAGE = (DOCS / "api.md").read_text(encoding="utf-8")
-SECTIONS = re.findall(r"^::: (\S+)$", PAGE, re.MULTILINE)
+PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (DOCS / "api").glob("*.md")}
+SECTIONS = {section: page for page in PAGES for section in re.findall(r"^::: (\S+)$", PAGES[page], re.MULTILINE)}
+"""Page of each package."""
 
 
 @pytest.fixture(scope="module")
@@ -29,13 +30,20 @@ def read() -> griffe.Module:
     return found
 
 
-def test_every_section_is_a_room_under_its_name_and_every_room_that_shows_names_has_one() -> None:
-    """Which names there are is said in the room alone: in its `__all__`."""
-    titled = re.findall(r"^## `(geartrain[\w.]+)`: .+\n\n::: (\S+)$", PAGE, re.MULTILINE)
-    assert [above for above, _ in titled] == [below for _, below in titled] == SECTIONS
-    for section in SECTIONS:
-        importlib.import_module(section)
-    assert {f"geartrain.{room}" for room in SHOWING} <= set(SECTIONS)
+def test_every_public_package_has_a_page_that_the_index_lists() -> None:
+    assert set(SECTIONS) == {f"geartrain.{room}" for room in SHOWING}
+    for section, page in SECTIONS.items():
+        assert section.split(".", 1)[1].replace(".", "-") == page
+        assert PAGES[page].startswith(f"# `{section}`: ")
+        assert f"({page}.md)" in PAGES["index"]
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if "members:" in PAGES[page]])
+def test_a_list_of_members_is_complete(page: str) -> None:
+    """A list gives the order of use; the names are those of `__all__`."""
+    listed = re.search(r"members:\s+\[(.*?)\]", PAGES[page], re.DOTALL)
+    assert listed is not None
+    assert sorted(re.findall(r"\w+", listed[1])) == importlib.import_module(f"geartrain.{page}").__all__
 
 
 @pytest.mark.parametrize("room", SHOWING)
@@ -54,7 +62,7 @@ def test_the_site_shows_what_an_import_brings(room: str, read: griffe.Module) ->
 
 def test_the_names_of_the_package_itself_are_listed() -> None:
     names = set(geartrain.__all__) - {"__version__"}
-    listed = re.search(r"^`geartrain` itself holds .*?\. ", PAGE, re.MULTILINE | re.DOTALL)
+    listed = re.search(r"^`geartrain` itself contains .*?\. ", PAGES["index"], re.MULTILINE | re.DOTALL)
     assert listed is not None
     assert set(re.findall(r"`(\w+)`", listed[0])) - {"geartrain"} == names
 

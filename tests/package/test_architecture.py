@@ -116,7 +116,7 @@ def test_every_default_of_the_schema_can_be_written_in_a_declaration() -> None:
     """Each default satisfies the schema of its own field, and each keyword is one of JSON Schema."""
     jsonschema = pytest.importorskip("jsonschema")
 
-    found = json.loads(call("schema").stdout)
+    found = json.loads(call("inspect", "schema").stdout)
     defaults = [
         (f"{kind}.{name}", field)
         for kind, part in [("Train", found), *found["$defs"].items()]

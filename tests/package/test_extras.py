@@ -33,7 +33,7 @@ def normal(*arguments: object) -> subprocess.CompletedProcess[str]:
         (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["check", "freeth-2021", "zf-8hp70"]),
         (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["compare", "freeth-2006", "freeth-2008"]),
         (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["periods", "saros"]),
-        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["equations", "zf-8hp70"]),
+        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["inspect", "equations", "zf-8hp70"]),
     ],
     ids=lambda words: " ".join(words),
 )
@@ -73,12 +73,12 @@ def test_a_page_without_jinja2_is_refused_with_the_extra_to_install(
     assert list(tmp_path.iterdir()) == [old]
 
 
-@pytest.mark.parametrize("verb", ["report", "compare", "bench", "motion", "torques", "montecarlo", "posterior"])
+@pytest.mark.parametrize("verb", ["report", "compare", "inspect bench", "motion", "torques", "montecarlo", "posterior"])
 def test_a_page_that_cannot_be_made_is_refused_before_anything_is_read_or_drawn(
     verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "jinja2", None)
-    done = ended(verb, tmp_path / "no such train", "-o", tmp_path / "new.html")
+    done = ended(*verb.split(), tmp_path / "no such train", "-o", tmp_path / "new.html")
     assert done.returncode == 2
     assert "jinja2 is not installed" in done.stderr
     assert "no such train" not in done.stderr

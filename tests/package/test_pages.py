@@ -11,7 +11,12 @@ import pytest
 from commands import call
 from places import ROOT
 
-PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CHANGELOG.md",
+    *(ROOT / "docs").glob("*.md"),
+    *(ROOT / "docs" / "api").glob("*.md"),
+]
 
 
 def prose(page: Path) -> str:

@@ -41,8 +41,8 @@ schema --as markdown
 schema --as answers
 list
 periods
-mesh triangular --teeth 20 30 --window 0.5
-mesh compare --teeth 20 30
+mesh 20 30 --form triangular -p window=0.5
+mesh 20 30 --compare
 sphere icosidodecahedron --teeth 5=20,3=12
 motion moon-triangular --turns 1 --samples 500
 gearbox zf-8hp70
@@ -113,7 +113,7 @@ def test_a_command_of_an_absent_wing_is_unknown_and_an_option_that_needs_it_name
     unknown = run_in(tmp_path, environment, "-m", "geartrain", "montecarlo", "moon-triangular")
     assert unknown.returncode == 2
     assert "No such command" in unknown.stderr
-    words = ("mesh", "triangular", "--teeth", "20", "30", "--friction", "0.1", "--best", "loss")
+    words = ("mesh", "20", "30", "--form", "triangular", "--friction", "0.1", "--objective", "loss")
     sizes = run_in(tmp_path, environment, "-m", "geartrain", *words)
     assert sizes.returncode == 2
     assert "geartrain.workshop" in sizes.stderr

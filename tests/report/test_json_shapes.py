@@ -68,7 +68,7 @@ def test_the_answers_of_every_kind_of_train_hold(files: Path, name: str) -> None
     for verb in ("solve", "torques", "report", "compare"):
         holds(verb, data(verb, f"{name}.yaml", "--json"))
     holds("solve", data("solve", f"{name}.yaml", "--method", "floats", "--json"))
-    holds("solve", data("solve", f"{name}.yaml", "--output", "c", "--json"))
+    holds("solve", data("solve", f"{name}.yaml", "--of", "c", "--json"))
 
 
 # --------------------------------------------------------------------------------------------------- one shape of each
@@ -108,12 +108,11 @@ def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
 # ------------------------------------------------------------------------------------------------- all other questions
 
 RATIO = ("teeth", "ratio", "7/3", "--stages", "1", "--best", "2")
-CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "pitch_deviation=2 %")
+CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--cutting", "pitch_deviation=2 %")
 DOUBT = ("posterior", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
-PAIR = ("--teeth", "20", "30")
-TRIANGULAR = ("mesh", "triangular", *PAIR)
+TRIANGULAR = ("mesh", "20", "30", "--form", "triangular")
 IN_TIME = ("--rate", "1", "--turns", "0.1", "--skip", "0", "--steps", "200", "--no-fast")
-MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
+MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--of", "moon")
 REQUESTED: dict[str, list[tuple[str, ...]]] = {
     "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
     "dynamics": [
@@ -127,7 +126,10 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
         ("gearbox", "zf-8hp70", "--gears", "8"),
         ("gearbox", "gm-4t60", "--gears", "9"),
     ],
-    "formula": [("formula", "prius-power-split", "--sensitivities"), ("formula", "freeth-2008")],
+    "inspect formula": [
+        ("inspect", "formula", "prius-power-split", "--sensitivities"),
+        ("inspect", "formula", "freeth-2008"),
+    ],
     "strength": [
         ("strength", "longcase-clock-loaded"),
         ("strength", "crossed-helical"),
@@ -135,17 +137,20 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
     ],
     "budget": [
         ("budget", "moon-triangular", "--turns", "1", "--samples", "64"),
-        ("budget", "freeth-2008", "--turns", "1", "--samples", "64", "--output", "moon"),
+        ("budget", "freeth-2008", "--turns", "1", "--samples", "64", "--of", "moon"),
         ("budget", "moon-triangular", "--turns", "1", "--cutting", "pitch_deviation=1 %", "--trials", "4"),
     ],
-    "montecarlo": [CUT, (*CUT, "--output", "moon"), (*CUT, "--clearance", "0.2:0.8:2")],
+    "montecarlo": [CUT, (*CUT, "--of", "moon"), (*CUT, "--vary", "window=0.2:0.8:2")],
     "posterior": [
         DOUBT,
-        (*DOUBT, "--soft"),
+        (*DOUBT, "--gaussian"),
         (*DOUBT, "--method", "sample", "--samples", "500"),
         (*DOUBT, "--scale", "0"),
     ],
-    "bench": [("bench", "moon-triangular", "--positions", "50"), ("bench", "lantern-mill", "--positions", "50")],
+    "inspect bench": [
+        ("inspect", "bench", "moon-triangular", "--samples", "50"),
+        ("inspect", "bench", "lantern-mill", "--samples", "50"),
+    ],
     "sphere": [
         ("sphere", "cube"),
         ("sphere", "cube", "--teeth", "4=12"),
@@ -172,36 +177,36 @@ REQUESTED: dict[str, list[tuple[str, ...]]] = {
         ("reconstruct", "moon-c-e", "-k", "1"),
         ("reconstruct", "metonic-l-m", "--count"),
     ],
-    "optimise": [("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")],
-    "mesh triangular": [
-        (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),
-        (*TRIANGULAR, "--window", "0.5", "--friction", "0.9"),
-        (*TRIANGULAR, "--clearance-factor", "1.5"),
-        (*TRIANGULAR, "--clearance-factor", "1.0001"),
-        (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2"),
-        (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
+    "optimise": [("optimise", "moon-triangular", "--of", "moon", "--objective", "jam", "--free", "window")],
+    "mesh --form triangular": [
+        (*TRIANGULAR, "-p", "window=0.5", "--friction", "0.2"),
+        (*TRIANGULAR, "-p", "window=0.5", "--friction", "0.9"),
+        (*TRIANGULAR, "-p", "clearance_factor=1.5"),
+        (*TRIANGULAR, "-p", "clearance_factor=1.0001"),
+        (*TRIANGULAR, "-p", "window=0.5", "--inertia", "3 g cm2"),
+        (*TRIANGULAR, "-p", "window=0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
     ],
-    "mesh triangular --best": [
-        (*TRIANGULAR, "--best", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"),
-        (*TRIANGULAR, "--best", "jam,error", "--free", "window=0.4:0.6", "--within", "impact=0.5"),
+    "mesh --form triangular --objective": [
+        (*TRIANGULAR, "--objective", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"),
+        (*TRIANGULAR, "--objective", "jam,error", "--free", "window=0.4:0.6", "--within", "impact=0.5"),
     ],
-    "mesh triangular --vary": [(*TRIANGULAR, "--vary", "window=0.1:0.9:3")],
-    "mesh pin": [
-        ("mesh", "pin", "--pin-radius", "10", "--offset", "5"),
-        ("mesh", "pin", "--pin-radius", "10", "--offset", "15"),
-        ("mesh", "pin", "--pin-radius", "10", "--offset", "5", "--friction", "0.2", "--driver", "slot"),
+    "mesh --form triangular --vary": [(*TRIANGULAR, "--vary", "window=0.1:0.9:3")],
+    "pin": [
+        ("pin", "10", "5"),
+        ("pin", "10", "15"),
+        ("pin", "10", "5", "--friction", "0.2", "--driver", "slot"),
     ],
-    "mesh FORM": [
-        ("mesh", "involute", "--teeth", "24", "36", "--friction", "0.1"),
-        ("mesh", "involute", "--teeth", "5", "6"),
-        ("mesh", "cycloidal", "--teeth", "8", "60"),
-        ("mesh", "lantern", "--teeth", "8", "60"),
+    "mesh": [
+        ("mesh", "24", "36", "--form", "involute", "--friction", "0.1"),
+        ("mesh", "5", "6", "--form", "involute"),
+        ("mesh", "8", "60", "--form", "cycloidal"),
+        ("mesh", "8", "60", "--form", "lantern"),
     ],
-    "mesh compare": [("mesh", "compare", "--teeth", "24", "36")],
+    "mesh --compare": [("mesh", "24", "36", "--compare")],
 }
 
 
-@pytest.mark.parametrize("question", all_but({"bench", "strength"}, REQUESTED))
+@pytest.mark.parametrize("question", all_but({"inspect bench", "strength"}, REQUESTED))
 def test_one_shape_for_one_question(files: Path, question: str) -> None:
     found = [data(*words, "--json") for words in REQUESTED[question]]
     for each in found:
@@ -211,13 +216,21 @@ def test_one_shape_for_one_question(files: Path, question: str) -> None:
 
 
 def test_every_question_is_tried() -> None:
-    others = {"solve", "report", "compare", "torques", "sphere --survey", "graph --as json", "graph --as matrix"}
+    others = {
+        "solve",
+        "report",
+        "compare",
+        "torques",
+        "sphere --survey",
+        "inspect graph --as json",
+        "inspect graph --as matrix",
+    }
     assert {*REQUESTED, *others} == set(ANSWERS)
 
 
 @pytest.mark.parametrize("form", ["json", "matrix"])
 def test_graphs_for_other_tools_hold(files: Path, form: str) -> None:
-    holds(f"graph --as {form}", data("graph", "planetary-24-18-60", "--as", form))
+    holds(f"inspect graph --as {form}", data("inspect", "graph", "planetary-24-18-60", "--as", form))
 
 
 def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
@@ -228,7 +241,7 @@ def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
     assert verdict["required"] == ["kind", "text", "links", "fixes", "prescriptions", "loops"]
     assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory", "refused"]}
     assert verdict["properties"]["loops"]["items"]["properties"] == {"carrier": text, **loop, "product": text}
-    methods = ANSWERS["bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
+    methods = ANSWERS["inspect bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
     assert methods["stage"]["enum"] == ["speeds", "transmission functions", "motion", "torques"]
     assert methods["unit"]["enum"] == ["relative", "pitches", "deg"]
     speeds = ANSWERS["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
@@ -248,7 +261,7 @@ def _undescribed(schema: Any) -> Any:
 
 
 def test_the_schema_is_printed_and_is_one(files: Path) -> None:
-    schema = data("schema", "--as", "answers")
+    schema = data("inspect", "schema", "--as", "answers")
     assert schema == answer_schema()
     Draft202012Validator.check_schema(schema)
     with pytest.raises(SchemaError):  # each of $defs has been looked into
@@ -281,7 +294,7 @@ def test_every_key_has_a_meaning() -> None:
     silent = [
         f"{question}: {key}"
         for question in ANSWERS
-        if question != "graph --as json"  # keys of networkx
+        if question != "inspect graph --as json"  # keys of networkx
         for key, _, meaning in describe_answer(question).sections[0].tables[0].rows
         if not meaning and not key.endswith((".*.value", ".*.exact"))
     ]
@@ -289,9 +302,9 @@ def test_every_key_has_a_meaning() -> None:
 
 
 def test_the_keys_of_a_command_are_printed() -> None:
-    lines = call("schema", "mesh", "pin").output.splitlines()
+    lines = call("inspect", "schema", "pin").output.splitlines()
     assert [line.split()[0] for line in lines if line.startswith("transmission_error")] == [
         "transmission_error",
         *(f"transmission_error.{key}" for key in ("peak_to_peak", "rms", "mean")),
     ]
-    assert "did you mean 'motion'?" in str(call("schema", "moton").exception)
+    assert "did you mean 'motion'?" in str(call("inspect", "schema", "moton").exception)

@@ -28,7 +28,7 @@ def test_outputs_that_are_left_out_are_named() -> None:
     others = ", ".join([*map(str, range(11, 21)), "sun", "moon"])
     assert list(section.paragraphs)[1:] == [
         "No pair affects 1, 2.",
-        f"Not shown: {others}; `--wide` or `--output` shows them.",
+        f"Not shown: {others}; `--wide` or `--of` shows them.",
     ]
 
 

@@ -17,6 +17,7 @@ from markdown_it import MarkdownIt
 
 from geartrain import load
 from geartrain.report import (
+    Branch,
     Document,
     Picture,
     Section,

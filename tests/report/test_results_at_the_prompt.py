@@ -117,16 +117,16 @@ RESULTS: dict[str, Case] = {
     "answer of a state": (lambda: load("simpson-set").solve("1"), ("solve", "simpson-set", "--state", "1")),
     "answer of an output": (
         lambda: load("freeth-2021").solve(output="moon"),
-        ("solve", "freeth-2021", "--output", "moon"),
+        ("solve", "freeth-2021", "--of", "moon"),
     ),
     "answer in floats": (
         lambda: load("worm").solve(method="sparse"),
         ("solve", "worm", "--method", "sparse"),
     ),
-    "equations": (lambda: load("worm").equations(), ("equations", "worm")),
+    "equations": (lambda: load("worm").equations(), ("inspect", "equations", "worm")),
     "matrix": (lambda: load("worm").equations().matrix(), None),
     "formula": (lambda: load("worm").formula(next(iter(load("worm").declaration.outputs))), None),
-    "formulas": (lambda: reports("formula"), ("formula", "planetary-24-18-60")),
+    "formulas": (lambda: reports("inspect formula"), ("inspect", "formula", "planetary-24-18-60")),
     "variants": (lambda: load("freeth-2021").variants({"b1": range(220, 228)}, ["mars"]), None),
     "mobility": (lambda: load("four-gear-loop").mobility, None),
     "gridlock": (lambda: load("four-gear-loop").kinematics.gridlock, None),
@@ -160,12 +160,12 @@ RESULTS: dict[str, Case] = {
     "errors at positions": (lambda: load("moon-triangular").motion().at([0.0, 0.1]), None),
     "corners": (lambda: load("moon-triangular").motion().kink_positions(0, 1), None),
     # core: teeth
-    "mesh": (lambda: load(PAIR).meshes[0], ("mesh", "involute", "--teeth", "24", "36")),
+    "mesh": (lambda: load(PAIR).meshes[0], ("mesh", "24", "36", "--form", "involute")),
     "transmission function": (lambda: load("sorge-pairs").meshes[0].transmission, None),
-    "pin": (pin, ("mesh", "pin", "--pin-radius", "10", "--offset", "5")),
+    "pin": (pin, ("pin", "10", "5")),
     "comparison of forms": (
         lambda: room("teeth").compare_forms(room("teeth.conjugate").WheelPair(24, 36), ["cycloidal"]),
-        ("mesh", "compare", "--teeth", "24", "36", "--forms", "cycloidal"),
+        ("mesh", "24", "36", "--compare", "--form", "cycloidal"),
     ),
     # core: spheres, scenes, report
     "polyhedron": (lambda: room("spherical").solid("cube"), None),
@@ -222,20 +222,20 @@ RESULTS: dict[str, Case] = {
     "trial plan": (trial_plan, None),
     "trials": (
         trials,
-        ("montecarlo", "moon-triangular", "--trials", "4", "--set", "pitch_deviation=2 %"),
+        ("montecarlo", "moon-triangular", "--trials", "4", "--cutting", "pitch_deviation=2 %"),
     ),
     "friction trials": (friction_trials, None),
     "budget": (
         budget,
-        ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon"),
+        ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--of", "moon"),
     ),
     "sizes of a train": (
         lambda: room("workshop").find_train_sizes(load("moon-triangular"), "moon", "jam", {"window": None}),
-        ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window"),
+        ("optimise", "moon-triangular", "--of", "moon", "--objective", "jam", "--free", "window"),
     ),
     "sizes of a pair": (
         sizes,
-        ("mesh", "triangular", "--teeth", "48", "96", "--friction", "0.2", "--best", "loss"),
+        ("mesh", "48", "96", "--form", "triangular", "--friction", "0.2", "--objective", "loss"),
     ),
     "parts": (lambda: room("workshop").parts_list(solid_model())[0], None),
     "files": (lambda: room("workshop").export_files(solid_model(), ["graphml"])[0], None),

@@ -91,7 +91,17 @@ def odd_outputs(file: Path, parent: str, of: str) -> Path:
     "command",
     [
         lambda file, out: ("motion", file, "--turns", "1", "--samples", "8", "-o", out, *outputs()),
-        lambda file, out: ("montecarlo", file, "--trials", "2", "--set", "pitch_deviation=2 %", "-o", out, *outputs()),
+        lambda file, out: (
+            "montecarlo",
+            file,
+            "--trials",
+            "2",
+            "--cutting",
+            "pitch_deviation=2 %",
+            "-o",
+            out,
+            *outputs(),
+        ),
     ],
 )
 def test_columns_of_names_with_commas_do_not_shift(tmp_path: Path, command: Callable[..., Any]) -> None:
@@ -109,7 +119,7 @@ def test_columns_of_names_with_commas_do_not_shift(tmp_path: Path, command: Call
 
 
 def outputs() -> list[str]:
-    return [word for name in NAMES for word in (f"--output={name}",)]
+    return [word for name in NAMES for word in (f"--of={name}",)]
 
 
 def test_an_interrupted_table_with_such_names_is_taken_up(tmp_path: Path) -> None:
@@ -168,10 +178,32 @@ def test_a_report_of_a_hostile_train_holds_none(verb: str, hostile: Path) -> Non
 
 SHOWN = [
     *(("report",), ("report", "--json"), ("compare",), ("compare", "--all"), ("compare", "--json")),
-    *(("solve",), ("solve", "--json"), ("solve", "--method", "floats"), ("check",), ("equations",)),
-    *(("equations", "--latex"), ("torques",), ("torques", "--json"), ("motion", "--turns", "1", "--samples", "8")),
-    *(("graph",), ("graph", "--as", "matrix"), ("graph", "--as", "dot"), ("graph", "--as", "graphml")),
-    *(("graph", "--as", "json"), ("draw", "--kind", "graph", "-o", "-"), ("solve", "--output", "x" + EVIL)),
+    *(
+        ("solve",),
+        ("solve", "--json"),
+        ("solve", "--method", "floats"),
+        ("check",),
+        (
+            "inspect",
+            "equations",
+        ),
+    ),
+    *(
+        ("inspect", "equations", "--latex"),
+        ("torques",),
+        ("torques", "--json"),
+        ("motion", "--turns", "1", "--samples", "8"),
+    ),
+    *(
+        (
+            "inspect",
+            "graph",
+        ),
+        ("inspect", "graph", "--as", "matrix"),
+        ("inspect", "graph", "--as", "dot"),
+        ("inspect", "graph", "--as", "graphml"),
+    ),
+    *(("inspect", "graph", "--as", "json"), ("draw", "--kind", "graph", "-o", "-"), ("solve", "--of", "x" + EVIL)),
     *(("solve", "--state", EVIL), ("teeth",), ("posterior",), ("montecarlo",), ("motion", "--turns", EVIL)),
     *(("export", "--to", "parts" + EVIL), ("solve", "-o", "x" + EVIL), ("solve", "--method", EVIL)),
 ]
@@ -211,7 +243,14 @@ def test_no_error_steers_one(tmp_path: Path, wrong: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [(EVIL,), (f"--{EVIL}",), ("solve", "worm", f"--x{EVIL}"), ("draw", "worm", "-k", EVIL), ("bench", EVIL)]
+    "words",
+    [
+        (EVIL,),
+        (f"--{EVIL}",),
+        ("solve", "worm", f"--x{EVIL}"),
+        ("draw", "worm", "-k", EVIL),
+        ("inspect", "bench", EVIL),
+    ],
 )
 def test_no_complaint_of_a_wrong_command_line_steers_one(words: tuple[str, ...]) -> None:
     done = ended(*words)
@@ -227,7 +266,7 @@ def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
 
 
 def test_a_picture_of_hostile_names_is_xml(tmp_path: Path, hostile: Path) -> None:
-    for kind in ("graph", "stick"):
+    for kind in ("inspect", "graph", "stick"):
         out = tmp_path / f"{kind}.svg"
         call("draw", hostile, "--kind", kind, "-o", out)
         ET.fromstring(out.read_bytes())

@@ -44,7 +44,7 @@ def test_a_pointer_in_the_middle_of_a_cell_reads_it(turns: int, divisions: int, 
 
 def test_the_month_after_nineteen_years_is_the_first_again() -> None:
     years = [Fraction(0), Fraction(19, 5), Fraction(19) - Fraction(19, 235), Fraction(19)]
-    assert [METONIC.told(each * Fraction(5, 19)) for each in years] == [
+    assert [METONIC.reading_text(each * Fraction(5, 19)) for each in years] == [
         "turn 1, month 1",  # a turn is 47 months, 3.8 years
         "turn 2, month 48",
         "turn 5, month 235",
@@ -53,7 +53,7 @@ def test_the_month_after_nineteen_years_is_the_first_again() -> None:
 
 
 def test_saros_turns_end_within_a_month() -> None:
-    assert [SAROS.told(Fraction(turn)) for turn in range(4)] == [
+    assert [SAROS.reading_text(Fraction(turn)) for turn in range(4)] == [
         "turn 1, month 1",  # a turn is 55 3/4 months
         "turn 2, month 56",
         "turn 3, month 112",
@@ -63,17 +63,17 @@ def test_saros_turns_end_within_a_month() -> None:
 
 def test_what_is_engraved_in_a_cell_is_told_with_it() -> None:
     saros = scale_of(Dial(turns=4, divisions=223, cell="month", glyphs={72: "Η"}))
-    assert saros.told(saros.turn_of(Fraction(143, 2))) == "turn 2, month 72, Η"
-    assert saros.told(saros.turn_of(72)) == "turn 2, month 73"
+    assert saros.reading_text(saros.turn_of(Fraction(143, 2))) == "turn 2, month 72, Η"
+    assert saros.reading_text(saros.turn_of(72)) == "turn 2, month 73"
 
 
 def test_signs_and_days_are_told_by_name() -> None:
-    assert ZODIAC.told(Fraction(134, 360)) == "Leo, degree 15"
+    assert ZODIAC.reading_text(Fraction(134, 360)) == "Leo, degree 15"
     year = scale_of(Dial(names="egyptian_months"))
-    assert year.told(Fraction(364, 365)) == "Epagomenal, day 5"
-    assert scale_of(Dial(names=["Isthmia", "Nemea"])).told(Fraction(3, 4)) == "Nemea"
-    assert scale_of(Dial(names=["", "8"])).told(Fraction(1, 4)) == "cell 1", "a blank sector has its number"
-    assert scale_of(Dial()).told(Fraction(1, 4)) == ""
+    assert year.reading_text(Fraction(364, 365)) == "Epagomenal, day 5"
+    assert scale_of(Dial(names=["Isthmia", "Nemea"])).reading_text(Fraction(3, 4)) == "Nemea"
+    assert scale_of(Dial(names=["", "8"])).reading_text(Fraction(1, 4)) == "cell 1", "a blank sector has its number"
+    assert scale_of(Dial()).reading_text(Fraction(1, 4)) == ""
 
 
 def test_the_sun_passes_the_first_sign_in_a_twelfth_of_a_year() -> None:
@@ -98,13 +98,13 @@ def test_clocks_tell_the_line_that_is_past() -> None:
     minutes = scale_of(Dial(divisions=60, numerals="arabic", cell="minute"))
     double = scale_of(Dial(divisions=24, numerals={"style": "roman", "to": 12}, cell="hour"))
     quarter_past_twelve, half_past_four = Fraction(49, 4), Fraction(9, 2)
-    assert [hours.told(each / 12) for each in (quarter_past_twelve, half_past_four)] == ["hour 12", "hour 4"]
-    assert [minutes.told(each) for each in (quarter_past_twelve, half_past_four, Fraction(0))] == [
+    assert [hours.reading_text(each / 12) for each in (quarter_past_twelve, half_past_four)] == ["hour 12", "hour 4"]
+    assert [minutes.reading_text(each) for each in (quarter_past_twelve, half_past_four, Fraction(0))] == [
         "minute 15",
         "minute 30",
         "minute 0",
     ]
-    assert [double.told(Fraction(each, 24)) for each in (0, 11, 12, 13, 23)] == [
+    assert [double.reading_text(Fraction(each, 24)) for each in (0, 11, 12, 13, 23)] == [
         f"hour {hour}" for hour in (12, 11, 12, 1, 11)
     ]
 

@@ -300,7 +300,7 @@ def test_a_list_too_long_is_counted_and_refused() -> None:
 def test_impossible_questions_are_refused() -> None:
     with pytest.raises(QuestionError, match="give 0 or more"):
         pairs(read_ratio("2"), [30], [15], Fraction(-1, 10))
-    with pytest.raises(QuestionError, match="give 1 or more"):
+    with pytest.raises(QuestionError, match="give best >= 1"):
         pairs(read_ratio("2"), [30], [15], best=0)
     with pytest.raises(QuestionError, match="no tooth counts"):
         pairs(read_ratio("2"), [], [15])

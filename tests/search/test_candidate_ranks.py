@@ -19,7 +19,7 @@ from geartrain.search.reconstruct import (
 @pytest.mark.parametrize("seed", range(60, 100))
 def test_ranks_are_those_among_all_trains(seed: int) -> None:
     problem = random_problem(seed, idlers=True)
-    weights = {tree: plain_prior(tree, problem) for found in explanations(problem) for tree in found.mechanisms}
+    weights = {tree: plain_prior(tree, problem) for found in explanations(problem) for tree in found.solutions}
     alike = Counter(weights.values())
     for one in find_reconstructions(problem, listed=1).candidates:
         own = weights[concrete(one.arbor)]

@@ -186,7 +186,7 @@ def test_every_explanation_of_a_small_question_is_a_train(seed: int, rings: bool
     problem = with_rings(problem, seed) if rings else problem
     evidence = declared(problem)
     for found in explanations(problem):
-        for tree in sorted(found.mechanisms)[:5]:
+        for tree in sorted(found.solutions)[:5]:
             train = GearTrain(candidate_train(evidence, package_arbor(tree), "one"))
             assert train.mobility.by_rank == 1
             assert train.solve()

@@ -32,4 +32,4 @@ def test_counts_are_those_of_another_program(question: dict[str, Any]) -> None:
     requested["reconstruct"]["add"] = {"wheels": len(question["counts"]) - 1, "teeth": question["added"]}
     found = find_reconstructions(evidence_question(declare(requested)).problem, listed=0)
     assert found.complete
-    assert [each.mechanisms for each in found.counts] == question["counts"]
+    assert [each.solutions for each in found.counts] == question["counts"]

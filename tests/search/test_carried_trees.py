@@ -27,7 +27,7 @@ def test_trains_are_those_that_grow_in_the_frame(seeds: range, rings: bool, subt
             evidence = random_evidence(seed, rings)
             expected = grown(seed, rings)
             found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=10**6)
-            assert [count.mechanisms for count in found.counts] == [len(trees) for trees in expected]
+            assert [count.solutions for count in found.counts] == [len(trees) for trees in expected]
             assert {concrete(one.arbor) for one in found.candidates} == set().union(*expected)
 
 
@@ -85,7 +85,7 @@ def test_a_pin_in_a_slot_on_the_carrier() -> None:
     """Mars of 2021 without its idler: one of 89 counts, before the arbor cp64 or behind it."""
     evidence = read_evidence(MARS)
     found = find_reconstructions(evidence_question(evidence).problem, listed=1000)
-    assert [count.mechanisms for count in found.counts] == [0, 2 * 89]
+    assert [count.solutions for count in found.counts] == [0, 2 * 89]
     for one in found.candidates[::20]:
         train = GearTrain(candidate_train(evidence, one.arbor, "one"))
         assert train.mobility.by_rank == 1

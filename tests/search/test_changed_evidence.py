@@ -36,7 +36,7 @@ def answered(problem: ReconstructionProblem | Train) -> ReconstructionAnswer:
 
 def counts(problem: ReconstructionProblem | Train) -> dict[str, tuple[int, ...]]:
     """Change -> numbers of trains."""
-    return {one.change: one.mechanisms for one in answered(problem).findings.assumptions}
+    return {one.change: one.solutions for one in answered(problem).findings.assumptions}
 
 
 TOY = ReconstructionProblem(
@@ -96,7 +96,7 @@ def test_the_sense_is_dropped_as_a_magnitude(minimum: int, most: int, magnitudes
     low, high = map(Fraction, magnitudes)
     wide = replace(TOY, dials=(dial,), additions=Additions(1, 3, 45))
     free = replace(wide, dials=(replace(dial, minimum=low, maximum=high, signed=False),))
-    expected = tuple(count.mechanisms for count in find_reconstructions(free).counts)
+    expected = tuple(count.solutions for count in find_reconstructions(free).counts)
     assert counts(wide)["without the sense of p"] == expected
     assert any(expected)
 
@@ -111,7 +111,7 @@ def test_what_each_fact_of_the_back_train_carries() -> None:
 def test_what_cannot_be_requested_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
     one, *_ = answered(TOY).findings.assumptions
-    assert (one.mechanisms, one.refused, one.fewest, one.total) == ((), "not today", None, 0)
+    assert (one.solutions, one.refused, one.fewest, one.total) == ((), "not today", None, 0)
 
 
 NOTHING = ReconstructionProblem(
@@ -136,7 +136,7 @@ def missing(problem: ReconstructionProblem | Train) -> dropped_facts.MissingExpl
 def test_why_nothing_fits() -> None:
     found = missing(NOTHING)
     assert dials(found) == [("p", None, None), ("q", 1, None)]
-    assert [(one.change, one.mechanisms) for one in found.doubts] == [("if a1 has 30 teeth", (0, 1))]
+    assert [(one.change, one.solutions) for one in found.uncertainties] == [("if a1 has 30 teeth", (0, 1))]
     assert found.refused == ()
     assert found.requested == 9 + 2 + 12  # facts and rules, dials, and two wheels by up to three teeth either way
 
@@ -144,7 +144,7 @@ def test_why_nothing_fits() -> None:
 def test_the_cheapest_doubt_is_first() -> None:
     """With two wheels to add, p may be on the arbor of 31 by way of an added one: 20 > x, y > 31 with 31 x = 30 y."""
     easy = replace(NOTHING, dials=NOTHING.dials[:1], additions=Additions(2, 10, 15))
-    found = missing(easy).doubts
+    found = missing(easy).uncertainties
     assert [one.fewest for one in found] == sorted(one.fewest or 0 for one in found)
     assert found[0].change == "if a1 has 30 teeth"
 
@@ -153,7 +153,7 @@ def test_a_misread_count_of_the_back_train_is_found() -> None:
     """With 224 for the wheel of 223 nothing fits; of 72 changes one alone mends it, and gives the four trains."""
     text = (TRAINS / "evidence" / "back-train.yaml").read_text(encoding="utf-8")
     found = missing(read_evidence(text.replace("e3: {teeth: 223", "e3: {teeth: 224")))
-    assert [(one.change, one.mechanisms) for one in found.doubts] == [("if e3 has 223 teeth", (0, 0, 4))]
+    assert [(one.change, one.solutions) for one in found.uncertainties] == [("if e3 has 223 teeth", (0, 0, 4))]
     assert dials(found) == [("metonic", 1, None), ("saros", 2, None)]
 
 
@@ -161,7 +161,7 @@ def test_a_search_that_refuses_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
     found = missing(NOTHING)
     assert dials(found) == [("p", None, "not today"), ("q", None, "not today")]
-    assert found.doubts == ()
+    assert found.uncertainties == ()
     assert len(found.refused) == found.requested
 
 

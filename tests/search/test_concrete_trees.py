@@ -39,7 +39,7 @@ def t4(signed: bool) -> ReconstructionProblem:
 
 
 @pytest.mark.parametrize(
-    ("question", "signed", "mechanisms"),
+    ("question", "signed", "solutions"),
     [
         (t1, True, (0, 1, 0, 0)),
         (t1, False, (0, 1, 0, 26)),
@@ -49,21 +49,21 @@ def t4(signed: bool) -> ReconstructionProblem:
         (t4, False, (0, 0, 0, 0)),
     ],
 )
-def test_toys_have_their_counts(question, signed, mechanisms):
+def test_toys_have_their_counts(question, signed, solutions):
     found = explanations(question(signed))
-    assert tuple(each.counts.mechanisms for each in found) == mechanisms
-    assert all(each.counts.classes <= each.counts.bags <= each.counts.mechanisms for each in found)
+    assert tuple(each.counts.solutions for each in found) == solutions
+    assert all(each.counts.classes <= each.counts.multisets <= each.counts.solutions for each in found)
 
 
 def test_the_one_of_the_first_toy():
     found = explanations(t1(True))[1]
     pointer = ("", ("", 10), ("P",), ())
-    assert found.mechanisms == {("in", (), (), ((("i", 20), (("a", ("a1", 30), (), ((("a2", 15), (pointer,)),)),)),))}
+    assert found.solutions == {("in", (), (), ((("i", 20), (("a", ("a1", 30), (), ((("a2", 15), (pointer,)),)),)),))}
     assert found.counts.added == 1
     assert Fraction(20, 30) * Fraction(15, 10) == 1
     shown = Arbor(None, PlacedWheel(None, 10), ("P",), ())
     between = Arbor("a", PlacedWheel("a1", 30), (), ((PlacedWheel("a2", 15), (shown,)),))
-    assert found.mechanisms == {concrete(Arbor("in", None, (), ((PlacedWheel("i", 20), (between,)),)))}
+    assert found.solutions == {concrete(Arbor("in", None, (), ((PlacedWheel("i", 20), (between,)),)))}
 
 
 def test_a_ring_keeps_the_sense_and_holds_smaller_wheels_alone():
@@ -77,12 +77,12 @@ def test_a_ring_keeps_the_sense_and_holds_smaller_wheels_alone():
     outside = sum(y < 24 for y in fitting)
     assert (outside, len(fitting)) == (51, 71)
     found = [each.counts for each in explanations(question)]
-    assert [each.mechanisms for each in found] == [0, 0, 0, outside + len(fitting)]
+    assert [each.solutions for each in found] == [0, 0, 0, outside + len(fitting)]
     counted = find_reconstructions(question).counts
-    assert [(each.mechanisms, each.bags, each.classes) for each in counted] == [each[1:] for each in found]
+    assert [(each.solutions, each.multisets, each.classes) for each in counted] == [each[1:] for each in found]
     back = replace(question, dials=(exact_dial("P", "-1/2", place="new"),))
-    assert [each.counts.mechanisms for each in explanations(back)] == [0, 1, 0, 0]
-    assert [each.mechanisms for each in find_reconstructions(back).counts] == [0, 1, 0, 0]
+    assert [each.counts.solutions for each in explanations(back)] == [0, 1, 0, 0]
+    assert [each.solutions for each in find_reconstructions(back).counts] == [0, 1, 0, 0]
 
 
 def test_al_biruni_without_the_moon_wheel():
@@ -96,5 +96,5 @@ def test_al_biruni_without_the_moon_wheel():
 
 
 def test_most_random_questions_have_answers():
-    answered = [any(each.mechanisms for each in explanations(random_problem(seed))) for seed in range(40)]
+    answered = [any(each.solutions for each in explanations(random_problem(seed))) for seed in range(40)]
     assert sum(answered) > 20

@@ -172,7 +172,7 @@ def says_of_all(
     for wheel, counts in doubts.items():
         for count in counts:
             share = sum(prior for teeth, prior, _ in rows if teeth[wheel] == count) / evidence
-            assert found[wheel].chance(count).value == share
+            assert found[wheel].probability(count).value == share
     weights = np.array([float(prior / evidence) for _, prior, _ in rows])
     for pair, value in found.correlations.items():
         one, other = (np.array([teeth[wheel] for teeth, _, _ in rows], dtype=float) for wheel in pair)
@@ -193,7 +193,7 @@ def test_agreement_by_degree_is_a_sum_of_exponentials(case: tuple[dict[str, Any]
     for wheel, counts in doubts_of(data).items():
         for count in counts:
             share = math.fsum(weight for teeth, weight in weights if teeth[wheel] == count) / total
-            assert float(found[wheel].chance(count)) == pytest.approx(share, rel=1e-11, abs=1e-15)
+            assert float(found[wheel].probability(count)) == pytest.approx(share, rel=1e-11, abs=1e-15)
 
 
 @st.composite
@@ -264,8 +264,8 @@ def test_the_order_of_the_declaration_changes_nothing(data: dict[str, Any]) -> N
     }
     one, other = run(data, method="exact"), run(turned, method="exact")
     assert one.evidence == other.evidence
-    assert {wheel: one[wheel].chances for wheel in one.posteriors} == {
-        wheel: other[wheel].chances for wheel in one.posteriors
+    assert {wheel: one[wheel].probabilities for wheel in one.posteriors} == {
+        wheel: other[wheel].probabilities for wheel in one.posteriors
     }
     assert [each.misfit for each in one.best] == [each.misfit for each in other.best]
 
@@ -289,7 +289,11 @@ def test_a_sample_covers_the_truth_as_often_as_its_intervals_promise(case: tuple
         found = run(case[0], method="sample", samples=3000, seed=seed)
         pairs = [(found.evidence, exact.evidence)]
         for wheel, posterior in exact.posteriors.items():
-            pairs += list(zip(found[wheel].chances, posterior.chances, strict=True)) if not posterior.idle else []
+            pairs += (
+                list(zip(found[wheel].probabilities, posterior.probabilities, strict=True))
+                if not posterior.idle
+                else []
+            )
         for estimate, truth in pairs:
             assert estimate.low is not None
             assert estimate.high is not None
@@ -402,7 +406,7 @@ def test_an_output_that_is_free_for_some_counts_has_no_shares_and_does_not_fit_t
     found = run(data, method="exact")
     speeds = {count: 1 / (1 - Fraction(count, 20)) for count in (17, 18, 19, 21)}
     fits = {count for count, speed in speeds.items() if abs(abs(speed) / 20 - 1) <= Fraction(6, 10)}
-    assert {count for count in range(17, 22) if found["p2"].chance(count).value} == fits == {18, 19, 21}
+    assert {count for count in range(17, 22) if found["p2"].probability(count).value} == fits == {18, 19, 21}
     assert not found.shares
 
 
@@ -415,16 +419,16 @@ def test_the_antikythera_fits_its_inscriptions_and_others_fit_as_well() -> None:
     assert {wheel: found.best[0].teeth[wheel] for wheel in printed} == printed
     assert found.best[0].speeds["saros"] == -Fraction(940, 4237)
     assert found.best[0].speeds["metonic"] == -Fraction(5, 19)
-    assert found["b2"].chance(64).value == 1
-    assert {count for count in range(15, 81) if found["n1"].chance(count).value} == {52, 53, 55}
+    assert found["b2"].probability(64).value == 1
+    assert {count for count in range(15, 81) if found["n1"].probability(count).value} == {52, 53, 55}
     assert found["a1"].idle
-    assert sum(chance.value for chance in found["e3"].chances) == 1
+    assert sum(chance.value for chance in found["e3"].probabilities) == 1
 
 
 def test_pointers_that_must_be_exact_force_the_published_counts() -> None:
     """Only wheels that mesh and cancel (e5 ~ k1, k2 ~ e6), and those that no dial sees, may be other than printed."""
     found = infer_counts(load("freeth-2008-doubt").declaration, scale=Fraction(0), most=3)
-    forced = {w: p.likeliest for w, p in found.posteriors.items() if max(c.value for c in p.chances) == 1}
+    forced = {w: p.likeliest for w, p in found.posteriors.items() if max(c.value for c in p.probabilities) == 1}
     printed = {"b2": 64, "c1": 38, "c2": 48, "e3": 223, "e4": 188, "l1": 38, "m1": 96, "m3": 27, "n1": 53, "nO": 57}
     assert forced == printed | {"o1": 60, "f1": 53, "g1": 54, "h1": 60, "i1": 60}
     both = len({50, 51, 52} & {48, 49, 50, 51}), len({48, 49, 50, 51, 52} & {49, 50, 51, 52, 53, 54, 55})
@@ -441,7 +445,7 @@ def test_the_metonic_train_alone_by_brute_force() -> None:
     ]
     assert found.evidence.value == Fraction(len(fits), 3 * 2 * 5 * 66)
     for n1 in range(15, 81):
-        assert found["n1"].chance(n1).value == Fraction(sum(row[3] == n1 for row in fits), len(fits))
+        assert found["n1"].probability(n1).value == Fraction(sum(row[3] == n1 for row in fits), len(fits))
 
 
 def test_a_tighter_tolerance_never_lets_more_through() -> None:
@@ -460,7 +464,7 @@ def test_who_does_the_work_changes_nothing(tmp_path: Any) -> None:
     with Journal(tmp_path / "j.jsonl", {"train": "chain"}) as journal:
         assert len(journal) == kept > 1
         assert run(CHAIN, method="sample", samples=60_000, journal=journal) == whole
-    with pytest.raises(QuestionError, match="another question"):
+    with pytest.raises(QuestionError, match="another run"):
         Journal(tmp_path / "j.jsonl", {"train": "planetary"})
 
 
@@ -512,13 +516,13 @@ def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
         ({"outputs": ["moon"]}, "no output 'moon'"),
         ({"state": "night"}, "no state 'night'"),
         ({"against": "figures"}, "no output that depends on uncertain counts"),
-        ({"against": "hopes"}, "unknown kind of claims"),
+        ({"against": "hopes"}, "unknown kind of observations"),
         ({"limit": 0}, "limit is 0"),
         ({"most": 0}, "most is 0"),
         ({"samples": 0}, "samples is 0"),
         ({"method": "guess"}, "unknown method 'guess'"),
-        ({"scale": Fraction(-1)}, "a distance"),
-        ({"tolerance": Fraction(-1)}, "a distance"),
+        ({"scale": Fraction(-1)}, "a magnitude"),
+        ({"tolerance": Fraction(-1)}, "a magnitude"),
         ({"method": "exact", "limit": 1}, "the exact method needs more than 1 steps"),
     ],
 )
@@ -563,4 +567,4 @@ def test_an_output_without_a_tolerance_is_no_evidence() -> None:
 def test_counts_of_no_weight_are_left_out() -> None:
     doubt = {"value": 20, "range": [19, 21], "weights": [1, 1, 0]}
     found = run(with_teeth(CHAIN, {"a1": doubt}))  # type: ignore[dict-item]
-    assert found["a1"].doubt.counts == (19, 20)
+    assert found["a1"].uncertainty.counts == (19, 20)

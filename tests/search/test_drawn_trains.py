@@ -21,22 +21,22 @@ def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
     for seed in range(300, 340):
         plain = random_problem(seed, idlers=True)
         problem = with_rings(plain, seed) if rings else plain
-        grown = {tree for found in explanations(problem) for tree in found.mechanisms}
+        grown = {tree for found in explanations(problem) for tree in found.solutions}
         whole, dials = find_reconstructions(problem, listed=0), [dial.name for dial in problem.dials]
         everything: set[Node] = set()
         for each in whole.topologies[:20]:
-            if each.mechanisms > 12:
+            if each.solutions > 12:
                 continue
             one = replace(whole, topologies=(each,))
-            drawn = draw_candidates(one, problem, dials, DRAWS * each.mechanisms, seed)
+            drawn = draw_candidates(one, problem, dials, DRAWS * each.solutions, seed)
             found = Counter(concrete(train.arbor) for train in drawn)
-            assert len(found) == each.mechanisms
+            assert len(found) == each.solutions
             assert set(found) <= grown
             # eight standard deviations of a binomial
             assert all(abs(number - DRAWS) < 8 * DRAWS**0.5 for number in found.values())
             assert not everything & set(found)
             everything |= set(found)
-            tried += each.mechanisms > 1
+            tried += each.solutions > 1
     assert tried > (3 if rings else 20)
 
 

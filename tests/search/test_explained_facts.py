@@ -100,7 +100,7 @@ FOUND = findings(PROBLEM, FOUR, [0.5, 0.25, 0.125, 0.125])
 )
 def test_marginals(kind: str, subject: str, answers: list[tuple[str, str, int]]) -> None:
     found = {(one.kind, one.subject): one for one in FOUND.marginals}
-    told = [(answer.answer, answer.share, answer.mechanisms) for answer in found[kind, subject].answers]
+    told = [(answer.answer, answer.share, answer.solutions) for answer in found[kind, subject].answers]
     assert told == [(answer, Fraction(share), count) for answer, share, count in answers]
 
 
@@ -152,7 +152,7 @@ def test_one_fact_is_certain() -> None:
 
 def test_the_family_tree() -> None:
     tree = FOUND.family
-    told = [(one.parent, one.meshes, one.share, one.mechanisms) for one in tree]
+    told = [(one.parent, one.meshes, one.share, one.solutions) for one in tree]
     assert told == [
         (None, (), 1, 4),
         (0, ("i > a1", "a2 > c1", "c2 > new_sun1 (sun)"), Fraction(3, 4), 2),
@@ -279,7 +279,7 @@ def test_a_family_tree_holds_every_candidate_once(seed: int) -> None:
     assert sum(len(branch.trains) for branch in tree) == len(found)
     for at, branch in enumerate(tree):
         below = [other for other in tree if other.parent == at]
-        assert branch.mechanisms == len(branch.trains) + sum(other.mechanisms for other in below)
+        assert branch.solutions == len(branch.trains) + sum(other.solutions for other in below)
         assert branch.share == sum(one.share for one in (*branch.trains, *below))
         assert len(below) != 1 or branch.trains, "a stem is one branch"
         assert len({other.meshes[0] for other in below}) == len(below)

@@ -45,7 +45,7 @@ def said(problem: ReconstructionProblem, summed: bool) -> Told:
         patch.setattr(explained_facts, "MOST_SUMMED", 10**9 if summed else 0)
         found = explained_facts.find_facts(declared(problem), problem, find_reconstructions(problem, listed=20_000))
     facts = [*found.marginals, *(one.fact for one in found.next_facts)]
-    return {(one.kind, one.subject): {a.answer: (a.share, a.mechanisms) for a in one.answers} for one in facts}
+    return {(one.kind, one.subject): {a.answer: (a.share, a.solutions) for a in one.answers} for one in facts}
 
 
 @pytest.mark.parametrize("rings", [False, True])
@@ -69,7 +69,7 @@ def test_sums_are_those_over_concrete_trees(first: int) -> None:
     for seed in range(first, first + 30):
         problem = random_problem(seed, idlers=True)
         found = said(problem, summed=True)
-        trees = [tree for one in explanations(problem) for tree in one.mechanisms]
+        trees = [tree for one in explanations(problem) for tree in one.solutions]
         weights = [plain_prior(tree, problem) for tree in trees]
         direct: dict[tuple[str, str], Fraction] = defaultdict(Fraction)
         for tree, weight in zip(trees, weights, strict=True):

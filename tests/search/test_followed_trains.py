@@ -26,10 +26,10 @@ TRAIN = package_arbor(("a", (), (), ((("a1", 20), (("", ("", 30), (), ((("", 18)
 @pytest.mark.parametrize("seed", all_but({13}, range(24)))
 def test_it_comes_to_all_that_plain_growth_finds_and_to_no_other(seed: int) -> None:
     problem = with_rings(random_problem(seed, idlers=True), seed)
-    found = {tree for each in explanations(problem) for tree in each.mechanisms}
+    found = {tree for each in explanations(problem) for tree in each.solutions}
     assert all(is_reached(package_arbor(tree), problem) for tree in islice(found, 12))
     free = replace(problem, use="some", meshes=frozenset(), apart=frozenset(), coaxial=frozenset())
-    others = {tree for each in explanations(free) for tree in each.mechanisms} - found
+    others = {tree for each in explanations(free) for tree in each.solutions} - found
     assert not any(is_reached(package_arbor(tree), problem) for tree in islice(others, 12))
 
 

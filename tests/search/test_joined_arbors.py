@@ -27,7 +27,7 @@ def test_small_questions_with_couplings_have_the_answers_of_plain_growth(start: 
         found = find_reconstructions(join_arbors(problem, joined), listed=20_000)
         trees = [{concrete(one.arbor) for one in found.candidates if one.added == added} for added in range(len(right))]
         assert trees == right, seed
-        assert [count.mechanisms for count in found.counts] == [len(some) for some in right], seed
+        assert [count.solutions for count in found.counts] == [len(some) for some in right], seed
         answered += any(right) and bool(pairs)
     assert answered > 5
 
@@ -55,7 +55,7 @@ def test_joined_arbors_are_one_in_the_question_and_several_in_a_train() -> None:
     assert [arbor.name for arbor in question.problem.arbors] == ["m", "n"]
     assert question.problem.dials[0].place == "m"
     found = find_reconstructions(question.problem)
-    assert [count.mechanisms for count in found.counts] == [0, 1]
+    assert [count.solutions for count in found.counts] == [0, 1]
     train = GearTrain(candidate_train(evidence, found.candidates[0].arbor, "one"))
     assert train.mobility.by_rank == 1
     assert train.solve()
@@ -84,7 +84,7 @@ def test_the_input_stands_for_what_is_joined_to_it_and_added_wheels_are_written_
     assert evidence_question(evidence).joined == {"a": ("a", "k")}
     found = find_reconstructions(evidence_question(evidence).problem)
     declared = candidate_train(evidence, found.candidates[0].arbor, "one")
-    assert [count.mechanisms for count in found.counts] == [0, 1]
+    assert [count.solutions for count in found.counts] == [0, 1]
     assert {link: len(part.wheels) for link, part in declared.links.items()}["new_star"] == 1
     assert [(each.pin, each.slot) for each in declared.couplings] == [("k", "a")]
 
@@ -105,7 +105,7 @@ def test_the_moon_has_as_many_trains_behind_the_pin_as_before_it() -> None:
     for name, sign in (("moon-c-e", -1), ("moon-pin-and-slot", 1)):
         evidence = read_evidence(name)
         found = find_reconstructions(evidence_question(evidence).problem)
-        assert [count.mechanisms for count in found.counts] == [0, 0, 2]
+        assert [count.solutions for count in found.counts] == [0, 0, 2]
         for one in found.candidates:
             assert GearTrain(candidate_train(evidence, one.arbor, "one")).solve()["moon"] == Fraction(sign * 254, 19)
 

@@ -59,9 +59,9 @@ def test_a_candidate_breaks_no_rule_just_where_plain_growth_finds_it(part: int, 
     rules = set[str]()
     for seed in seeds:
         problem = random_problem(seed, idlers=True)
-        right = {tree for found in explanations(problem) for tree in found.mechanisms}
+        right = {tree for found in explanations(problem) for tree in found.solutions}
         for found in explanations(loosened(problem, part)):
-            for tree in sorted(found.mechanisms)[: few_or_many(100, 300)]:
+            for tree in sorted(found.solutions)[: few_or_many(100, 300)]:
                 rank = broken_rules(package_arbor(tree), problem)
                 assert (not rank) == (tree in right), (seed, tree, rank)
                 kept, broken = kept + (not rank), broken + bool(rank)
@@ -92,7 +92,7 @@ def test_a_place_is_that_among_all_trains_of_plain_growth() -> None:
     for seed in range(760, 800):
         evidence = declared(random_problem(seed))
         problem = evidence_question(evidence).problem
-        trees = [(found.counts.added, tree) for found in explanations(problem) for tree in found.mechanisms]
+        trees = [(found.counts.added, tree) for found in explanations(problem) for tree in found.solutions]
         weights = {tree: plain_prior(tree, problem) for _, tree in trees}
         known = tuple(candidate_train(evidence, package_arbor(tree), "known") for _, tree in trees[:20])
         found = reconstruct(ReconstructionRequest(evidence, counts_only=True, known=known))
@@ -146,7 +146,7 @@ def test_the_train_of_2006_has_another_dial_on_o() -> None:
     assert (len(as_it_has.wheels), as_it_has.requested, as_it_has.place) == (5, 3, None)
     assert without.changes == ("without the dial games", "without o")
     assert without.wheels == {"m3": 27, "n1": 53}
-    assert without.mechanisms == (0, 0, 12)  # those of the dials without the Games dial
+    assert without.solutions == (0, 0, 12)  # those of the dials without the Games dial
 
 
 @pytest.mark.slow
@@ -165,7 +165,7 @@ def test_prices_train_breaks_many_rules() -> None:
     }
     (granted,) = found.admitted
     assert granted.wheels == {"B4": 32, "N": 64}
-    assert granted.mechanisms[:2] == (0, 4)
+    assert granted.solutions[:2] == (0, 4)
     assert granted.place is not None
     assert granted.place.dearer == 10 * 10 * 214  # a wheel and an arbor more
 
@@ -281,7 +281,7 @@ def test_what_singles_a_train_out_is_what_plain_sets_of_trains_say(name: str) ->
         assert told is not None
         left = {fact: plainly_left(fact, facts) for fact in facts[which]}
         left = {fact: trains for fact, trains in left.items() if len(trains) < len(facts)}
-        assert {(each.kind, each.subject, each.answer): each.mechanisms for each in told.facts} == {
+        assert {(each.kind, each.subject, each.answer): each.solutions for each in told.facts} == {
             fact: len(trains) for fact, trains in left.items()
         }
         different = set(left.values())

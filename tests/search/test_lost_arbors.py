@@ -349,7 +349,7 @@ outputs: {c: {expect: 117/253}, d: {expect: 78/319}}
 """
     tree = find_spur_tree(load(text).declaration)
     found = find_reconstructions(evidence_question(lost_evidence(tree, ["b"])).problem)
-    assert [count.mechanisms for count in found.counts] == [0, 0, 0, 1]
+    assert [count.solutions for count in found.counts] == [0, 0, 0, 1]
     assert is_found(tree, ["b"], found)
 
 
@@ -358,7 +358,7 @@ def test_plain_growth_finds_the_train_and_as_many_others(lost: list[str]) -> Non
     tree = sample("targets: [{speed: -1/2, tolerance: 1/100}, {period: 700 d}]", "expect: -1/2")
     problem = evidence_question(lost_evidence(tree, lost)).problem
     right = explanations(problem)
-    assert concrete(tree.arbor(lost)) in right[-1].mechanisms
-    assert [count.mechanisms for count in find_reconstructions(problem).counts] == [
-        each.counts.mechanisms for each in right
+    assert concrete(tree.arbor(lost)) in right[-1].solutions
+    assert [count.solutions for count in find_reconstructions(problem).counts] == [
+        each.counts.solutions for each in right
     ]

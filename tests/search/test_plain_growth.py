@@ -22,7 +22,7 @@ def grown_alike(problem: ReconstructionProblem, seed: int) -> tuple[Found, ...]:
     assert [tuple(count.to_dict().values()) for count in found.counts] == [each.counts for each in right], seed
     trees = [(one.added, concrete(one.arbor)) for one in found.candidates]
     assert len(set(trees)) == len(trees)
-    assert set(trees) == {(each.counts.added, tree) for each in right for tree in each.mechanisms}, seed
+    assert set(trees) == {(each.counts.added, tree) for each in right for tree in each.solutions}, seed
     assert sum(one.weight for one in found.candidates) == pytest.approx(1 if trees else 0)
     return right
 
@@ -40,7 +40,7 @@ def test_small_questions_with_rings_have_the_answers_of_plain_growth(start: int)
         problem = with_rings(random_problem(seed, idlers=True), seed)
         for found in grown_alike(problem, seed):
             turning += any(
-                problem.rings & {name for pair in meshes(one) for name, _ in pair} for one in found.mechanisms
+                problem.rings & {name for pair in meshes(one) for name, _ in pair} for one in found.solutions
             )
     assert turning
 
@@ -67,7 +67,7 @@ def exact_problem(seed: int) -> ReconstructionProblem:
 @pytest.mark.parametrize("first", first_few(4, range(2000, 2200, 20)))
 def test_exact_questions_have_the_answers_of_plain_growth(first: int) -> None:
     right = [grown_alike(exact_problem(seed), seed) for seed in range(first, first + 20)]
-    assert sum(any(each.mechanisms for each in found) for found in right) > 5
+    assert sum(any(each.solutions for each in found) for found in right) > 5
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_no_answer_depends_on_keys_or_on_how_many_paths_are_grown_at_once(
 def seen(problem: ReconstructionProblem, seed: int) -> ReconstructionProblem | None:
     """The question with the meshes of survivors that one of its explanations has; None where there are none."""
     chance = random.Random(seed)
-    trees = [tree for each in explanations(problem) for tree in sorted(each.mechanisms)]
+    trees = [tree for each in explanations(problem) for tree in sorted(each.solutions)]
     if not trees:
         return None
     pairs = {frozenset((one[0], other[0])) for one, other in meshes(chance.choice(trees))}

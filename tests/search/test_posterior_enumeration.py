@@ -142,9 +142,9 @@ def test_posterior_shares_of_50_random_trains_are_those_of_enumeration() -> None
                 own = [chosen[name] == teeth for chosen, _, _ in case.rows]
                 if sum(hard):
                     share = sum(compress(hard, own), start=Fraction(0)) / sum(hard)
-                    assert found[name].chance(teeth).value == share
+                    assert found[name].probability(teeth).value == share
                     decided += share != prior[teeth]
                 if sum(agree):
                     share_by_degree = fsum(compress(agree, own)) / fsum(agree)
-                    assert float(soft[name].chance(teeth)) == pytest.approx(share_by_degree, rel=1e-11, abs=1e-15)
+                    assert float(soft[name].probability(teeth)) == pytest.approx(share_by_degree, rel=1e-11, abs=1e-15)
     assert decided > 100, "targets decide among counts"

@@ -60,7 +60,7 @@ def _target(minimum: Fraction, maximum: Fraction, speed: Fraction) -> dict[str, 
 
 
 def _chances(found: ToothCountPosterior, wheel: str) -> dict[int, Fraction | float]:
-    pairs = zip(found[wheel].doubt.counts, found[wheel].chances, strict=True)
+    pairs = zip(found[wheel].uncertainty.counts, found[wheel].probabilities, strict=True)
     return {count: chance.value for count, chance in pairs if chance.value}
 
 

@@ -1,7 +1,7 @@
 """Counts of reconstructions against those of two programs in another language, written from the rules alone.
 
 One looks for trees whose added wheels are unknowns, one grows concrete trees; `reconstruction_counts.json` holds what
-they found: by number of added wheels from 0 on, mechanisms, bags and ratio classes. The historic questions among them
+they found: by number of added wheels from 0 on, solutions, multisets and ratio classes. The historic questions
 have the counts that were known before.
 """
 
@@ -78,7 +78,7 @@ def _parameter(question: dict[str, Any]) -> Any:
 def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
     found = find_reconstructions(requested(question), listed=0)
     assert found.complete
-    assert [[each.mechanisms, each.bags, each.classes] for each in found.counts] == question["counts"]
+    assert [[each.solutions, each.multisets, each.classes] for each in found.counts] == question["counts"]
 
 
 @pytest.mark.parametrize(
@@ -111,14 +111,14 @@ def test_back_wheels_have_as_many_trains_with_five_added_as_another_program_foun
     problem = evidence_question(read_evidence("back-wheels-sure")).problem
     problem = replace(problem, additions=replace(problem.additions, wheels=5))
     found = find_reconstructions(problem, listed=0)
-    assert [each.mechanisms for each in found.counts] == [0, 0, 0, 21, 3674, 879_124]
+    assert [each.solutions for each in found.counts] == [0, 0, 0, 21, 3674, 879_124]
 
 
 @pytest.mark.slow
 def test_counts_in_doubt_have_the_trains_of_each_combination() -> None:
     whole = _read(evidence_question(read_evidence("back-wheels")).problem, {"l1": (37, 38), "e3": (222, 223)})
     each = [_read(whole, {"l1": (one,), "e3": (other,)}) for one in (37, 38) for other in (222, 223)]
-    counts = [[count.mechanisms for count in find_reconstructions(one, listed=0).counts] for one in (whole, *each)]
+    counts = [[count.solutions for count in find_reconstructions(one, listed=0).counts] for one in (whole, *each)]
     assert counts[0] == [sum(column) for column in zip(*counts[1:], strict=True)]
     assert counts[0][3]
 

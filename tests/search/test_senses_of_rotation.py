@@ -132,7 +132,7 @@ def test_counts_in_doubt_are_weighed_by_the_sense_too(size: Fraction) -> None:
         fits = met(size, Fraction(3, 10), SIGNS[way])
         assert found.evidence.value == Fraction(len(fits), len(BOX))
         chances[way] = {
-            count: found["p"].chance(count).value * found.evidence.value for count in range(17, 26)
+            count: found["p"].probability(count).value * found.evidence.value for count in range(17, 26)
         }  # fmt: skip
         for count, chance in chances[way].items():
             assert chance == Fraction(sum(p == count for p, _ in fits), len(BOX))

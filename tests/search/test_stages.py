@@ -66,7 +66,7 @@ def every_solution(
                 continue
             if fit.minimum_total is not None and sum(both) < fit.minimum_total:
                 continue
-            if fit.most_total is not None and sum(both) > fit.most_total:
+            if fit.maximum_total is not None and sum(both) > fit.maximum_total:
                 continue
             if fit.largest is not None and max(both) > fit.largest:
                 continue
@@ -393,7 +393,7 @@ def test_tables_that_would_not_fit_in_memory_are_refused() -> None:
 
 
 def test_a_ratio_beyond_all_counts_is_refused_or_missed_by_the_nearest() -> None:
-    with pytest.raises(RangeError, match="far out of reach"):
+    with pytest.raises(RangeError, match="cannot be approximated"):
         find_stages(TargetRatio(Fraction(10**29)), 3, range(12, 101), range(12, 101))
     with pytest.raises(QuestionError, match="from 1e-30 to 1e30"):
         TargetRatio(Fraction(10**999))

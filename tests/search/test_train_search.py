@@ -484,7 +484,7 @@ def test_an_output_that_no_free_wheel_moves_is_remarked_on_and_stops_nothing() -
     data["outputs"]["L0"] = {"expect": 2}
     found = find(data)
     assert found.count == sum(2 * a == b for a in range(12, 41) for b in range(12, 41))
-    assert "no free wheel influences 'L0', which violates its requirement" in found.remarks[0]
+    assert "no varied wheel influences 'L0', which violates its requirement" in found.remarks[0]
 
 
 # -------------------------------------------------------------------------------------------------- without a tolerance
@@ -621,7 +621,7 @@ def test_an_assignment_stands_where_brute_force_puts_it() -> None:
     assert "99 teeth are not admissible for 'b1'" in outside.refused
     with pytest.raises(QuestionError, match="no complete part"):
         found.standing({"a0": 11})
-    with pytest.raises(QuestionError, match="'z' is not free"):
+    with pytest.raises(QuestionError, match="'z' is not in the solutions"):
         found.standing({"z": 11})
 
 
@@ -842,8 +842,8 @@ def test_beyond_the_limit_a_sample_is_searched_and_said_to_be_one() -> None:
 def test_questions_that_cannot_be_requested_are_refused_in_words() -> None:
     plain = train([("A", "a", "B", "b")], {"a": 20, "b": {"teeth": {"value": 30, "range": [29, 31]}}}, {"B": target(1)})
     for options, said in (
-        ({}, "has no free wheel"),
-        ({"free": ["a"]}, "wheel 'a' is not free"),
+        ({}, "has no wheel whose tooth count is varied"),
+        ({"free": ["a"]}, "the tooth count of wheel 'a' cannot be varied"),
         ({"free": ["x"]}, "has no wheel 'x'"),
         ({"free": "uncertain", "by": "beauty"}, "unknown order 'beauty'"),
         ({"free": "uncertain", "state": "up"}, "no state 'up'"),

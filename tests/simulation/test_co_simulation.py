@@ -39,7 +39,7 @@ def _path_as_before() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def unit(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("fmu") / "moon.fmu"
-    done = call("export", TRAIN, "-o", out, "--rate", "1", "--restitution", "0.3", "--step", "0.00025s")
+    done = call("export", TRAIN, "-o", out, "--rate", "1", "--restitution", "0.3", "--time-step", "0.00025s")
     assert done.exit_code == 0, done.output
     return out
 
@@ -155,7 +155,7 @@ def test_a_declaration_written_out_is_read_back_as_it_was() -> None:
         (("planetary-24-18-60", "-o", "x.fmu"), "the train has no rate"),
         (("moon-triangular", "-o", "x.fmu", "--rate", "1"), "inertia"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--bore", "2mm"), "--bore does not apply"),
-        ((TRAIN, "-o", "x.fmu", "--rate", "1", "--step", "0s"), "0s is not above 0"),
+        ((TRAIN, "-o", "x.fmu", "--rate", "1", "--time-step", "0s"), "0s is not above 0"),
         ((TRAIN, "-o", "x.fmu", "--rate", "1", "--restitution", "2"), "'2' is not a valid restitution"),
         ((TRAIN, "-o", "x.dot", "--rate", "1"), "--rate applies only"),
     ],

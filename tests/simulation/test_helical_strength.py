@@ -265,9 +265,9 @@ inputs: {{a: 1}}
 def test_wide_teeth_and_flat_cones_are_told() -> None:
     assert "wider than a third" in found(36, 48, 40).pairs["p~w"].notes[1]
     short = found(36, 48, 95)
-    assert short.left_out[0].why == "the width of its teeth exceeds the cone distance"
+    assert short.neglected[0].why == "the width of its teeth exceeds the cone distance"
     flat = found(30, 60, axis="[-0.5, 0.8660254037844386, 0]")  # the cone of the second is a plane
-    assert "is flat or internal" in flat.left_out[0].why
+    assert "is flat or internal" in flat.neglected[0].why
 
 
 def test_forces_and_stresses_are_of_one_radius() -> None:

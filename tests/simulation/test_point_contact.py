@@ -160,12 +160,12 @@ def test_a_declared_pair_presses_as_hard_on_both_wheels() -> None:
     assert steel.safety == pytest.approx(1.6 * 340 / point.pressure)
     assert brass.safety == pytest.approx(1.6 * 200 / point.pressure)
     assert found.weakest.part == "w"
-    assert not found.left_out
+    assert not found.neglected
 
 
 def test_what_a_crossed_pair_lacks_is_named() -> None:
     bare = geartrain.load(CROSSED.replace(", material: brass", "")).strength()
-    assert bare.left_out[0].why == "'w' has no `material`"
+    assert bare.neglected[0].why == "'w' has no `material`"
     assert not bare.points
 
 

@@ -160,7 +160,7 @@ def test_what_pushes_along_an_arbor_bends_it_and_presses_on_its_shoulder() -> No
 def test_an_arbor_of_which_a_force_is_not_known_is_left_out() -> None:
     found = changed(", module: 2 mm", "").strength()
     assert found.arbors == ()
-    assert [each.where for each in found.left_out] == [("p~w",), ("arbor a",)]
+    assert [each.where for each in found.neglected] == [("p~w",), ("arbor a",)]
 
 
 SWINGING = """
@@ -184,8 +184,8 @@ def test_the_maximum_torque_of_a_turn_bends_and_presses_and_the_mean_one_wears()
     """A pin 10 mm from its axis drives a slot 8 mm off: where it is nearest the slot turns 10/(10 - 8) as fast."""
     train = geartrain.load(SWINGING)
     mean, most = train.strength(turns=10), train.strength(turns=10, over=2)
-    assert [each.where for each in mean.left_out] == [("k",)]
-    assert (mean.over, most.over, most.left_out) == (None, 2, ())
+    assert [each.where for each in mean.neglected] == [("k",)]
+    assert (mean.over, most.over, most.neglected) == (None, 2, ())
     for one, other in zip(mean.pairs["p~w"].wheels, most.pairs["p~w"].wheels, strict=True):
         assert other.tip_stress == pytest.approx(5 * one.tip_stress)
         assert other.shared_stress == pytest.approx(5 * one.shared_stress)  # type: ignore[operator]
@@ -247,7 +247,7 @@ def test_years_are_turns_by_the_unit_of_speeds() -> None:
 def test_what_is_lacking_is_named(old: str, new: str, lacking: str) -> None:
     found = changed(old, new).strength()
     assert not found.pairs
-    assert lacking in found.left_out[0].why
+    assert lacking in found.neglected[0].why
 
 
 def test_loads_without_units_are_refused() -> None:
@@ -297,7 +297,7 @@ def test_a_wheel_that_no_teeth_fit_says_why() -> None:
     )
     joints = "{pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]"
     found = geartrain.load(two.replace("{pair: [frame, b], axis: B}]", joints)).strength()
-    assert "require different teeth" in found.left_out[0].why
+    assert "require different teeth" in found.neglected[0].why
 
 
 def test_a_load_that_passes_beneath_the_roots_of_a_ring_bends_nothing() -> None:
@@ -326,7 +326,7 @@ loads: {arm: 1 N m}
 """
     found = geartrain.load(text).strength()
     assert list(found.pairs) == ["s~p"]
-    assert [each.where for each in found.left_out] == [("p~ring",)]
+    assert [each.where for each in found.neglected] == [("p~ring",)]
     assert any("because the teeth of pair 'p~ring' cannot turn" in note for note in found.pairs["s~p"].notes)
     # the carrier's torque is the sun's times 1 + 58/24
     torque = 1 / (1 + 58 / 24)

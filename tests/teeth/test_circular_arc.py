@@ -284,7 +284,7 @@ def test_what_is_cut_has_the_standards_tips(clock: GearTrain) -> None:
 
 
 def test_the_command_of_the_form_tells_what_its_law_does() -> None:
-    data = json.loads(call("mesh", "circular_arc", "--teeth", "60", "8", "--friction", "0.15", "--json").output)
+    data = json.loads(call("mesh", "60", "8", "--form", "circular_arc", "--friction", "0.15", "--json").output)
     transmission = FORM.transmission(60, 8, 0.15)
     low, high = transmission.error_range()
     assert data["form"] == "circular_arc"
@@ -294,8 +294,8 @@ def test_the_command_of_the_form_tells_what_its_law_does() -> None:
 
 def test_a_wheel_is_cut_to_scale_and_its_transmission_drawn(tmp_path: Path) -> None:
     made, plot = tmp_path / "leaf.csv", tmp_path / "law.svg"
-    words = ("--teeth", "60", "8", "--module", "2mm", "--wheel", "2", "--profile", str(made), "--plot", str(plot))
-    assert call("mesh", "circular_arc", *words).exit_code == 0
+    words = ("60", "8", "--module", "2mm", "--wheel", "2", "--profile", str(made), "--plot", str(plot))
+    assert call("mesh", "--form", "circular_arc", *words).exit_code == 0
     points = np.loadtxt(made, delimiter=",", skiprows=1)[:, 1:]
     outline = Polygon(points)
     assert outline.is_valid
@@ -314,9 +314,9 @@ def test_no_file_of_the_package_but_its_own_the_registry_and_the_map_names_it() 
     }
 
 
-def test_every_form_has_a_command_whose_options_are_its_fields() -> None:
-    said = call("mesh", "circular_arc", "--help").output
-    assert "--centre-distance" in said
+def test_every_form_has_parameters_that_are_its_fields() -> None:
+    said = call("mesh", "--form", "circular_arc", "--keys").output
+    assert "centre_distance" in said
     assert "Radius of the tip arcs in modules" in " ".join(said.replace("\u2502", " ").split())
     listed = call("mesh", "--help").output
     assert all(kind.model_fields["form"].annotation.__args__[0] in listed for kind in FORMS)

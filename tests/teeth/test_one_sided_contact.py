@@ -26,7 +26,7 @@ from geartrain.teeth.outlines import outline
 ALPHA = pi / 9
 BACKLASH = 0.05
 CLEAR = 0.25
-ISSUED = ("--teeth", 36, 70, "--internal", "--shift", "0.696,0.226")
+ISSUED = (36, 70, "--internal", "-p", "shift=0.696,0.226")
 
 
 def inv(angle: float) -> float:
@@ -226,7 +226,7 @@ def test_pressure_under_a_shared_load_is_that_of_half_the_force_where_two_touch(
     rho = pair.pitch_radius(0) * sin(ALPHA) + x
     bend = np.sqrt(long / (rho * (long - rho)) / cos(ALPHA))
     two = (x + pitch <= last) | (x - pitch >= first)
-    data = json.loads(call("mesh", "involute", "--teeth", 24, 36, "--json").output)["losses_and_stresses"]
+    data = json.loads(call("mesh", 24, 36, "--form", "involute", "--json").output)["losses_and_stresses"]
     assert data["one_pair"]["stress"] == pytest.approx(bend.max(), rel=1e-6)
     assert data["shared"]["stress"] == pytest.approx(max(bend[~two].max(), (bend[two] / sqrt(2)).max()), rel=1e-5)
     assert data["shared"]["stress"] < data["one_pair"]["stress"]
@@ -256,12 +256,12 @@ def test_bevels_touch_on_one_side_where_their_tips_end_on_the_sphere(shift: floa
 
 
 def test_the_command_takes_contact_on_one_side() -> None:
-    done = call("mesh", "involute", *ISSUED, "--friction", 0.1)
+    done = call("mesh", *ISSUED, "--friction", 0.1)
     assert done.exit_code == 0, done.output
     assert "Contact ratio 1.54589" in done.output
     assert "all contact is on the other side of the pitch point" in done.output
     first, last = ISSUE.ends
-    data = json.loads(call("mesh", "involute", *ISSUED, "--json").output)
+    data = json.loads(call("mesh", *ISSUED, "--json").output)
     assert data["arcs"] == pytest.approx([-first / (pi * cos(ALPHA)), last / (pi * cos(ALPHA))])
     # the flank works between its own tip and where the mate's tip meets it
     low = hypot(ISSUE.base(0), ISSUE.pitch_radius(0) * sin(ISSUE.angle) + first)

@@ -23,7 +23,8 @@ shapely = pytest.importorskip("shapely")
 Points = np.ndarray[tuple[int, int], np.dtype[np.float64]]
 
 MODULE, BACKLASH = 2.0, 0.1  # mm
-PAIR = ("--teeth", 24, 36, "--module", "2mm", "--backlash", "0.1mm", "--tolerance", "0.0001mm")
+FINE = ("--module", "2mm", "-p", "backlash=0.1mm", "--blank", "tolerance=0.0001mm")
+PAIR = (24, 36, *FINE)
 
 # the tips of both wheels at z = 24, 36, from the pitch point in modules: ends of printed profiles, or textbook sizes
 TIPS = {
@@ -33,8 +34,8 @@ TIPS = {
     "least_friction": ((-0.196008996273, 0.457538489540), (0.187693555359, -0.456734822294)),
 }
 OPTIONS: dict[str, tuple[object, ...]] = {
-    "uniform_temperature": ("--heat", 0.4),
-    "least_friction": ("--pressure-angle", "25deg", "--margin", 0.15),
+    "uniform_temperature": ("-p", "heat=0.4"),
+    "least_friction": ("-p", "pressure_angle=25deg", "-p", "margin=0.15"),
 }
 
 
@@ -45,8 +46,10 @@ def written(form: str, wheel: int, to: File, *more: object) -> list[Points]:
 
 def told(form: str, wheel: int, to: File, *more: object) -> tuple[list[Points], str]:
     """The same, and what the command says."""
-    pair = () if "--teeth" in more else PAIR
-    done = call("mesh", form, *pair, *OPTIONS.get(form, ()), "--profile", to, "--wheel", wheel, "--force", *more)
+    pair = () if more and isinstance(more[0], int) else PAIR
+    done = call(
+        "mesh", *pair, *more, "--form", form, *OPTIONS.get(form, ()), "--profile", to, "--wheel", wheel, "--force"
+    )
     assert done.exit_code == 0, done.output
     return {".svg": from_svg, ".dxf": from_dxf, ".csv": from_csv}[to.suffix](to), done.output
 
@@ -200,27 +203,27 @@ def free_turn(first: shapely.Geometry, second: shapely.Geometry, seat: tuple[flo
 
 
 MESHES = {
-    "involute": ("--teeth", 24, 36),
-    "involute with a ring": ("--teeth", 24, 60, "--internal"),
-    "involute shifted": ("--teeth", 12, 37, "--shift", "0.4,0"),
-    "uniform_stress": ("--teeth", 17, 40),
-    "uniform_temperature": ("--teeth", 24, 36, "--reading", "c"),
-    "least_friction": ("--teeth", 24, 36),
-    "cycloidal": ("--teeth", 8, 48),
-    "lantern": ("--teeth", 40, 10),
-    "lantern that drives": ("--teeth", 10, 40, "--pins", 1),
+    "involute": (24, 36),
+    "involute with a ring": (24, 60, "--internal"),
+    "involute shifted": (12, 37, "-p", "shift=0.4,0"),
+    "uniform_stress": (17, 40),
+    "uniform_temperature": (24, 36, "-p", "reading=c"),
+    "least_friction": (24, 36),
+    "cycloidal": (8, 48),
+    "lantern": (40, 10),
+    "lantern that drives": (10, 40, "-p", "pins=1"),
 }
 
 
 @pytest.mark.parametrize("name", MESHES)
 def test_two_wheels_turn_through_a_pitch_untouched_with_the_backlash_between_them(name: str, tmp_path: File) -> None:
     form, options = name.split()[0], MESHES[name]
-    z1, z2 = int(str(options[1])), int(str(options[2]))
+    z1, z2 = int(str(options[0])), int(str(options[1]))
     internal = "--internal" in options
-    more = (*options, *PAIR[3:])
+    more = (*options, *FINE)
     one, title = told(form, 1, tmp_path / "1.csv", *more, "--json")
     contours = [one, written(form, 2, tmp_path / "2.csv", *more)]
-    pins = 0 if form != "lantern" else 1 if "--pins" in options else 2
+    pins = 0 if form != "lantern" else 1 if "pins=1" in options else 2
     first, second = (solid(contours[gear - 1], "pins" if gear == pins else "teeth") for gear in (1, 2))
     distance = float(re.search(r'"centre_distance": ([\d.]+)', title)[1])  # type: ignore[index]
     # more than three pitches either side of the pitch point are enough, and quick
@@ -282,7 +285,7 @@ def test_involute_wheels_of_any_arcs_have_textbook_tips_and_stand_clear(
 
 def test_the_root_is_rounded_by_the_fillet_requested_for(tmp_path: File) -> None:
     ezdxf = pytest.importorskip("ezdxf")
-    written("involute", 1, tmp_path / "w.dxf", "--fillet", "0.3mm")
+    written("involute", 1, tmp_path / "w.dxf", "--blank", "fillet=0.3mm")
     (teeth,) = ezdxf.readfile(tmp_path / "w.dxf").modelspace()
     points = list(teeth.get_points("xyb"))
     found = set()
@@ -306,7 +309,7 @@ def test_a_fillet_that_does_not_fit_is_refused_with_the_largest_that_does() -> N
 
 def test_a_ring_has_its_teeth_inwards_and_a_rim(tmp_path: File) -> None:
     outer, teeth = written(
-        "involute", 2, tmp_path / "r.dxf", "--teeth", 24, 60, "--internal", "--module", "2mm", "--rim", "5mm"
+        "involute", 2, tmp_path / "r.dxf", 24, 60, "--internal", "--module", "2mm", "--blank", "rim=5mm"
     )
     r = radii(teeth)
     assert r.min() == pytest.approx(60 - 2, abs=1e-4)
@@ -317,8 +320,8 @@ def test_a_ring_has_its_teeth_inwards_and_a_rim(tmp_path: File) -> None:
 
 def test_a_lantern_is_a_disc_with_a_hole_for_each_pin(tmp_path: File) -> None:
     disc, *holes, bore = written(
-        *("lantern", 2, tmp_path / "l.csv", "--teeth", 40, 10, "--module", "2mm"),
-        *("--bore", "4mm", "--rim", "1mm", "--pin-diameter", "3mm"),
+        *("lantern", 2, tmp_path / "l.csv", 40, 10, "--module", "2mm"),
+        *("--blank", "bore=4mm", "--blank", "rim=1mm", "-p", "pin_diameter=3mm"),
     )
     assert len(holes) == 10
     for hole in holes:

@@ -271,21 +271,21 @@ def test_an_offset_that_is_not_the_eccentricity_cannot_be_built() -> None:
 
 
 def test_the_command_tells_of_one_pair() -> None:
-    out = ended("mesh", "pin_ring", "--teeth", 11, 12, "--friction", 0.05, "--json")
+    out = ended("mesh", 11, 12, "--form", "pin_ring", "--friction", 0.05, "--json")
     assert '"maximum_load": 0.33' in out.stdout
 
 
-def test_the_command_takes_clearance_deflection_and_backlash() -> None:
+def test_the_command_takes_clearance_and_deflection() -> None:
     def row(*options: str) -> list[str]:
-        done = ended("mesh", "pin_ring", "--teeth", 11, 12, *options, "-o", "-")
+        done = ended("mesh", 11, 12, "--form", "pin_ring", *options, "-o", "-")
         assert done.returncode == 0, done.stderr
         return next(line for line in done.stdout.splitlines() if "wheel 1 -> wheel 2" in line).strip("| ").split("|")
 
     backlash = np.degrees(4 * 0.01 / 11)
-    for options in (("--clearance", "0.01"), ("--backlash", "0.02")):
+    for options in (("-p", "clearance=0.01"),):
         assert float(row(*options)[-3]) == pytest.approx(backlash * 11 / 12, rel=1e-3), "of the ring, which is driven"
-    assert row("--clearance", "0.01")[6].strip() == "5 to 6"
-    assert row("--clearance", "0.01", "--deflection", "0.01")[6].strip() == "3 to 4"
+    assert row("-p", "clearance=0.01")[6].strip() == "5 to 6"
+    assert row("-p", "clearance=0.01", "-p", "deflection=0.01")[6].strip() == "3 to 4"
 
 
 def test_cranks_side_by_side_share_the_torque_alike_and_change_no_speed() -> None:

@@ -63,7 +63,7 @@ def test_racks_by_name_are_those_of_their_heights(name: str, heights: tuple[str,
 
 
 def test_racks_are_requested_for_once() -> None:
-    result = call("mesh", "involute", "--teeth", "20", "40", "--proportions", "stub", "--addendum", "1")
+    result = call("mesh", "20", "40", "--form", "involute", "-p", "proportions=stub", "-p", "addendum=1")
     assert isinstance(result.exception, GearTrainError)
     assert "addendum and proportions are both given" in str(result.exception)
-    assert "1.34653" in call("mesh", "involute", "--teeth", "20", "40", "--proportions", "stub").stdout
+    assert "1.34653" in call("mesh", "20", "40", "--form", "involute", "-p", "proportions=stub").stdout

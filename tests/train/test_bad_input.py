@@ -54,13 +54,13 @@ MISTAKES = {
     "missing link": (changed("[frame, a], axis: A", "[fram, a], axis: A"), 6, ["no link 'fram'", "'frame'"]),
     "missing frame": (changed("links:", "frame: fram\nlinks:"), 1, ["no link 'fram'", "did you mean 'frame'?"]),
     "missing input": (changed("inputs: {a: 1}", "inputs: {aa: 1}"), 10, ["no link 'aa'"]),
-    "zero teeth": (changed("p: 20", "p: 0"), 3, ["0 is not a tooth count", "from 1 to 10^12"]),
-    "negative teeth": (changed("p: 20", "p: -20"), 3, ["-20 is not a tooth count"]),
-    "fractional teeth": (changed("p: 20", "p: 20.5"), 3, ["20.5 is not a tooth count"]),
-    "teeth as a fraction": (changed("p: 20", "p: 41/2"), 3, ["41/2 is not a tooth count"]),
-    "too many teeth": (changed("p: 20", "p: 1000000000001"), 3, ["1000000000001 is not a tooth count"]),
+    "zero teeth": (changed("p: 20", "p: 0"), 3, ["'0' is not a tooth count", "from 1 to 10^12"]),
+    "negative teeth": (changed("p: 20", "p: -20"), 3, ["'-20' is not a tooth count"]),
+    "fractional teeth": (changed("p: 20", "p: 20.5"), 3, ["'20.5' is not a tooth count"]),
+    "teeth as a fraction": (changed("p: 20", "p: 41/2"), 3, ["'41/2' is not a tooth count"]),
+    "too many teeth": (changed("p: 20", "p: 1000000000001"), 3, ["'1000000000001' is not a tooth count"]),
     "a tooth count of many digits": (changed("p: 20", "p: 1" + "0" * 5000), 3, ["is not a tooth count"]),
-    "teeth in words": (changed("p: 20", "p: twenty"), 3, ["twenty is not a tooth count"]),
+    "teeth in words": (changed("p: 20", "p: twenty"), 3, ["'twenty' is not a tooth count"]),
     "a pair on one link": (changed("[p, w]", "[p, p2]").replace("{p: 20}", "{p: 20, p2: 9}"), 9, ["one link", "'a'"]),
     "two rings": (
         changed("p: 20", "p: {teeth: 20, internal: true}").replace("w: 60", "w: {teeth: 60, internal: true}"),
@@ -376,8 +376,7 @@ def test_a_missing_revolutes_is_one_error(refused: Refuse) -> None:
     gears = ", ".join(f"w{at} ~ w{at + 1}" for at in range(12))
     (problem,) = refused(f"links:\n  frame: {{}}\n{links}gears: [{gears}]\ninputs: {{l0: 1}}\n").problems
     assert problem.what == "no turning pair is declared"
-    assert "`revolutes:`" in problem.fix
-    assert "{A: [frame, l0]}" in problem.fix
+    assert "`revolutes: {A: [frame, l0]}`" in problem.fix
 
 
 def refusal(text: str) -> str:

@@ -84,7 +84,7 @@ def test_a_figure_without_the_sign_of_the_speed_is_said_to_differ_in_sign_only()
 
 def test_counts_to_search_may_be_a_list() -> None:
     path = CASES / "09-list-of-counts.yaml"
-    found = json.loads(call("teeth", "train", path, "--shift", "1", "--json").stdout)
+    found = json.loads(call("teeth", "train", path, "--centre-tolerance", "1", "--json").stdout)
     # 1/2 (15/60 + 19/57) = 7/24, and its mirror image
     wanted = [{"a": 15, "b": 19, "c": 60, "d": 57}, {"a": 19, "b": 15, "c": 57, "d": 60}]
     assert [solution["teeth"] for part in found["parts"] for solution in part["solutions"]] == wanted

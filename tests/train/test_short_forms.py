@@ -110,7 +110,7 @@ def test_problems_are_told_at_the_line_of_the_short_form(tmp_path: Path) -> None
         SHORT.replace("P: [carrier, planet]", "P: [carrier, plant]"): ":10: no link 'plant'",
         SHORT.replace("P: [carrier, planet]", "P: [carrier]"): ":10: axis 'P' has fewer than two links",
         SHORT.replace("- s ~ p", "- s ~"): ":12: 's ~' is not a gear pair",
-        SHORT.replace("- s ~ p", "- sun ~ p"): "'sun' is a link; its wheels are s",
+        SHORT.replace("- s ~ p", "- sun ~ p"): "'sun' is a link, and a pair names two wheels",
         SHORT.replace("- s ~ p", "- carrier ~ p"): "'carrier' is a link without wheels",
     }.items():
         file.write_text(wrong, encoding="utf-8")

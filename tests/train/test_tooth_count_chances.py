@@ -15,7 +15,7 @@ THIRDS = Fraction(1, 3)
 
 
 @pytest.mark.parametrize(
-    ("teeth", "chances"),
+    ("teeth", "probabilities"),
     [
         ({"value": 20, "range": [19, 21]}, {19: THIRDS, 20: THIRDS, 21: THIRDS}),
         ({"value": 20, "range": [19, 21], "weights": [0, 1, 3]}, {20: Fraction(1, 4), 21: Fraction(3, 4)}),
@@ -27,9 +27,9 @@ THIRDS = Fraction(1, 3)
         ({"value": 20}, {}),
     ],
 )
-def test_chances_are_what_weights_say(teeth: dict[str, Any], chances: dict[int, Fraction]) -> None:
-    assert Teeth.model_validate(teeth).chances == chances
-    assert list(Teeth.model_validate(teeth).chances) == sorted(chances)
+def test_chances_are_what_weights_say(teeth: dict[str, Any], probabilities: dict[int, Fraction]) -> None:
+    assert Teeth.model_validate(teeth).probabilities == probabilities
+    assert list(Teeth.model_validate(teeth).probabilities) == sorted(probabilities)
 
 
 def test_a_posterior_and_a_reconstruction_begin_with_the_same_chances() -> None:
@@ -41,7 +41,7 @@ def test_a_posterior_and_a_reconstruction_begin_with_the_same_chances() -> None:
         "outputs": {"b": {"expect": "-3/2"}},
     }
     joints = {"revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]}, "gears": ["p ~ q"]}
-    prior = infer_counts(declare({**parts, **joints})).posteriors["q"].doubt
+    prior = infer_counts(declare({**parts, **joints})).posteriors["q"].uncertainty
     requested = evidence_question(declare({**parts, "reconstruct": {}})).problem
     assert dict(zip(prior.counts, prior.priors, strict=True)) == dict(requested.arbors[0].wheels[0].counts)
     assert dict(requested.arbors[0].wheels[0].counts) == {20: Fraction(4, 7), 22: Fraction(3, 7)}

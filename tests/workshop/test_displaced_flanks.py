@@ -74,7 +74,7 @@ def drawn_contact(name: str, driver: int, pair: DisplacedPair, S: np.ndarray) ->
 
 def off_ratio(at: DisplacedContact, found: TwoFlankContact, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     pitch = at.pitches[1]
-    return (float(at.ratio) * S + at.stands - found.front.angle) / pitch, found.backlash / pitch
+    return (float(at.ratio) * S + at.tooth_phase - found.front.angle) / pitch, found.backlash / pitch
 
 
 def by_transmission(pair: DisplacedPair, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -140,7 +140,7 @@ def test_an_eccentric_involute_wheel_errs_by_e_over_the_base_radius() -> None:
     assert -lag * at.pitches[1] == pytest.approx(e * np.sin(S - towards + psi) / rb2, abs=1e-15)
     # an eccentric driven wheel errs by the other sign, by its own base circle
     lag, _ = by_transmission(DisplacedPair(at, first, replace(second, e=np.array(e), towards=np.array(towards))), S)
-    turned = S * 24 / 36 + at.stands - towards
+    turned = S * 24 / 36 + at.tooth_phase - towards
     assert -lag * at.pitches[1] == pytest.approx(-e * np.sin(turned - psi) / rb2, abs=1e-15)
 
 

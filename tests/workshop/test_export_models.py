@@ -18,7 +18,7 @@ from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.triangle_solids import Solid, fill, likeness_solid
+from geartrain.scene.solids.triangle_solids import Solid, approximation_solid, fill
 from geartrain.workshop import train_file, wheel_file
 
 shapely = pytest.importorskip("shapely")
@@ -158,7 +158,7 @@ def test_likenesses_narrow_to_where_their_axes_meet(name: str) -> None:
         gap = np.array(other.centre) - np.array(one.centre)
         along = float(np.cross(gap, other.direction) @ n / (n @ n))
         assert abs(gap @ n) < 1e-6, "the axes meet"
-        solid = likeness_solid(one, scene.profiles[one.profile], 2.0)
+        solid = approximation_solid(one, scene.profiles[one.profile], 2.0)
         apex = np.array([0.0, 0.0, along])
         far = solid.vertices - apex
         ways, sizes = far / np.linalg.norm(far, axis=1)[:, None], np.linalg.norm(far, axis=1)
@@ -180,7 +180,7 @@ def test_the_thread_of_a_worm_winds_as_its_hand_says_one_axial_pitch_a_start(han
     text = (TRAINS / "engineering" / "worm.yaml").read_text(encoding="utf-8").replace("hand: right", f"hand: {hand}")
     scene = inline(text.partition("inputs:")[0]).scene
     worm, wheel = scene.wheels
-    points = likeness_solid(worm, scene.profiles[worm.profile]).vertices
+    points = approximation_solid(worm, scene.profiles[worm.profile]).vertices
     lead = 2 * pi * (2 * wheel.radius / 60)  # two starts, and sixty teeth on the pitch circle of the wheel
     r, angle = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
     crest = r > 0.999 * r.max()

@@ -76,7 +76,7 @@ def test_the_declaration_extends_the_train_from_wherever_it_is_written(tmp_path:
     source, written = tmp_path / "two.yaml", tmp_path / folder / "best.yaml"
     source.write_text(TWO, encoding="utf-8")
     written.parent.mkdir(exist_ok=True)
-    done = call("optimise", source, "--output", "c", "--free", "window", "-o", written)
+    done = call("optimise", source, "--of", "c", "--free", "window", "-o", written)
     assert done.exit_code == 0, done.output
     before, after = (geartrain.load(str(path)).driven("c", "a").efficiency for path in (source, written))
     assert before is not None

@@ -107,7 +107,9 @@ def _cards(rows: str) -> Iterator[str]:
 
 def _trains() -> list[Path]:
     wanted = set(filter(None, os.environ.get("GEARTRAIN_GALLERY", "").split(",")))
-    paths = sorted((ROOT / "trains").glob("*/*.yaml"))
+    from geartrain import shipped
+
+    paths = sorted(shipped().values())
     unknown = wanted - {path.stem for path in paths}
     if unknown:
         raise SystemExit(f"GEARTRAIN_GALLERY names no shipped train: {', '.join(sorted(unknown))}")

@@ -492,8 +492,8 @@ def spirals() -> float:
 
 def shared_work() -> Finding:
     """Work of one engagement of 24/36 involutes, the force undivided, and divided among the pairs in contact."""
-    answer = Command("mesh involute --teeth 24 36", "losses_and_stresses").value()
-    ratio = Command("mesh involute --teeth 24 36", "contact_ratio").value()
+    answer = Command("mesh 24 36", "losses_and_stresses").value()
+    ratio = Command("mesh 24 36", "contact_ratio").value()
     whole, divided = answer["one_pair"]["loss"] * ratio, answer["shared"]["loss"]
     part = divided / whole
     return Finding(abs(part - 1) < 1e-6, f"contact ratio {ratio:.3f}: divided it is {part:.3f} of the undivided")
@@ -685,8 +685,8 @@ def spacing() -> Finding:
 
 
 def compared(form: str, what: str) -> float:
-    """A ratio to the involute of the same arcs, from `geartrain mesh compare --teeth 24 36`."""
-    rows = {row["form"]: row["ratios"] for row in Command("mesh compare --teeth 24 36", "forms").value()}
+    """A ratio to the involute of the same arcs, from `geartrain mesh 24 36 --compare`."""
+    rows = {row["form"]: row["ratios"] for row in Command("mesh 24 36 --compare", "forms").value()}
     return float(rows[form]["one_pair"][what])
 
 
@@ -698,7 +698,7 @@ def cycloids_rub() -> Finding:
 
 def contact_number() -> Finding:
     """Contact ratio of standard involutes."""
-    ratio = float(Command("mesh involute --teeth 24 36", "contact_ratio").value())
+    ratio = float(Command("mesh 24 36", "contact_ratio").value())
     return Finding(ratio > 1.4, f"24/36, 20 deg: {ratio:.3f}")
 
 

@@ -63,9 +63,9 @@ def generatrix() -> Finding:
 def efficiencies() -> Finding:
     """Teeth alone: spur and bevel wheels of 24 and 36 teeth, and wheels on axes that cross under 90 degrees."""
     near = [
-        answer(f"mesh involute --teeth 24 36 --friction {friction}{bevel}")["efficiency"]["mean"]
+        answer(f"mesh 24 36 --friction {friction}{bevel}")["efficiency"]["mean"]
         for friction in DUDLEY
-        for bevel in ("", " --bevel 90deg")
+        for bevel in ("", " --shaft-angle 90deg")
     ]
     crossed = [
         screw_efficiency(radians(90 - lead), radians(lead), friction)

@@ -378,7 +378,7 @@ def heat_and_optima() -> Iterator[Row]:
     yield outside(
         "Figs. 1 to 5",
         "drawings for the derivations",
-        "no values; `geartrain mesh compare --teeth 24 36 --plot forms.svg` draws shapes",
+        "no values; `geartrain mesh 24 36 --compare --plot forms.svg` draws shapes",
     )
 
 

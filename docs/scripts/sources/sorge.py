@@ -30,7 +30,7 @@ words, equation = _OWN.words, _OWN.equation
 
 def mesh(z1: int, z2: int, clearance: str, path: str) -> Command:
     """A value of a pair of the figures."""
-    return Command(f"mesh triangular --teeth {z1} {z2} --clearance-factor {clearance} --friction 0.2", path)
+    return Command(f"mesh {z1} {z2} --form triangular -p clearance_factor={clearance} --friction 0.2", path)
 
 
 # ------------------------------------------------------------------------------------------------------ II. geometry
@@ -98,8 +98,8 @@ def geometry() -> Iterator[Row]:
     yield outside(
         "II, Fig. 2",
         "a drawing of approach, matching and recess, z2/z1 = 2, beta = 30 deg",
-        "the copy has no pictures; `geartrain mesh triangular --teeth 48 96 --clearance-factor 1.01 --at -3deg "
-        "--teeth-plot contact.svg` draws any position",
+        "the copy has no pictures; `geartrain mesh 48 96 --form triangular -p clearance_factor=1.01 --at -3deg "
+        "--plot contact.svg` draws any position",
     )
     yield words("Fig. 2 b", "profiles match where -alpha_2 = alpha_1; tau changes suddenly there", "matched()")
     yield equation("Eq. (1)", "h = R [1 - sin b / sin(b + pi/z)]", "depths()")
@@ -547,7 +547,7 @@ def from_command() -> Iterator[Row]:
         *(("11", A, "instant_centre"), ("18", R, "instant_centre")),
         *(("28", A, "driver_arm"), ("29", A, "driven_arm"), ("30", R, "driver_arm"), ("31", R, "driven_arm")),
     ):
-        claim = f"`course.{key}` of `geartrain mesh triangular --json`, all figures"
+        claim = f"`course.{key}` of `geartrain mesh --form triangular --json`, all figures"
         yield equation(f"Eq. ({number}), command", claim, f"course('{phase}', '{key}')")
 
 
@@ -697,8 +697,8 @@ def results() -> Iterator[Row]:
         yield outside(
             f"Fig. {name}, curves",
             "alpha_2, tau and eta over alpha_1",
-            "the copy has no pictures, and no values are printed; `geartrain mesh triangular "
-            f"--teeth {z1} {z2} --clearance-factor {a} --friction 0.2 --plot law.svg` draws them",
+            "the copy has no pictures, and no values are printed; `geartrain mesh "
+            f"{z1} {z2} --form triangular -p clearance_factor={a} --friction 0.2 --plot law.svg` draws them",
         )
         yield Row(f"Fig. {name}, tau_mean", "mean speed ratio", MEANS[name[0]], mesh(z1, z2, a, "speed_ratio.mean"))
         for figure, kind, printed in JUMPS:
@@ -785,7 +785,7 @@ def conclusions() -> Iterator[Row]:
     yield outside(
         "VI, rattling",
         "a sensible rattling noise, lubrication of the ancients",
-        "a guess at history; impacts are in `geartrain mesh triangular --teeth 48 96 --clearance-factor 1.01 "
+        "a guess at history; impacts are in `geartrain mesh 48 96 --form triangular -p clearance_factor=1.01 "
         "--inertia '20 g cm2' --rate 1rpm`",
     )
     yield words(

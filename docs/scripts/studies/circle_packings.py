@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from functools import partial
+from collections.abc import Iterator, Sequence
 from math import degrees, pi
 from statistics import median
 from typing import Any
-from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.spherical import GraphSet, from_graph, graph_set, size_gears
+from geartrain.spherical import GraphSet, from_graph
 from geartrain.spherical.circle_packing import PlanarPacking, SpherePacking, angle_excess, pack_circles
 from geartrain.spherical.graph_set import Aim, checked_graph, regions_of, with_region_circles
 from studies.measurement import timed
@@ -65,16 +62,10 @@ def _middle(rounds: Sequence[Sequence[tuple[float, float]]]) -> list[tuple[float
     return [(median(seconds for seconds, _ in each), each[0][1]) for each in zip(*rounds, strict=True)]
 
 
-def fitted(family: str, given: int, aim: Aim, minimum: int, rounds: int) -> list[FitRecord]:
+def fitted(family: str, given: int, aim: Aim, minimum: int) -> list[FitRecord]:
     """One set of gears fitted to its graph."""
     edges = graph(family, given)
-    runs, moving = [], []
-    for _ in range(rounds):
-        with _clocked_fits() as spent:
-            runs.append(timed(lambda: from_graph(edges, minimum, aim)))
-        moving.append(sum(spent))
-    found: GraphSet = runs[0][1]
-    sized = [timed(lambda: size_gears(found.configuration))[0] for _ in range(rounds)]
+    found: GraphSet = from_graph(edges, minimum, aim)
     return [
         FitRecord(
             family=family,
@@ -83,33 +74,11 @@ def fitted(family: str, given: int, aim: Aim, minimum: int, rounds: int) -> list
             minimum=minimum,
             most=max(found.configuration.teeth.values()),
             steps=len(found.residuals),
-            seconds=median(moving),
-            whole=median(seconds for seconds, _ in runs),
-            sizing=median(sized),
             residual=found.sizing.mismatch if aim == "pitch" else found.residue,
             exact=aim in found.exact,
             moved=degrees(float(found.moved.max())),
-            track=list(found.residuals),
         )
     ]
-
-
-@contextmanager
-def _clocked_fits() -> Iterator[list[float]]:
-    """Seconds of every fit of axes that `from_graph` asks for."""
-    spent: list[float] = []
-
-    def clocked(fit: Callable[..., Any]) -> Callable[..., Any]:
-        def run(*given: Any, **options: Any) -> Any:
-            seconds, found = timed(partial(fit, *given, **options))
-            spent.append(seconds)
-            return found
-
-        return run
-
-    fits: Any = {name: clocked(getattr(graph_set, name)) for name in ("fit_pitch", "fit_phases")}
-    with patch.multiple(graph_set, **fits):
-        yield spent
 
 
 class FixedPoint:

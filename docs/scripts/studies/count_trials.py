@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +13,7 @@ from numpy.typing import NDArray
 from geartrain import GearTrain, load
 from geartrain.kinematics.formulas import with_counts
 from geartrain.search.posterior.inference_problem import InferenceProblem, build_inference_problem, find_priors
-from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch, MonomialColumns
-from studies.count_grid import CombinationGrid
+from geartrain.search.posterior.sampled_posterior import BLOCK, LikelihoodBatch
 
 Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
@@ -69,8 +67,8 @@ class Counted:
         """Wheel -> its counts in every combination; one in two is as declared but for one wheel."""
         rng, found = np.random.default_rng(self.seed), {}
         near = rng.random(self.combinations) < 0.5
-        odd = rng.integers(0, len(self.question.doubts), self.combinations)
-        for at, (wheel, doubt) in enumerate(self.question.doubts.items()):
+        odd = rng.integers(0, len(self.question.uncertainties), self.combinations)
+        for at, (wheel, doubt) in enumerate(self.question.uncertainties.items()):
             drawn = rng.choice(np.array(doubt.counts), self.combinations)
             found[wheel] = np.where(near & (odd != at), doubt.declared or drawn, drawn)
         return found
@@ -84,20 +82,6 @@ class Counted:
     def decided(self) -> Bools:
         """Whether each combination fits, decided exactly, (combinations,)."""
         return np.concatenate([self.judge.judged(self.judge.columns(block))[0] for block in self._blocks()])
-
-    def neighbours(self) -> int:
-        """How many fit of as many combinations, or a few more, that follow each other in a complete enumeration."""
-        grid = CombinationGrid(self.judge)
-        middle = grid.runs // 2
-        runs = grid.runs_from(middle, grid.runs)
-        rows: Iterator[tuple[dict[str, int], MonomialColumns]] = islice(runs, -(-self.combinations // grid.block))
-        return sum(int(self.judge.judged(each)[0].sum()) for _, each in rows)
-
-    @property
-    def followed(self) -> int:
-        """How many combinations `neighbours` looks at."""
-        block = CombinationGrid(self.judge).block
-        return -(-self.combinations // block) * block
 
     def told(self) -> dict[str, tuple[Floats, Floats]]:
         """Output -> its speed in every combination, and a bound on its error."""

@@ -16,7 +16,7 @@ from geartrain import GearTrain
 from geartrain.scene import Scene, ScenePair, build_scene, lay_out
 from studies.drawn_solids import DrawnTeeth, opened
 from studies.measurement import taken
-from studies.records import StudyRecords, error_text, table
+from studies.records import StudyRecords
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -47,27 +47,10 @@ class DrawnRecords(StudyRecords):
 
     trains: Sequence[DrawnRecord]
 
-    def tables(self) -> list[str]:
-        """One table."""
-        columns = {
-            "train": lambda row: row.train,
-            "pairs": lambda row: str(row.pairs),
-            "positions": lambda row: f"{row.positions:,}",
-            "in common, at most": lambda row: error_text(row.worst),
-            "off phase": lambda row: f"{row.turned:.2g}",
-            "left out": lambda row: row.left,
-        }
-        return table(columns, self.trains)
-
 
 def all_trains() -> DrawnRecords:
     """The study, of all shipped trains."""
     return DrawnRecords("Teeth as they are drawn", _records(list(geartrain.shipped()), PITCH, CYCLE))
-
-
-def quick() -> DrawnRecords:
-    """Three trains in few positions."""
-    return DrawnRecords("Teeth as they are drawn, in short", _records(["worm", "humpage", "moon-triangular"], 4, 4))
 
 
 def _records(names: Sequence[str], pitch: int, cycle: int) -> list[DrawnRecord]:

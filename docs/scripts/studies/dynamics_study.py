@@ -14,7 +14,7 @@ from geartrain import GearTrain
 from geartrain.simulation.contacts.compliant_train import damping_ratio
 from studies.dynamics_methods import INERTIA, RATE, PairRun, by_events, stepped, yielding
 from studies.measurement import Step, taken, timed
-from studies.records import StudyRecords, error_text, seconds_text, table
+from studies.records import StudyRecords
 
 RESTITUTIONS = (0.0, 0.5)
 _STEPS, _FEW = (500, 2000, 8000, 32000, 128000), (500, 2000)
@@ -67,31 +67,6 @@ class DynamicsRecords(StudyRecords):
 
     pair: Sequence[PairRecord]
     train: Sequence[TrainRecord]
-
-    def tables(self) -> list[str]:
-        """Tables of the pair and of the train."""
-        return ["## The pair", "", *table(_PAIR, self.pair), "## The train", "", *table(_TRAIN, self.train)]
-
-
-_PAIR = {
-    "restitution": lambda row: f"{row.restitution:g}",
-    "way": lambda row: row.method,
-    "setting": lambda row: f"{row.setting:.3g}" if row.method == "teeth that yield" else "",
-    "steps a turn": lambda row: f"{row.steps:,}" if row.steps else "",
-    "time apart, off by": lambda row: error_text(abs(row.apart)),
-    "energy of blows, off by": lambda row: error_text(abs(row.impacts)),
-    "time": lambda row: seconds_text(row.seconds),
-}
-_TRAIN = {
-    "restitution": lambda row: f"{row.restitution:g}",
-    "stiffness (N m/rad)": lambda row: f"{row.stiffness:g}" if row.stiffness else "rigid",
-    "steps a turn": lambda row: f"{row.steps:,}",
-    "apart": lambda row: f"{100 * row.apart:.2f} %",
-    "Moon ahead at most": lambda row: f"{row.ahead:.3f} deg",
-    "stands at": lambda row: f"{row.stands:.3f} deg",
-    "crank": lambda row: f"{1e3 * row.torque:.4f} N mm",
-    "time": lambda row: seconds_text(row.seconds),
-}
 
 
 def dynamics(quick: bool = False) -> DynamicsRecords:

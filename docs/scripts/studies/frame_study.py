@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from stills import open_browser, visit
 
@@ -18,7 +18,7 @@ import geartrain
 from geartrain.scene import build_scene
 from geartrain.viewer import page
 from studies.measurement import Rounds, in_turns
-from studies.records import StudyRecords, table
+from studies.records import StudyRecords
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -67,20 +67,6 @@ class FrameRecords(StudyRecords):
     """All trains."""
 
     frames: list[FrameRecord]
-
-    def tables(self) -> list[str]:
-        """One table."""
-        columns: dict[str, Callable[[Any], str]] = {
-            "train": lambda row: f"`{row.train}`",
-            "triangles": lambda row: f"{row.triangles:,}",
-            "frame": lambda row: f"{row.milliseconds:.0f} ms",
-            "three.js's example, lamps only": lambda row: f"{row.example_milliseconds:.0f} ms",
-            "ratio": lambda row: f"{row.ratio:.2f}",
-            "ratio to one with a room": lambda row: f"{row.room_ratio:.2f}",
-            "page": lambda row: f"{row.kilobytes:,.0f} kB",
-            "requests": lambda row: str(row.requests),
-        }
-        return table(columns, self.frames)
 
 
 def frames(*names: str) -> FrameRecords:

@@ -15,7 +15,7 @@ import numpy as np
 from geartrain import load
 from geartrain.dynamics.motion.compiled_composition import compiled_composition
 from studies.measurement import in_turns
-from studies.records import number_text, table
+from studies.records import table
 
 TRAINS = {"moon-triangular": ("moon",), "freeth-2021": ("mars", "saturn"), "freeth-2021-teeth": ("mars", "moon")}
 _ROUNDS = 9
@@ -52,10 +52,10 @@ def motion_rows(rounds: int = _ROUNDS) -> Iterator[KernelRow]:
 COLUMNS: dict[str, Callable[[KernelRow], str]] = {
     "work": lambda row: row.work,
     "unit": lambda row: row.unit,
-    "numpy, a second": lambda row: number_text(row.plain, ".2g"),
-    "compiled, a second": lambda row: number_text(row.compiled, ".2g"),
-    "ratio": lambda row: number_text(row.ratio, ".1f"),
-    "greatest difference (rad)": lambda row: number_text(row.error, ".1e"),
+    "numpy, a second": lambda row: f"{row.plain:.2g}",
+    "compiled, a second": lambda row: f"{row.compiled:.2g}",
+    "ratio": lambda row: f"{row.ratio:.1f}",
+    "maximum difference (rad)": lambda row: f"{row.error:.1e}",
 }
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import comb
 
-from studies.records import StudyRecords, number_text, seconds_text, table
+from studies.records import StudyRecords
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,29 +33,6 @@ class TreeRecord:
     def questions(self) -> int:
         """How many arbors, and pairs of arbors, there are to be left out."""
         return comb(len(self.arbors) + 1, 2)
-
-
-@dataclass(frozen=True, slots=True)
-class CoverRecord:
-    """How much of a train is asked.
-
-    links     how many it has beside the frame
-    left_out  how many of them are left out, in some part
-    others    the others, each with the reason
-    """
-
-    train: str
-    links: int
-    left_out: int
-    others: Sequence[str]
-
-
-@dataclass(frozen=True, slots=True)
-class NotAskedRecord:
-    """A train of which nothing is asked, and why."""
-
-    train: str
-    why: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,8 +97,6 @@ class LeftOutRecords(StudyRecords):
 
     trees: Sequence[TreeRecord]
     rows: Sequence[LeftOutRecord]
-    not_requested: Sequence[NotAskedRecord]
-    covers: Sequence[CoverRecord]
 
     @property
     def whole(self) -> list[LeftOutRecord]:
@@ -137,94 +112,3 @@ class LeftOutRecords(StudyRecords):
     def lost(self) -> list[LeftOutRecord]:
         """Answers that lack the train itself: there must be none."""
         return [row for row in self.rows if (row.is_whole and row.listed and row.rank is None) or row.reached is False]
-
-    def tables(self) -> list[str]:
-        """A summary, how much of each train is asked, every question, and the trains that are not asked."""
-        lines = ["## By train", "", *table(_SUMMARY, [_TreeRows(tree, self._of(tree)) for tree in self.trees])]
-        lines += ["## Arbors that are left out", "", *table(_COVER, self.covers)]
-        for tree in self.trees:
-            own = self._of(tree)
-            lines += [f"## {_heading(tree)}", "", _about(tree, tree.questions - len(own)), "", *table(_COLUMNS, own)]
-        return [*lines, "## Not asked", "", *table(_NOT_REQUESTED, self.not_requested)]
-
-    def _of(self, tree: TreeRecord) -> list[LeftOutRecord]:
-        return [row for row in self.rows if (row.train, row.part) == (tree.train, tree.part)]
-
-
-@dataclass(frozen=True)
-class _TreeRows:
-    tree: TreeRecord
-    rows: list[LeftOutRecord]
-
-    @property
-    def whole(self) -> list[LeftOutRecord]:
-        return [row for row in self.rows if row.is_whole]
-
-
-def _heading(tree: TreeRecord) -> str:
-    return ", ".join(filter(None, (tree.train, tree.part)))
-
-
-def _about(tree: TreeRecord, unasked: int) -> str:
-    left = f" Not asked yet: {unasked}." if unasked else ""
-    pointers = ", ".join(tree.pointers)
-    return f"From {tree.source} on; pointers: {pointers}; {tree.teeth[0]} to {tree.teeth[1]} teeth.{left}"
-
-
-def _found(row: LeftOutRecord) -> str:
-    """How many explanations there are with the fewest added wheels."""
-    if row.minimum is None:
-        return "-" if not row.mechanisms else f"none with {len(row.mechanisms) - 1}"
-    return f"{row.mechanisms[row.minimum]:,} with {row.minimum}"
-
-
-def _was_found(row: LeftOutRecord) -> str:
-    if row.is_whole and row.listed and row.rank is None:
-        return "no"
-    if row.is_found:
-        return "listed" if row.rank is not None else "followed"
-    return "open" if row.reached is None else "no"
-
-
-def _own(row: LeftOutRecord) -> str:
-    return f"{row.mechanisms[row.added]:,} with {row.added}" if row.is_whole else f"? with {row.added}"
-
-
-_COLUMNS: dict[str, Callable[[LeftOutRecord], str]] = {
-    "left out": lambda row: ", ".join(row.lost),
-    "fewest added wheels": _found,
-    "as many as lost": _own,
-    "classes": lambda row: number_text(row.classes[row.added] if row.is_whole else None, ","),
-    "train found": _was_found,
-    "first rank": lambda row: number_text(row.first, ",") if row.first else "open",
-    "last rank": lambda row: number_text(row.rank[1], ",") if row.rank else "open",
-    "with meshes told": lambda row: (
-        " to ".join(f"{rank:,}" for rank in dict.fromkeys(row.told)) if row.told else "open"
-    ),
-    "time": lambda row: row.note or seconds_text(row.seconds),
-}
-_SUMMARY: dict[str, Callable[[_TreeRows], str]] = {
-    "train": lambda one: _heading(one.tree),
-    "arbors": lambda one: str(len(one.tree.arbors)),
-    "wheels": lambda one: str(one.tree.wheels),
-    "pointers": lambda one: str(len(one.tree.pointers)),
-    "questions": lambda one: str(one.tree.questions),
-    "asked to the end": lambda one: str(len(one.whole)),
-    "train found": lambda one: str(sum(row.is_found for row in one.rows)),
-    "first rank known": lambda one: str(sum(row.first is not None for row in one.rows)),
-    "it is 1": lambda one: str(sum(row.first == 1 for row in one.rows)),
-    "known with meshes told": lambda one: str(sum(row.told is not None for row in one.rows)),
-    "it is 1 there": lambda one: str(sum(row.told is not None and row.told[0] == 1 for row in one.rows)),
-    "alone of its weight, first": lambda one: str(sum(row.rank is not None and row.rank[1] == 1 for row in one.whole)),
-    "greatest last rank": lambda one: f"{max((row.rank[1] for row in one.whole if row.rank), default=0):,}",
-}
-_COVER: dict[str, Callable[[CoverRecord], str]] = {
-    "train": lambda row: row.train,
-    "links": lambda row: str(row.links),
-    "left out": lambda row: str(row.left_out),
-    "not left out": lambda row: "; ".join(row.others),
-}
-_NOT_REQUESTED: dict[str, Callable[[NotAskedRecord], str]] = {
-    "train": lambda row: row.train,
-    "why": lambda row: row.why,
-}

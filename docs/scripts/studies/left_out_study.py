@@ -15,27 +15,24 @@ from dataclasses import asdict, replace
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
-from pathlib import Path
 from time import monotonic, process_time
 from typing import Any
 
 from geartrain import shipped
 from geartrain.errors import GearTrainError
-from geartrain.numerics import Journal, open_executor, run
 from geartrain.search.reconstruct import ReconstructionProblem, evidence_question, find_reconstructions
 from geartrain.search.reconstruct.known_rank import find_place
-from geartrain.search.reconstruct.reconstruction_search import is_all_listed, prior, rank_of, train_key
+from geartrain.search.reconstruct.reconstruction_search import is_all_listed, rank_of, train_key, train_prior
 from geartrain.search.reconstruct.spur_tree import (
     SpurTree,
     find_spur_trees,
     lost_arbors,
     lost_evidence,
     lost_wheels,
-    why_not,
 )
 from geartrain.train.declaration_files import read_declaration
 from studies.followed_train import is_reached
-from studies.left_out_records import CoverRecord, LeftOutRecord, LeftOutRecords, NotAskedRecord, TreeRecord
+from studies.left_out_records import LeftOutRecord, LeftOutRecords, TreeRecord
 from studies.measurement import gathered
 
 LIMIT = 60.0
@@ -45,57 +42,34 @@ SHORT = 5.0
 LISTED = 20_000
 """Explanations among which a train is looked for."""
 TITLE = "Trains found again"
-QUICK = ("vitruvius-hodometer", "watch-going-train", "isfahan-astrolabe-1221", "four-gear-loop")
 _LESS = ("reached", "told", "better")
 """What is asked beside a question itself; the last only where that was not finished."""
-_SAME = "the same parts"
 _MEMORY = 4.0  # GB for a question
 Part = tuple[str, str]
 """A train, and the name of one of its parts."""
 Question = tuple[str, str, tuple[str, ...]]
 """A train, its part, and the arbors that are left out."""
 Rows = dict[Question, LeftOutRecord]
-Task = tuple[str, str, tuple[str, ...], float, float]
-"""A train, its part, the arbors that are left out, and the seconds that there are for all, and for each of less."""
 
 
 def left_out(
+    kept: LeftOutRecords,
     names: Sequence[str] = (),
     limit: float = LIMIT,
-    workers: int | None = 1,
-    journal: Path | None = None,
     short: float = SHORT,
+    minutes: float = 600,
 ) -> LeftOutRecords:
-    """Ask of some shipped trains, by default of all.
+    """Ask what a kept run lacks, by default of all shipped trains: questions, and parts of unfinished ones.
 
     limit    processor seconds for a question
-    journal  what is finished is kept in two files beside it, for one and for two arbors, which `forget` removes
     short    processor seconds for what is asked of a question that was not finished
+    minutes  after which nothing more is asked; the next call continues
     """
-    trees, not_requested = find_trees(names or tuple(shipped()))
-    one = [(*part, (link,), limit, short) for part, tree in trees.items() for link in tree.able]
-    singles = _requested(one, workers, _part(journal, 1))
-    able = _finished(singles)
-    two = [
-        (*part, lost, limit if all((*part, link) in able for link in lost) else 0.0, short)
-        for part, tree in trees.items()
-        for lost in combinations(tree.able, 2)
-    ]
-    return _records(trees, [*singles, *_requested(two, workers, _part(journal, 2))], not_requested)
-
-
-def more_left_out(
-    kept: LeftOutRecords, names: Sequence[str], limit: float, short: float, minutes: float
-) -> LeftOutRecords:
-    """A kept run with what it lacks: questions not asked yet, and less of those that were not finished.
-
-    minutes   after which no more is asked; what is left is asked by the next call
-    """
-    trees, not_requested = find_trees(tuple(shipped()))
+    trees, _ = find_trees(tuple(shipped()))
     known = {(row.train, row.part, tuple(row.lost)): row for row in kept.rows}
     end = monotonic() + 60 * minutes
     waiting = [each for each in _questions(trees) if not names or each[0][0] in names]
-    # the sooner the fewer wheels are lost, and where lists are short: those of exact dials
+    # questions with few lost wheels and exact dials first: their lists are short
     quick = {part: _is_exact(tree) for part, tree in trees.items()}
     waiting.sort(key=lambda each: (not quick[each[0]], lost_wheels(trees[each[0]], each[1]), len(each[1])))
     steps: list[Callable[[Rows, SpurTree, Question, float, float], None]]
@@ -107,7 +81,9 @@ def more_left_out(
             step(known, trees[part], (*part, lost), limit, short)
     order = {(*part, lost): at for at, (part, lost) in enumerate(_questions(trees))}
     rows = sorted((key for key in known if key in order), key=order.__getitem__)
-    return _records(trees, [known[key] for key in rows], not_requested)
+    return LeftOutRecords(
+        TITLE, [_tree_record(*part, tree) for part, tree in trees.items()], [known[key] for key in rows]
+    )
 
 
 def _add_new(known: Rows, tree: SpurTree, key: Question, limit: float, short: float) -> None:
@@ -145,23 +121,17 @@ def _finished(rows: Iterable[LeftOutRecord]) -> set[tuple[str, str, str]]:
     return {(row.train, row.part, row.lost[0]) for row in rows if row.is_whole and len(row.lost) == 1}
 
 
-def tree_records(names: Sequence[str]) -> LeftOutRecords:
-    """What would be asked of some trains, before it is."""
-    trees, not_requested = find_trees(names)
-    return _records(trees, [], not_requested)
-
-
-def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], list[NotAskedRecord]]:
+def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], dict[str, str]]:
     """The parts of trains, and the trains that have none of their own. Of the same parts the first counts."""
     trees: dict[Part, SpurTree] = {}
-    not_requested: list[NotAskedRecord] = []
+    not_requested: dict[str, str] = {}
     known: dict[Any, str] = {}
     for name in sorted(names, key=lambda name: (len(name), name)):  # a variant has a longer name than what it varies
         try:
             parts = find_spur_trees(read_declaration(name))
         except GearTrainError as error:
             refused = error.problems[0]
-            not_requested.append(NotAskedRecord(name, ": ".join(filter(None, (refused.what, refused.why)))))
+            not_requested[name] = ": ".join(filter(None, (refused.what, refused.why)))
             continue
         same = set()
         for tree in parts:
@@ -173,19 +143,8 @@ def find_trees(names: Sequence[str]) -> tuple[dict[Part, SpurTree], list[NotAske
             else:
                 same.add(own)
         if same and not any((name, tree.name) in trees for tree in parts):
-            not_requested.append(NotAskedRecord(name, f"{_SAME} as {' and '.join(sorted(same))}"))
-    return dict(sorted(trees.items())), sorted(not_requested, key=lambda row: row.train)
-
-
-def ask(task: Sequence[Any]) -> dict[str, Any]:
-    """What explains a train without some arbors, as plain data of its record."""
-    name, part, lost, limit, short = task
-    tree = next(tree for tree in find_spur_trees(read_declaration(name)) if tree.name == part)
-    row = _requested_to_the_end(tree, (name, part, tuple(lost)), limit)
-    for what in _LESS:
-        if what != "better" or row["seconds"] is None:
-            row |= _less(what, tree, LeftOutRecord(**row), short)
-    return row
+            not_requested[name] = f"the same parts as {' and '.join(sorted(same))}"
+    return dict(sorted(trees.items())), not_requested
 
 
 def _requested_to_the_end(tree: SpurTree, question: Question, limit: float) -> dict[str, Any]:
@@ -211,7 +170,7 @@ def _answers(tree: SpurTree, lost: tuple[str, ...]) -> Iterator[dict[str, Any]]:
         found = find_reconstructions(evidence_question(evidence, wheels).problem, listed=LISTED)
         seconds = process_time() - start
         yield {
-            "mechanisms": [count.mechanisms for count in found.counts],
+            "mechanisms": [count.solutions for count in found.counts],
             "classes": [count.classes for count in found.counts],
             "rank": rank_of(original, found) if wheels == own else None,
             "listed": is_all_listed(found),
@@ -261,20 +220,20 @@ def _better(tree: SpurTree, lost: tuple[str, ...], row: LeftOutRecord) -> Iterat
     """
     evidence, original = lost_evidence(tree, lost), tree.arbor(lost)
     whole = evidence_question(evidence).problem
-    own, weight = whole.additions.wheels, prior(original, whole)
+    own, weight = whole.additions.wheels, train_prior(original, whole)
     mechanisms, weights = list(row.mechanisms[:own]), Counter[Fraction]()
     if any(mechanisms):
         mechanisms = []
     for wheels in range(len(mechanisms), own):
         found = find_reconstructions(evidence_question(evidence, wheels).problem)
-        mechanisms = [count.mechanisms for count in found.counts]
-        weights = Counter({each.weight: each.mechanisms for each in found.weights})
+        mechanisms = [count.solutions for count in found.counts]
+        weights = Counter({each.weight: each.solutions for each in found.weights})
         yield mechanisms, None
     better = sum(number for each, number in weights.items() if each > weight)
     fewer = original.added_arbors - 1
     if fewest_new_arbors(whole) <= fewer:
         found = find_reconstructions(replace(whole, additions=replace(whole.additions, arbors=fewer)))
-        better += sum(count.mechanisms for count in found.counts if count.added == own)
+        better += sum(count.solutions for count in found.counts if count.added == own)
     yield mechanisms, better
 
 
@@ -288,33 +247,6 @@ def fewest_new_arbors(problem: ReconstructionProblem) -> int:
     return number
 
 
-def _requested(tasks: Sequence[Task], workers: int | None, journal: Path | None) -> list[LeftOutRecord]:
-    with open_executor(workers) as executor:
-        if journal is None:
-            return [LeftOutRecord(**row) for row in run(ask, tasks, executor)]
-        with Journal(journal, {"tasks": tasks}) as kept:
-            return [LeftOutRecord(**row) for row in run(ask, tasks, executor, kept)]
-
-
-def _part(journal: Path | None, many: int) -> Path | None:
-    return None if journal is None else journal.with_name(f"{journal.name}-{many}")
-
-
-def forget(journal: Path) -> None:
-    """Remove what a finished run kept."""
-    for many in (1, 2):
-        journal.with_name(f"{journal.name}-{many}").unlink(missing_ok=True)
-
-
-def _records(
-    trees: dict[Part, SpurTree], rows: Sequence[LeftOutRecord], not_requested: Sequence[NotAskedRecord]
-) -> LeftOutRecords:
-    names = sorted({name for name, _ in trees} | {row.train for row in not_requested if row.why.startswith(_SAME)})
-    return LeftOutRecords(
-        TITLE, [_tree_record(*part, tree) for part, tree in trees.items()], rows, not_requested, [*map(_cover, names)]
-    )
-
-
 def _tree_record(name: str, part: str, tree: SpurTree) -> TreeRecord:
     counted = tree.source, list(tree.able), len(tree.counts), list(tree.pointers), list(tree.teeth)
     return TreeRecord(name, part, *counted)
@@ -325,20 +257,6 @@ def _is_exact(tree: SpurTree) -> bool:
     return all(dial.is_exact for dial in evidence_question(lost_evidence(tree, tree.able[:1])).problem.dials)
 
 
-def _cover(name: str) -> CoverRecord:
-    """How many links of a train are left out in some part, and why the others are not."""
-    train = read_declaration(name)
-    trees = find_spur_trees(train)
-    lost = {link for tree in trees for arbor in tree.able for link in tree.links_of(arbor)}
-    begins = {link for tree in trees for link in tree.links_of(tree.source)}
-    rings = {link for tree in trees for arbor in tree.driven for link in tree.links_of(arbor)}
-    why: dict[str, list[str]] = {}
-    links = [link for link in train.links if link != train.frame and link not in train.fixed]
-    for link in links:
-        if link not in lost:
-            reason = (
-                "a part begins there" if link in begins else "it has a ring" if link in rings else why_not(train, link)
-            )
-            why.setdefault(reason, []).append(link)
-    others = [f"{', '.join(some)}: {reason}" for reason, some in why.items()]
-    return CoverRecord(name, len(links), len(lost & {*links}), others)
+def continued() -> LeftOutRecords:
+    """Continue the kept run: what it lacks, for ten hours at most."""
+    return left_out(LeftOutRecords.read("left-out"))

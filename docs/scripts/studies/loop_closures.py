@@ -11,17 +11,14 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.kinematics.phasing.phase_system import judge_residue
 from geartrain.spherical import from_polyhedron
 from geartrain.spherical.configuration import closes, loop_rules, residue
 from studies.measurement import timed
-from studies.residue_errors import PhaseAccuracy, measure_phase_accuracy
 from studies.sphere_records import TOLERANCE, ClosureRecord
 
 Whole = NDArray[np.int64]
 Rule = Sequence[Fraction | float]
 FRACTIONS, ROUNDED, FROM_AXES = "fractions", "floats of the fractions", "floats from the axes"
-_PLANETS = 7
 
 
 def closed(solid: str, power: int, draws: int) -> list[ClosureRecord]:
@@ -29,12 +26,11 @@ def closed(solid: str, power: int, draws: int) -> list[ClosureRecord]:
     configuration = from_polyhedron(solid)
     (exact,) = loop_rules(configuration)
     shares = [Fraction(share) for share in exact]
-    whole = lcm(*(share.denominator for share in shares))
     teeth = draw_teeth(shares, power, draws)
     truth = [true_residue(z, shares) for z in zip(*(each.tolist() for each in teeth), strict=True)]
     loose = loop_rules(replace(configuration, regular=(0,) * len(configuration.axes)))[0]
     rules: dict[str, Rule] = {FRACTIONS: exact, ROUNDED: [float(share) for share in shares], FROM_AXES: loose}
-    return [_by_rule(solid, method, power, teeth, rule, truth, whole) for method, rule in rules.items()]
+    return [_by_rule(solid, method, power, teeth, rule, truth) for method, rule in rules.items()]
 
 
 def draw_teeth(shares: Sequence[Fraction], power: int, draws: int) -> list[Whole]:
@@ -55,58 +51,19 @@ def true_residue(teeth: Sequence[int], shares: Sequence[Fraction]) -> Fraction:
 
 
 def _by_rule(
-    solid: str, method: str, power: int, teeth: Sequence[Whole], rule: Rule, truth: Sequence[Fraction], whole: int
+    solid: str, method: str, power: int, teeth: Sequence[Whole], rule: Rule, truth: Sequence[Fraction]
 ) -> ClosureRecord:
     closed = np.array([not each for each in truth])
     said = closes(teeth, rule, TOLERANCE)
     seconds = median(timed(lambda: closes(teeth, rule, TOLERANCE))[0] for _ in range(9))
-    error, best = 0.0, int((said != closed).sum())
+    error = 0.0
     if method != FRACTIONS:
         near = [Fraction(float(each)) for each in residue(teeth, rule)]
         error = max(float(_apart(a, b)) for a, b in zip(near, truth, strict=True))
-        best = int((closes(teeth, rule, 1 / (2 * whole)) != closed).sum())
     wrong = int((said != closed).sum())
-    return ClosureRecord(solid, method, power, len(truth), error, wrong, best, seconds / len(truth))
+    return ClosureRecord(solid, method, power, len(truth), error, wrong, seconds / len(truth))
 
 
 def _apart(a: Fraction, b: Fraction) -> Fraction:
     off = a - b
     return abs(off - round(off))
-
-
-def assembled(power: int, suns: int) -> list[ClosureRecord]:
-    """Planets equally spaced between sun and ring: the residues of the loops, as `check` finds them."""
-    teeth = 14 * np.random.default_rng(power).integers(10**power // 14 + 1, 10 ** (power + 1) // 14, suns)
-    teeth[1::2] += 2  # the others close: three times the sun's teeth are then a multiple of the planets
-    found = measure_phase_accuracy(teeth.tolist(), _PLANETS)
-    return [_of_planets(power, found, FRACTIONS), _of_planets(power, found, "floats")]
-
-
-def _of_planets(power: int, found: Sequence[PhaseAccuracy], method: str) -> ClosureRecord:
-    exact = method == FRACTIONS
-    truth = [true_residue((each.teeth,), (Fraction(-3, _PLANETS),)) for each in found]
-    said = [each.exact if exact else each.floats for each in found]
-    bound = [0.0 if exact else each.bound for each in found]
-    kinds = [judge_residue(value, slack) for value, slack in zip(said, bound, strict=True)]
-    right = ["misses" if each else "closes" for each in truth]
-    errors = [
-        float(_apart(Fraction(a), b)) if exact else one.error for a, b, one in zip(said, truth, found, strict=True)
-    ]
-    loops = (_PLANETS - 1) * len(found)
-    return ClosureRecord(
-        family="planetary",
-        method=method,
-        power=power,
-        loops=len(found),
-        error=max(errors),
-        wrong=_wrong(said, right, 0.0 if exact else TOLERANCE),
-        best=_wrong(said, right, 0.0 if exact else 1 / (2 * _PLANETS)),
-        seconds=sum(each.exact_s if exact else each.floats_s for each in found) / loops,
-        bound=max(bound),
-        own=sum(kind not in (true, "unclear") for kind, true in zip(kinds, right, strict=True)),
-        unclear=kinds.count("unclear"),
-    )
-
-
-def _wrong(said: Sequence[Fraction | float], right: Sequence[str], tolerance: float) -> int:
-    return sum((abs(float(value)) > tolerance) != (true == "misses") for value, true in zip(said, right, strict=True))

@@ -16,21 +16,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.teeth import PairVerdict
 from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
-from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
+from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from studies.measurement import Step, Task, measure, taken
-from studies.mesh_methods import Coarse, Sampled, plain_transmission, scanned
-from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table
+from studies.mesh_methods import Sampled, plain_transmission
+from studies.records import StudyRecords
 from studies.reference_solutions import reference
 
 Floats = NDArray[np.float64]
 Function = Callable[[Floats], Floats]
 
-DIRECT, SCANNED, TABULATED = "direct", "scan of all couples", "tabulated"
-QUANTITIES = ("error", "speed", "efficiency")
+DIRECT, TABULATED = "direct", "tabulated"
+QUANTITIES = ("error", "speed")
 _PAIRS: tuple[tuple[int, int, float, float | None], ...] = (
     # teeth, half angle in deg, excess (None: a third of the way from jamming to losing contact)
     (48, 96, 30, 0.01),
@@ -42,7 +41,6 @@ _PAIRS: tuple[tuple[int, int, float, float | None], ...] = (
 )
 _GROWTH = (100, 1_000, 10_000, 100_000, 1_000_000)
 _SAMPLES = (100, 1_000, 10_000, 100_000)
-_CELLS = (2, 4, 8, 16, 64, 256)
 _MARGIN = 1e-10  # of a pitch about a switching point, where rounding decides who drives
 
 
@@ -71,33 +69,6 @@ class MeshRecords(StudyRecords):
     """All measurements of one run: a table a pair and quantity, times as ratios to the direct formula."""
 
     rows: Sequence[MeshRecord]
-
-    def tables(self) -> list[str]:
-        """One table for each pair and quantity."""
-        lines = []
-        for family, tooth_pairs in distinct((row.family, row.tooth_pairs) for row in self.rows):
-            lines += [f"## {family}, {tooth_pairs} couples in reach", ""]
-            group = [row for row in self.rows if row.family == family]
-            for quantity in distinct(row.quantity for row in group):
-                lines += _table(quantity, [row for row in group if row.quantity == quantity])
-        return lines
-
-
-def _table(quantity: str, rows: Sequence[MeshRecord]) -> list[str]:
-    base = next((row.seconds for row in rows if row.method == DIRECT and row.seconds), None)
-    columns: dict[str, Callable[[MeshRecord], str]] = {
-        quantity: lambda row: row.method,
-        "angles/s" if any(row.angles for row in rows) else "time": _cost,
-        "time over direct": lambda row: ratio_text(row.seconds, base),
-        "memory": lambda row: number_text(row.megabytes, ".0f", " MB"),
-        "true error": lambda row: error_text(row.error),
-        "": lambda row: row.note,
-    }
-    return table(columns, rows)
-
-
-def _cost(row: MeshRecord) -> str:
-    return f"{row.angles / row.seconds:.2g}" if row.angles and row.seconds else seconds_text(row.seconds)
 
 
 def meshes(quick: bool = False) -> MeshRecords:
@@ -131,22 +102,17 @@ def _steps(quick: bool) -> Iterator[Step]:
         yield from _of_a_pair(_Pair(z1, z2, beta, excess, angles), _SAMPLES[:2] if quick else _SAMPLES)
     for z in () if quick else _GROWTH:
         pair = _Pair(z, z, 30.0, None, angles, "growth ", 1 / 2)
-        for method in (DIRECT, SCANNED, "sampled, 1000"):
-            yield _step(pair, method, "path", partial(pair.build, method))
-        yield _step(pair, DIRECT, "window", pair.window)
+        yield _step(pair, DIRECT, "path", partial(pair.build, DIRECT))
 
 
 def _of_a_pair(pair: _Pair, samples: Sequence[int]) -> Iterator[Step]:
     """Building, then evaluating, by every method."""
     sampled = [f"sampled, {count}" for count in samples]
-    coarse = [f"tabulated, {count} cells" for count in _CELLS]
-    for method in (DIRECT, SCANNED, *sampled, TABULATED, *coarse):
+    methods = (DIRECT, *sampled, TABULATED)
+    for method in methods:
         yield _step(pair, method, "path", partial(pair.build, method))
-    yield _step(pair, DIRECT, "path, verdict", pair.verdict)
-    yield _step(pair, DIRECT, "window", pair.window)
     for quantity in QUANTITIES:
-        few = [] if quantity == "efficiency" else sampled
-        for method in (DIRECT, SCANNED, *few, TABULATED, *(coarse if quantity == "error" else [])):
+        for method in methods:
             yield _step(pair, method, quantity)
 
 
@@ -181,34 +147,22 @@ class _Pair:
     def transmission(self) -> TriangularTransmission:
         return plain_transmission(self.sizes)
 
-    def window(self) -> ClearanceWindow:
-        """The window of clearance."""
-        return find_window(self._fresh())
-
     def _fresh(self) -> TriangularSizes:
         """The same pair a little larger than ever before: what was worked out for it is not remembered."""
         self._requested += 1
         scale = 1 + 1e-9 * self._requested
         return replace(self.sizes, R1=self.sizes.R1 * scale, R2=self.sizes.R2 * scale)
 
-    def verdict(self) -> PairVerdict:
-        """Whether the pair runs."""
-        return plain_transmission(self._fresh()).verdict
-
     def build(self, method: str) -> Any:
         """What answers by this method, from the sizes alone."""
         sizes = self._fresh()
         transmission = plain_transmission(sizes)
         name, _, count = method.partition(", ")
-        if name == SCANNED:
-            return scanned(sizes)
         if name == "sampled":
             return Sampled(sizes, int(count))
         _ = transmission.intervals
         if name == DIRECT:
             return transmission
-        if count:
-            return Coarse(transmission, int(count.removesuffix(" cells")))
         table = TabulatedTransmission(transmission)
         _ = table.error_table
         return table
@@ -239,10 +193,8 @@ class _Pair:
     def truth(self) -> tuple[Floats, Floats]:
         return reference(self.sizes, self.checks)
 
-    def error_of(self, quantity: str, function: Function) -> float | None:
-        """Greatest true error: in driven pitches, or relative to the mean ratio; none for the efficiency."""
-        if quantity == "efficiency":
-            return None
+    def error_of(self, quantity: str, function: Function) -> float:
+        """Maximum true error: in driven pitches, or relative to the mean ratio."""
         truth = self.truth[QUANTITIES.index(quantity)]
         scale = self.sizes.p2 if quantity == "error" else self.sizes.ratio
         return float(np.max(np.abs(function(self.checks) - truth))) / scale

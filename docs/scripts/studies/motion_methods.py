@@ -24,10 +24,9 @@ from studies.motion_records import (
     FIXED,
     INDEPENDENT,
     LAGGED,
-    NOMINAL,
     PER_POSITION,
-    TABLES,
     TABULATED,
+    TOLERANCE,
     MotionRecord,
     TrainRecord,
 )
@@ -36,9 +35,6 @@ from studies.time_marching import Marching
 
 Floats = NDArray[np.float64]
 Ask = Callable[[Floats], Floats]
-
-
-_STEPS = (1, 10)  # of marching, to a position
 
 
 class Effort(NamedTuple):
@@ -84,11 +80,9 @@ class MotionCase:
     turns: float
     effort: Effort
     taken: dict[str, Rounds] = field(default_factory=dict)
-    prepared: dict[str, Rounds] = field(default_factory=dict)
     off: dict[str, _Off] = field(default_factory=dict)
     doubted: dict[int, tuple[float, float]] = field(default_factory=dict)
     marched: dict[str, float] = field(default_factory=dict)
-    memory: dict[str, float] = field(default_factory=dict)
     peaks: dict[str, float] = field(default_factory=dict)
     tallies: list[RunningStatistics] = field(default_factory=list)
 
@@ -98,9 +92,8 @@ class MotionCase:
         yield "comparing", self._compare
         yield "40 digits", self._judge
         yield "memory", self._trace
-        for steps in _STEPS:
-            yield f"marching, {steps} a position", partial(self._march, f"{FIXED}, {steps} a position", steps)
-        yield "marching, adaptive", partial(self._march, ADAPTIVE, 0)
+        yield FIXED, partial(self._march, FIXED, 1)
+        yield ADAPTIVE, partial(self._march, ADAPTIVE, 0)
 
     # ---------------------------------------------------------------------------------------------------- the methods
 
@@ -117,13 +110,12 @@ class MotionCase:
     @cached_property
     def requested(self) -> dict[str, Ask]:
         """Each method that answers position by position: turns (n,) to errors (rad) of the outputs (outputs, n)."""
-        return {method: self._ask(self.direct if method == DIRECT else None, method) for method in PER_POSITION}
+        return {method: self._ask(method) for method in PER_POSITION}
 
-    def _ask(self, built: Motion | None, method: str) -> Ask:
-        if method in (NOMINAL, LAGGED):
-            superposed = Superposition((built or self.direct)._forward)
-            return partial(superposed.at, lagged=method == LAGGED)
-        made = built or self.train.motion(outputs=self.outputs, tolerance=_tolerance(method))
+    def _ask(self, method: str) -> Ask:
+        if method == LAGGED:
+            return partial(Superposition(self.direct._forward).at, lagged=True)
+        made = self.train.motion(outputs=self.outputs, tolerance=TOLERANCE) if method == TABULATED else self.direct
         return lambda turns: made._unset.at(turns).error
 
     @property
@@ -147,28 +139,16 @@ class MotionCase:
     # --------------------------------------------------------------------------------------------------- measurements
 
     def _take_turns(self) -> None:
-        """Every method from the declaration to a first answer, then over all positions or to its estimate."""
+        """Every method over all positions, or to its estimate."""
         answers: dict[str, Task] = {m: partial(self.run, m, self.effort.positions) for m in PER_POSITION}
         answers |= {method: partial(self._estimate, method) for method in (BOUND, INDEPENDENT)}
         for method in PER_POSITION:
             self.requested[method](np.zeros(2))  # tables are made when first asked
-        tasks = [task for method, answer in answers.items() for task in (partial(self._prepare, method), answer)]
-        found = in_turns(tasks, self.effort.rounds)
-        self.prepared = dict(zip(answers, found[::2], strict=True))
-        self.taken = dict(zip(answers, found[1::2], strict=True))
-
-    def _prepare(self, method: str) -> None:
-        """From the declaration to the first answer, every law and window found anew."""
-        forget()
-        self.built = load(self.source).motion(outputs=self.outputs, tolerance=_tolerance(method))
-        if method in PER_POSITION:
-            self._ask(self.built, method)(np.zeros(1))
-        else:
-            self.built._unset.at(np.zeros(1))
+        self.taken = dict(zip(answers, in_turns(answers.values(), self.effort.rounds), strict=True))
 
     def _estimate(self, method: str) -> list[float]:
-        """What is worked out without any position, by output (rad), of the train that was prepared last."""
-        superposed = Superposition(self.built._forward)
+        """Estimate without any position, by output (rad)."""
+        superposed = Superposition(self.direct._forward)
         return superposed.bounds if method == BOUND else superposed.independent
 
     def _compare(self) -> None:
@@ -183,7 +163,7 @@ class MotionCase:
             for method in others:
                 off = self.requested[method](turns) - passage.error
                 self.off[method].add(off)
-                if method == TABLES[-1]:
+                if method == TABULATED:
                     self._doubt(turns, np.abs(off))
 
     def _doubt(self, turns: Floats, off: Floats) -> None:
@@ -201,9 +181,7 @@ class MotionCase:
         self.off[DIRECT].add(np.array([truth.off(float(each), found[:, n]) for n, each in enumerate(turns)]).T)
 
     def _trace(self) -> None:
-        """Peaks of memory that positions take, by method, and of the direct composition by their number."""
-        for method in PER_POSITION:
-            self.memory[method] = _peak(partial(self.run, method, self.effort.positions))
+        """Peaks of memory of the direct composition by the number of positions."""
         for share in (100, 10, 1):
             positions = self.effort.positions // share
             self.peaks[str(positions)] = _peak(partial(self.run, DIRECT, positions))
@@ -222,7 +200,7 @@ class MotionCase:
     def rows(self) -> list[MotionRecord]:
         """A record for each method."""
         estimates = [self._of_estimate(method) for method in (BOUND, INDEPENDENT)]
-        composed = [self._of_positions(method) for method in (NOMINAL, LAGGED, *TABLES, DIRECT)]
+        composed = [self._of_positions(method) for method in (LAGGED, TABULATED, DIRECT)]
         return [*estimates, *composed, *(self._of_marching(method) for method in self.marched)]
 
     def _record(self, method: str, output: int, **more: Any) -> MotionRecord:
@@ -236,7 +214,6 @@ class MotionCase:
             error=maximum,
             rms=rms,
             **self._times(method),
-            megabytes=self.memory[method],
             note=f"judged at {self.off[method].count} positions" if method == DIRECT else "",
             positions=self.effort.positions,
         )
@@ -266,11 +243,7 @@ class MotionCase:
 
     def _times(self, method: str) -> dict[str, float]:
         own = self.taken[method]
-        return {
-            "seconds": own.median,
-            "ratio": own.over(self.taken[DIRECT]),
-            "prepared": self.prepared[method].median,
-        }
+        return {"seconds": own.median, "ratio": own.over(self.taken[DIRECT])}
 
     def summary(self) -> TrainRecord:
         """What the train is and does."""
@@ -291,11 +264,6 @@ class MotionCase:
             self.peaks,
             self.effort.sample,
         )
-
-
-def _tolerance(method: str) -> float | None:
-    name, _, tolerance = method.partition(", ")
-    return float(tolerance) if name == TABULATED else None
 
 
 def _peak(task: Callable[[], Any]) -> float:

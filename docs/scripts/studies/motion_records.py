@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from studies.records import StudyRecords, number_text, seconds_text, table
+from studies.records import StudyRecords
 
 BOUND, INDEPENDENT = "sum of ranges", "independent rms"
-NOMINAL, LAGGED = "superposition", "superposition with lag"
+LAGGED = "superposition with lag"
 DIRECT, TABULATED = "direct", "tabulated"
-FIXED, ADAPTIVE = "marching", "marching, RK45"
-TOLERANCES = (1e-6, 1e-9, 1e-12)
-TABLES = tuple(f"{TABULATED}, {tolerance:.0e}" for tolerance in TOLERANCES)
-PER_POSITION = (DIRECT, *TABLES, NOMINAL, LAGGED)
+FIXED, ADAPTIVE = "marching, 1 a position", "marching, RK45"
+TOLERANCE = 1e-12
+"""Of the tables (pitches)."""
+PER_POSITION = (DIRECT, TABULATED, LAGGED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,11 +22,9 @@ class MotionRecord:
 
     links        that an error reaches and an output depends on
     seconds      for all positions, without preparation
-    megabytes    peak of memory that the positions take
     error, rms   greatest and root mean square error (deg) of the output that has the greatest, `output`; that of the
                  peak-to-peak ripple for the sum of ranges, and that of its rms for independent phases
     ratio        seconds over those of the direct composition in the same round
-    prepared     seconds from the declaration to the first position, every law and window found anew
     positions    that were worked out; marching is extrapolated from fewer to all
     """
 
@@ -34,12 +32,10 @@ class MotionRecord:
     links: int
     method: str
     seconds: float | None = None
-    megabytes: float | None = None
     error: float | None = None
     note: str = ""
     rms: float | None = None
     ratio: float | None = None
-    prepared: float | None = None
     positions: int = 0
     output: str = ""
 
@@ -96,51 +92,3 @@ class MotionRecords(StudyRecords):
     rows: Sequence[MotionRecord]
     trains: Sequence[TrainRecord] = ()
     growth: Sequence[GrowthRecord] = ()
-
-    def tables(self) -> list[str]:
-        """One table for each train, and the growth with the number of pairs."""
-        return [*self.tables_of_trains(), "## Chains of pairs", "", *self.table_of_chains()]
-
-    def table_of_chains(self) -> list[str]:
-        """How preparation and run grow with the pairs of a chain."""
-        return table(_CHAINS, self.growth)
-
-    def tables_of_trains(self) -> list[str]:
-        """What each train does, and all methods on it."""
-        lines = []
-        for train in self.trains:
-            ripple = (f"{name} {each['peak_to_peak']:.4g} ({each['rms']:.4g})" for name, each in train.outputs.items())
-            lines += [
-                f"## {train.family}",
-                "",
-                f"{train.positions} positions over {train.turns:g} turns, {len(train.rippling)} rippling pairs, "
-                f"{train.links} lively links.",
-                f"Peak-to-peak (rms) ripple in degrees: {', '.join(ripple)}.",
-                "",
-                *table(_METHODS, [row for row in self.rows if row.family == train.family]),
-            ]
-        return lines
-
-
-_METHODS: dict[str, Callable[[MotionRecord], str]] = {
-    "method": lambda row: row.method,
-    "greatest error": lambda row: number_text(row.error, ".1e", " deg"),
-    "rms error": lambda row: number_text(row.rms, ".1e", " deg"),
-    "of": lambda row: row.output,
-    "time": lambda row: seconds_text(row.seconds),
-    "time over direct": lambda row: number_text(row.ratio, ".3g"),
-    "links/s": lambda row: number_text(row.rate, ".2g"),
-    "prepared": lambda row: seconds_text(row.prepared),
-    "memory": lambda row: number_text(row.megabytes, ".1f", " MB"),
-    "": lambda row: row.note,
-}
-_CHAINS: dict[str, Callable[[GrowthRecord], str]] = {
-    "pairs": lambda row: str(row.pairs),
-    "declare": lambda row: seconds_text(row.declared),
-    "windows": lambda row: seconds_text(row.windows),
-    "spread and laws": lambda row: seconds_text(row.prepared),
-    "positions": lambda row: str(row.positions),
-    "run": lambda row: seconds_text(row.seconds),
-    "links/s": lambda row: f"{row.rate:.2g}",
-    "positions at once": lambda row: str(row.chunk),
-}

@@ -1,21 +1,31 @@
-"""Records of a study: to JSON and back, as tables, with numbers written alike everywhere."""
+"""Records of a study: written to docs/data/, read from there, and numbers as text."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, fields
+from pathlib import Path
 from typing import Any, Self, get_args, get_type_hints
 
+DATA = Path(__file__).resolve().parents[2] / "data"
 Columns = Mapping[str, Callable[[Any], str]]
 """Heading of a column -> the text of a record in it."""
+
+
+class Record(dict[str, Any]):
+    """An object of a data file; its keys are attributes too."""
+
+    def __getattr__(self, name: str) -> Any:
+        return self[name]
 
 
 @dataclass(frozen=True)
 class StudyRecords:
     """All measurements of one run on one machine.
 
-    A study makes a subclass whose further fields are sequences of one kind of record each; None stands in a record
-    for what could not be had.
+    A study defines a subclass whose further fields are sequences of one kind of record each. None in a record marks a
+    value that could not be measured.
     """
 
     title: str
@@ -32,22 +42,26 @@ class StudyRecords:
         found = list(rows)
         return cls(title, *([row for row in found if isinstance(row, kind)] for kind in cls.kinds().values()))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return asdict(self)
-
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """What `to_dict` gave."""
-        return cls(data["title"], *([kind(**row) for row in data[name]] for name, kind in cls.kinds().items()))
+    def read(cls, name: str) -> Self:
+        """The records of docs/data/NAME.json."""
+        kept = read(name)
+        return cls(kept.title, *([kind(**row) for row in kept[key]] for key, kind in cls.kinds().items()))
 
-    def to_markdown(self) -> str:
-        """All tables."""
-        return "\n".join([f"# {self.title}", "", *self.tables()])
+    def text(self) -> str:
+        """JSON with one record a line."""
+        found = {field.name: getattr(self, field.name) for field in fields(self)}
+        parts = [f'"title": {json.dumps(found.pop("title"))}']
+        for name, rows in found.items():
+            lines = ",\n".join(json.dumps(asdict(row), ensure_ascii=False, allow_nan=False) for row in rows)
+            parts.append(f'"{name}": [\n{lines}\n]')
+        return "{" + ",\n".join(parts) + "}\n"
 
-    def tables(self) -> list[str]:
-        """Lines of headings and tables, of which a study says what is in them."""
-        raise NotImplementedError
+
+def read(name: str) -> Record:
+    """The object in docs/data/NAME.json."""
+    found: Record = json.loads((DATA / f"{name}.json").read_text(encoding="utf-8"), object_hook=Record)
+    return found
 
 
 def table(columns: Columns, rows: Iterable[Any]) -> list[str]:
@@ -57,30 +71,27 @@ def table(columns: Columns, rows: Iterable[Any]) -> list[str]:
     return [*lines, ""]
 
 
-def distinct(values: Iterable[Any]) -> list[Any]:
-    """Each value once, in the order of the first."""
-    return list(dict.fromkeys(values))
-
-
 def seconds_text(value: float | None) -> str:
-    """A time in three digits with a unit from ns to min; a dash where there is none."""
+    """Time with two digits and a unit from ns to min; a dash for None."""
     if value is None:
         return "-"
     scales = ((60.0, "min"), (1.0, "s"), (1e-3, "ms"), (1e-6, "us"))
     scale, unit = next(((scale, unit) for scale, unit in scales if value >= scale), (1e-9, "ns"))
-    return f"{value / scale:.3g} {unit}"
+    return f"{number(value / scale)} {unit}"
 
 
 def error_text(value: float | None) -> str:
-    """An error in two digits; 0 where it is that, a dash where there is none."""
+    """Error with two digits; 0 if it is exactly 0, a dash for None."""
     return "-" if value is None else "0" if value == 0 else f"{value:.1e}"
 
 
-def number_text(value: float | None, form: str, unit: str = "") -> str:
-    """A number in a form, or a dash."""
-    return "-" if value is None else f"{value:{form}}{unit}"
+def number(value: float, form: str = ".2g") -> str:
+    """Two digits; without a power of ten from 10 to 1,000,000."""
+    return f"{float(f'{value:.2g}'):,.0f}" if 9.5 <= value < 1e6 else f"{value:{form}}"
 
 
-def ratio_text(value: float | None, base: float | None) -> str:
-    """How many times `base` a value is."""
-    return f"{value / base:.3g}" if value and base else "-"
+def span(values: Iterable[float], write: Callable[[float], str] = number) -> str:
+    """Minimum to maximum, or one number if both have the same text."""
+    found = list(values)
+    minimum, maximum = write(min(found)), write(max(found))
+    return minimum if minimum == maximum else f"{minimum} to {maximum}"

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     Bend = Callable[[float, float], float]
 
 _U = 0.15
-OFF = 1e-6  # rad: error of the pressure angle with which marching inwards begins
 _INWARDS = (0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
 
 
@@ -104,40 +103,6 @@ def marched(case: ShapeCase, method: str, tolerance: float, start: float) -> flo
     with np.errstate(all="ignore"):
         found = solve_ivp(_rates(case), (X, case.X), state, method=method, rtol=max(tolerance, 3e-14), atol=small)
     return float(found.y[0, -1]) if found.success else float("nan")
-
-
-def inwards(case: ShapeCase) -> list[tuple[float, float | None]]:
-    """Error of the pressure angle when marched from the last contact, there off by `OFF`, towards the pitch point."""
-    solve_ivp = _solver()
-    at = case.end * np.array(_INWARDS)
-    side = _side(case)
-    X = side.travel(at)
-    state = [case.end, case.last + OFF]
-    with np.errstate(all="ignore"):
-        found = solve_ivp(_watched(case), (case.X, X[-1]), state, method="DOP853", t_eval=X, rtol=3e-14, atol=1e-15)
-    reached = found.y[1]
-    true = np.arcsin(side.sin_psi(side.distance(X)))
-    return [(far, float(abs(reached[n] - true[n])) if n < len(reached) else None) for n, far in enumerate(_INWARDS)]
-
-
-def _watched(case: ShapeCase) -> Callable[[float, Any], list[float]]:
-    """The rates, NaN where the path has left what they are defined for."""
-    rates = _rates(case)
-
-    def watched(X: float, state: Any) -> list[float]:
-        try:
-            return rates(X, state)
-        except (ValueError, ZeroDivisionError):
-            return [float("nan"), float("nan")]
-
-    return watched
-
-
-def _side(case: ShapeCase) -> Any:
-    pitch = case.pitch
-    if case.kind == "stress":
-        return forms.uniform_stress(pitch, pitch.A, pitch.B, case.X, case.amount)
-    return forms.uniform_heat(pitch, pitch.B, case.gamma, case.X)
 
 
 def collocated(case: ShapeCase, nodes: int) -> float:

@@ -13,13 +13,12 @@ from functools import partial
 
 from geartrain.errors import GearTrainError
 from studies.measurement import Step, taken, timed
-from studies.records import StudyRecords, seconds_text, table
+from studies.records import StudyRecords
 from studies.shape_cases import CASES, EXTREMES, ShapeCase
-from studies.shape_methods import collocated, inwards, marched, nodes_of, packaged, searched
+from studies.shape_methods import collocated, marched, nodes_of, packaged, searched
 
 _PAIRS = ("RK45", "DOP853", "Radau", "BDF")
 _TOLERANCES, _FEW = tuple(10.0**-n for n in range(3, 14, 2)), (1e-4, 1e-8, 1e-12)
-_STARTS, _FEW_STARTS = tuple(10.0 ** (-n / 2) for n in range(1, 11)), (1e-1, 1e-3, 1e-5)
 _NODES, _FEW_NODES = (4, 6, 8, 10, 12, 16, 20, 24, 32, 48, 96), (6, 12, 24)
 _CELLS, _FEW_CELLS = (10, 20, 40), (10,)
 _START = 1e-3  # of the arc: where marching starts, its series to d^2
@@ -52,59 +51,12 @@ class ExtremeRecord:
     nodes: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class InwardRecord:
-    """Integrated from the last contact towards the pitch point.
-
-    distance   from the pitch point, over that of the last contact
-    error      of the pressure angle there (rad); None where the path was lost
-    exponent   with which an error grows towards the pitch point by theory: distance^exponent
-    """
-
-    problem: str
-    distance: float
-    error: float | None
-    exponent: float
-
-
 @dataclass(frozen=True)
 class ShapeRecords(StudyRecords):
     """All measurements of one run on one machine."""
 
     work: Sequence[WorkRecord]
     extremes: Sequence[ExtremeRecord]
-    inward: Sequence[InwardRecord]
-
-    def tables(self) -> list[str]:
-        """Tables of work, extreme pairs, and integration inwards."""
-        lines = ["## Work", "", *table(_WORK, self.work), "## Extreme pairs", "", *table(_EXTREME, self.extremes)]
-        return [*lines, "## Inwards", "", *table(_INWARD, self.inward)]
-
-
-def _error(row: WorkRecord | ExtremeRecord | InwardRecord) -> str:
-    return "fails" if row.error is None else f"{row.error:.1e}"
-
-
-_WORK: dict[str, Callable[[WorkRecord], str]] = {
-    "problem": lambda row: row.problem,
-    "way": lambda row: row.method,
-    "setting": lambda row: f"{row.setting:.3g}",
-    "error": _error,
-    "time": lambda row: seconds_text(row.seconds),
-}
-_EXTREME: dict[str, Callable[[ExtremeRecord], str]] = {
-    "pair": lambda row: row.case,
-    "way": lambda row: row.method,
-    "nodes": lambda row: str(row.nodes or ""),
-    "error": _error,
-    "time": lambda row: seconds_text(row.seconds),
-}
-_INWARD: dict[str, Callable[[InwardRecord], str]] = {
-    "problem": lambda row: row.problem,
-    "distance": lambda row: f"{row.distance:.0e}",
-    "error (rad)": _error,
-    "exponent": lambda row: f"{row.exponent:.3f}",
-}
 
 
 def quickest(rows: Sequence[WorkRecord], accuracy: float) -> WorkRecord | None:
@@ -133,8 +85,6 @@ def _steps(quick: bool) -> Iterator[Step]:
             yield f"{case.name}: search", partial(_work, case, "direct search", cells, 1)
             continue
         yield f"{case.name}: collocation", partial(_work, case, "collocation", nodes, rounds)
-        yield f"{case.name}: start", partial(_work, case, "start", _FEW_STARTS if quick else _STARTS, rounds)
-        yield f"{case.name}: inwards", partial(_inwards, case)
     for case in EXTREMES[:3] if quick else EXTREMES:
         yield case.name, partial(_extreme, case, rounds)
 
@@ -144,7 +94,6 @@ def _work(case: ShapeCase, method: str, settings: Sequence[float], rounds: int) 
     ways: dict[str, Callable[[float], float]] = {
         "package": lambda _: packaged(case),
         "collocation": lambda nodes: collocated(case, int(nodes)),
-        "start": lambda start: marched(case, "DOP853", 1e-13, start),
         "direct search": lambda cells: searched(case, int(cells)),
     }
     way = ways.get(method, lambda tolerance: marched(case, method, tolerance, _START))
@@ -164,10 +113,6 @@ def _measured(case: ShapeCase, way: Callable[[], float], rounds: int) -> tuple[f
         times.append(seconds)
     error = abs(end / case.end - 1)
     return (error if error == error else None), min(times)
-
-
-def _inwards(case: ShapeCase) -> list[InwardRecord]:
-    return [InwardRecord(case.name, distance, error, case.exponent) for distance, error in inwards(case)]
 
 
 def _extreme(case: ShapeCase, rounds: int) -> list[ExtremeRecord]:

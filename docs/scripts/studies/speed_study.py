@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+import sys
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,32 +13,29 @@ import numpy as np
 
 from geartrain import GearTrain, load
 from geartrain.kinematics import WillisEquation, WillisSystem
-from geartrain.kinematics.circuits import find_circuits, find_tree
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.kinematics.speeds.float_speeds import prepare, solve_floats
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
 from geartrain.numerics.arrays import Floats
 from studies.measurement import Task, measure
-from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table
-from studies.train_families import FAMILIES, Data
+from studies.records import StudyRecords
+from studies.train_families import FAMILIES
 
 SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
-ORDERINGS = ("COLAMD", "MMD_ATA", "MMD_AT_PLUS_A", "NATURAL")
+_TREES_ONLY = 1_000_000  # links
 _GRID_EXACT = 2_100
 _FLINT_LINKS = 1_100
 _ALL_LINKS = 200_000
 _DRIFTED = 2_000  # links beyond which a ratio that drifts leaves float64, and each number is long
 _JUDGED = 50  # equations into which such speeds are put
 
-Advance = Callable[[str], None]
-
 
 @dataclass(frozen=True, slots=True)
 class SpeedRecord:
-    """A method on a train: best time, growth of peak memory, greatest true relative error of any speed.
+    """A method on a train: best time, growth of peak memory, maximum true relative error of any speed.
 
-    None stands for what could not be had: a method that did not finish, or an error without an exact answer.
+    None if the method did not finish, or if there is no exact answer to compare with.
     """
 
     family: str
@@ -56,56 +53,33 @@ class SpeedRecords(StudyRecords):
 
     rows: Sequence[SpeedRecord]
 
-    def tables(self) -> list[str]:
-        """One table a family and size, with each method's time over that of the exact method."""
-        lines = []
-        for family, links in distinct((row.family, row.links) for row in self.rows):
-            group = [row for row in self.rows if (row.family, row.links) == (family, links)]
-            base = next((row.seconds for row in group if row.method == "exact" and row.seconds), None)
-            columns: dict[str, Callable[[SpeedRecord], str]] = {
-                "method": lambda row: row.method,
-                "time": lambda row: seconds_text(row.seconds),
-                "ratio to exact": lambda row, base=base: ratio_text(row.seconds, base),  # type: ignore[misc]
-                "memory": lambda row: number_text(row.megabytes, ".0f", " MB"),
-                "true error": lambda row: row.note or error_text(row.error),
-            }
-            lines += [f"## {family}, {links} links", "", *table(columns, group)]
-        return lines
 
-
-def speeds(
-    most: int, minimum: int = 0, families: Collection[str] = tuple(FAMILIES), advance: Advance = lambda _: None
-) -> SpeedRecords:
-    """Measure all methods on `families` from `minimum` to `most` links; `advance` hears of every measurement."""
+def speeds(most: int = 1_000_000, minimum: int = 0, families: Collection[str] = tuple(FAMILIES)) -> SpeedRecords:
+    """Measure all methods on `families` from `minimum` to `most` links; the largest size on trees only."""
     rows: list[SpeedRecord] = []
-    for family, train, data in _trains(most, minimum, families):
-        rows += _measure_all(family, train, data, advance)
+    for family, train in _trains(most, minimum, families):
+        print(family, len(train.declaration.links), file=sys.stderr, flush=True)
+        rows += _measure_all(family, train)
     return SpeedRecords("Speeds: error against run time", rows)
 
 
-def _trains(most: int, minimum: int, families: Collection[str]) -> Iterator[tuple[str, GearTrain, Data | None]]:
-    """Two shipped trains, then each family as it grows, with the data it is declared from."""
+def _trains(most: int, minimum: int, families: Collection[str]) -> Iterator[tuple[str, GearTrain]]:
+    """Two shipped trains, then each family as it grows."""
     for name in ("pennestri-2002", "freeth-2021") if minimum == 0 else ():
-        yield name, load(name), None
+        yield name, load(name)
     for family in families:
         for size in SIZES:
-            if minimum <= size <= most:
-                data = FAMILIES[family](size)
-                yield family, GearTrain.declare(data), data
+            if minimum <= size <= most and (size < _TREES_ONLY or family == "tree"):
+                yield family, GearTrain.declare(FAMILIES[family](size))
 
 
-def _measure_all(family: str, train: GearTrain, data: Data | None, advance: Advance) -> list[SpeedRecord]:
+def _measure_all(family: str, train: GearTrain) -> list[SpeedRecord]:
     links, last = len(train.declaration.links), list(train.declaration.links)[-1]
     rows: list[SpeedRecord] = []
 
     def take(method: str, task: Task, error_of: Callable[[Any], float | None] = lambda _: None) -> None:
-        advance(f"{family} {links}: {method}")
         rows.append(SpeedRecord(family, links, method, *measure(task, error_of)))
 
-    declared = train.declaration
-    if data is not None:
-        take("(declare: checked models from plain data)", lambda: GearTrain.declare(data))
-        take("(find the circuits)", lambda: find_circuits(declared, find_tree(declared)))
     system = train.equations()
     coupled = family == "grid" and links > _GRID_EXACT
     drifted = family == "drift" and links > _DRIFTED
@@ -122,12 +96,6 @@ def _measure_all(family: str, train: GearTrain, data: Data | None, advance: Adva
     if drifted:
         return rows
     truth = None if exact is None else np.array([float(exact[link]) for link in train.declaration.links])
-    if family in ("chain", "drift", "tree", "lattice"):
-        take(
-            "walking in floats",
-            lambda: _walk(train),
-            lambda found: _error([found[link] for link in train.declaration.links], truth),
-        )
     matrix, equations = prepare(system)
     shuffled = _Shuffled(matrix, links)
     moving = [at for at, link in enumerate(train.declaration.links) if link in matrix.at]
@@ -145,9 +113,7 @@ def _measure_all(family: str, train: GearTrain, data: Data | None, advance: Adva
         )
     if links <= _ALL_LINKS:
         take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)
-    for ordering in ORDERINGS if links <= _ALL_LINKS else ORDERINGS[:1]:
-        take(f"sparse LU, {ordering}", lambda ordering=ordering: shuffled.splu(right, ordering), error_of)  # type: ignore[misc]
-    take("sparse LU, COLAMD, refined, with estimate", lambda: _refined(system), lambda x: _error(x, truth))
+    take("refined floats", lambda: _refined(system), lambda x: _error(x, truth))
     return rows
 
 
@@ -182,24 +148,6 @@ def _holds(row: WillisEquation, speeds: Mapping[str, Fraction]) -> bool:
         top = top * speed.denominator + coefficient * speed.numerator * bottom
         bottom *= speed.denominator
     return top * row.right.denominator == row.right.numerator * bottom
-
-
-def _walk(train: GearTrain) -> dict[str, float]:
-    """An ordinary train link by link in floats, the plainest loop there is."""
-    edges: dict[str, list[tuple[str, float]]] = {}
-    for circuit in train.circuits:
-        edges.setdefault(circuit.i, []).append((circuit.j, -circuit.a / circuit.b))
-        edges.setdefault(circuit.j, []).append((circuit.i, -circuit.b / circuit.a))
-    (start, speed), *_ = train.declaration.case(None).inputs.items()
-    speeds = {train.declaration.frame: 0.0, start: float(speed)}
-    queue = deque([start])
-    while queue:
-        here = queue.popleft()
-        for there, ratio in edges.get(here, ()):
-            if there not in speeds:
-                speeds[there] = speeds[here] * ratio
-                queue.append(there)
-    return speeds
 
 
 def _compiled(matrix: PaddedRows, equations: Sequence[WillisEquation]) -> tuple[Any, Any]:
@@ -245,9 +193,3 @@ class _Shuffled:
 
         solver: Any = linalg
         return self._back(solver.spsolve(self.matrix, right[self.lines]))
-
-    def splu(self, right: Floats, ordering: str) -> Floats:
-        from scipy.sparse import linalg
-
-        solver: Any = linalg
-        return self._back(solver.splu(self.matrix, permc_spec=ordering).solve(right[self.lines]))

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-
-import numpy as np
 
 from geartrain.spherical.graph_set import Aim
-from studies.records import StudyRecords, error_text, number_text, seconds_text, table
+from studies.records import StudyRecords
 
 TARGET = 1e-11
 """Residual of the radii (rad) to which both ways to them are timed."""
 TOLERANCE = 1e-9
 """Pitches by which a float loop may miss and still counts as closed, unless a caller says otherwise."""
-_QUADRATIC = (0.1, 1e-11)  # rad: residuals between which the steps are near their limit and above rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,23 +57,15 @@ class PackRecord:
         """Seconds of the fixed point over those of Newton's method, to the same residual."""
         return self.swept / self.newton
 
-    @property
-    def squares(self) -> list[float]:
-        """residual after a step / (residual before it)^2 (1/rad), of the steps near the solution and above rounding."""
-        near, minimum = _QUADRATIC
-        left = [residual for _, residual in self.steps]
-        return [b / a**2 for a, b in pairwise(left) if a < near and b > minimum]
-
 
 @dataclass(frozen=True, slots=True)
 class FitRecord:
     """Axes moved from a packing until whole teeth fit.
 
     minimum      teeth of the smallest gear, `most` those of the largest
-    steps      of the fit, and `seconds` of it; `whole` of everything from the graph to the sizes; `sizing` of sizes
+    steps      of the fit
     residual   ln(greatest pitch / least pitch) for the aim "pitch", largest residue of a loop (pitches) for "phases"
     moved      the farthest that an axis moved (deg)
-    track      residual (rad for "pitch", pitches for "phases") that each step tells of
     """
 
     family: str
@@ -86,19 +74,9 @@ class FitRecord:
     minimum: int
     most: int
     steps: int
-    seconds: float
-    whole: float
-    sizing: float
     residual: float
     exact: bool
     moved: float
-    track: Sequence[float] = ()
-
-    @property
-    def strayed(self) -> bool:
-        """True if the steps came within 1e-9 of a solution, and then went farther than 1e-3 from it."""
-        near = next((at for at, residual in enumerate(self.track) if residual < 1e-9), len(self.track))
-        return any(residual > 1e-3 for residual in self.track[near:])
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,10 +84,7 @@ class ClosureRecord:
     """Loops with tooth numbers from 10^power up to 10^(power + 1), by one method.
 
     error     largest difference of a residue from the truth (pitches)
-    bound     what the method itself forecasts for it (pitches); None where it forecasts nothing
     wrong     verdicts that are wrong at `TOLERANCE`
-    best      those that are wrong at half the least residue a loop can have, the best tolerance there is
-    own       wrong verdicts when judged by `bound`, and `unclear` ones
     seconds   for one loop
     """
 
@@ -119,11 +94,7 @@ class ClosureRecord:
     loops: int
     error: float
     wrong: int
-    best: int
     seconds: float
-    bound: float | None = None
-    own: int = 0
-    unclear: int = 0
 
 
 @dataclass(frozen=True)
@@ -133,75 +104,3 @@ class SphereRecords(StudyRecords):
     packings: Sequence[PackRecord]
     fits: Sequence[FitRecord]
     closures: Sequence[ClosureRecord]
-
-    def tables(self) -> list[str]:
-        """Tables of packings, their Newton steps, fits and closures."""
-        lines = ["## Circles", "", *table(_PACKINGS, self.packings)]
-        lines += ["## Residual (rad) after each Newton step", "", *_step_table(self.packings)]
-        return [
-            *lines,
-            "## Axes moved",
-            "",
-            *table(_FITS, self.fits),
-            "## Closure",
-            "",
-            *table(_CLOSURES, self.closures),
-        ]
-
-
-def growth(gears: Sequence[int], seconds: Sequence[float], minimum: int = 90) -> float:
-    """The exponent p of seconds ~ gears^p, by least squares of logarithms over `minimum` gears and more."""
-    n, s = np.log(np.array([gears, seconds], dtype=float))
-    kept = np.array(gears) >= minimum
-    return float(np.polyfit(n[kept], s[kept], 1)[0])
-
-
-def _step_table(rows: Sequence[PackRecord]) -> list[str]:
-    columns: dict[str, Callable[[PackRecord], str]] = {
-        "graph": lambda row: row.family,
-        "gears": lambda row: str(row.gears),
-    }
-    for at in range(max(len(row.steps) for row in rows)):
-        columns[str(at + 1)] = lambda row, at=at: f"{row.steps[at][1]:.0e}" if at < len(row.steps) else ""  # type: ignore[misc]
-    return table(columns, rows)
-
-
-_PACKINGS: dict[str, Callable[[PackRecord], str]] = {
-    "graph": lambda row: row.family,
-    "gears": lambda row: str(row.gears),
-    "meshes": lambda row: str(row.meshes),
-    "Newton steps": lambda row: str(len(row.counted)),
-    "time": lambda row: seconds_text(row.newton),
-    "sweeps": lambda row: f"{row.sweeps}" if row.left < TARGET else f"{row.sweeps}, {row.left:.0e} left",
-    "time over Newton": lambda row: f"{'' if row.left < TARGET else 'over '}{row.ratio:.3g}",
-    "whole packing": lambda row: seconds_text(row.seconds),
-    "residual": lambda row: f"{row.residual:.1e}",
-    "in 40 digits": lambda row: f"{row.judged:.1e}",
-    "overlaps": lambda row: str(row.overlaps),
-}
-_FITS: dict[str, Callable[[FitRecord], str]] = {
-    "graph": lambda row: row.family,
-    "gears": lambda row: str(row.gears),
-    "aim": lambda row: row.aim,
-    "teeth": lambda row: f"{row.minimum} to {row.most}",
-    "steps": lambda row: str(row.steps),
-    "time": lambda row: seconds_text(row.seconds),
-    "with packing": lambda row: seconds_text(row.whole),
-    "sizes": lambda row: seconds_text(row.sizing),
-    "residual": lambda row: f"{row.residual:.1e}",
-    "exact": lambda row: "yes" if row.exact else "no",
-    "moved": lambda row: f"{row.moved:.2g} deg",
-}
-_CLOSURES: dict[str, Callable[[ClosureRecord], str]] = {
-    "loops of": lambda row: row.family,
-    "method": lambda row: row.method,
-    "teeth": lambda row: f"10^{row.power}",
-    "loops": lambda row: str(row.loops),
-    "error": lambda row: error_text(row.error),
-    "forecast": lambda row: number_text(row.bound, ".1e"),
-    "wrong": lambda row: str(row.wrong),
-    "at the best tolerance": lambda row: str(row.best),
-    "by forecast": lambda row: "-" if row.bound is None else str(row.own),
-    "unclear": lambda row: "-" if row.bound is None else str(row.unclear),
-    "time a loop": lambda row: seconds_text(row.seconds),
-}

@@ -12,7 +12,7 @@ from functools import partial
 
 from geartrain.spherical.graph_set import Aim
 from studies.circle_packings import fitted, packed
-from studies.loop_closures import assembled, closed
+from studies.loop_closures import closed
 from studies.measurement import Step, taken
 from studies.sphere_records import SphereRecords
 
@@ -33,8 +33,7 @@ def _steps(quick: bool) -> Iterator[Step]:
         for given in sizes[:few]:
             yield f"{family} {given}: circles", partial(packed, family, given, rounds)
             for aim, minimum in _FITS:
-                yield f"{family} {given}: {aim}, {minimum} teeth", partial(fitted, family, given, aim, minimum, rounds)
+                yield f"{family} {given}: {aim}, {minimum} teeth", partial(fitted, family, given, aim, minimum)
     for power in _FEW_POWERS if quick else _POWERS:
         for solid in _SOLIDS:
             yield f"{solid}: 10^{power} teeth", partial(closed, solid, power, draws)
-        yield f"planetary: 10^{power} teeth", partial(assembled, power, max(10, draws // 20))

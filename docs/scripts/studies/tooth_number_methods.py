@@ -23,7 +23,6 @@ from geartrain.train import Train
 
 Pair = tuple[int, int]
 Set = tuple[int, ...]
-Picker = Callable[[Fraction, Counts, Counts, int], Sequence[Pair]]
 _MULTIPLES = 1000
 _PLACES = 10**17
 
@@ -124,16 +123,15 @@ def _smooth(number: int, most: int) -> bool:
     return number == 1
 
 
-def by_stage(case: RatioCase, pick: Picker, width: int = 1) -> Found:
-    """The ratio shared out: each stage takes a pair near the equal share of what is left, the last one all of it.
+def by_stage(case: RatioCase, width: int = 1) -> Found:
+    """Each stage takes a pair of counts near the equal share of the remaining ratio, the last stage all of it.
 
-    pick    value, counts on top, counts beneath, how many -> pairs near the value
     width   pairs that each stage but the last tries; the best of all is kept
     """
-    top, beneath = case.top, case.beneath
+    pick = partial(_nearest_pairs, case.top, case.beneath)
     best: tuple[Fraction, tuple[Pair, ...]] | None = None
     tries = 0
-    for pairs in _shares(case.value, case.stages, partial(_picked, pick, top, beneath), width):
+    for pairs in _shares(case.value, case.stages, pick, width):
         tries += 1
         error = abs(prod((Fraction(*pair) for pair in pairs), start=Fraction(1)) / case.value - 1)
         if best is None or error < best[0]:
@@ -141,10 +139,6 @@ def by_stage(case: RatioCase, pick: Picker, width: int = 1) -> Found:
     if best is None:
         return Found(None, tries=tries)
     return of_counts(case, [a for a, _ in best[1]], [b for _, b in best[1]], tries)
-
-
-def _picked(pick: Picker, top: Counts, beneath: Counts, value: Fraction, number: int) -> Sequence[Pair]:
-    return pick(value, top, beneath, number)
 
 
 def _shares(
@@ -161,23 +155,10 @@ def _shares(
             yield (pair, *rest)
 
 
-def nearest_pairs(value: Fraction, top: Counts, beneath: Counts, number: int) -> list[Pair]:
+def _nearest_pairs(top: Counts, beneath: Counts, value: Fraction, number: int) -> list[Pair]:
     """The nearest pairs of one stage, by the tree of Stern and Brocot."""
     sides = (top, beneath) if value >= 1 else (beneath, top)
     return [(one.top[0], one.beneath[0]) for one in find_pairs(TargetRatio(value), *sides, best=number)]
-
-
-def convergent_pairs(value: Fraction, top: Counts, beneath: Counts, number: int) -> list[Pair]:
-    """The last convergents of one stage that have a multiple among the counts, as far as there are so many."""
-    found: list[Pair] = []
-    for one in reversed(approximants(value, max(top[-1], beneath[-1]), "convergent")):
-        p, q = one.value.numerator, one.value.denominator
-        scaled = ((m * p, m * q) for m in range(1, min(top[-1] // p, beneath[-1] // q) + 1))
-        pair = next(((a, b) for a, b in scaled if a in top and b in beneath), None)
-        found += [pair] if pair else []
-        if len(found) == number:
-            break
-    return found
 
 
 # by geartrain --------------------------------------------------------------------------------------------------------
@@ -202,18 +183,6 @@ def chain(case: RatioCase, tolerance: str = "") -> Train:
     meshes = [(f"L{at}", f"a{at}", f"L{at + 1}", f"b{at}") for at in range(case.stages)]
     counts = {wheel: case.wheels if wheel[0] == "a" else case.pinions for _, *pair in meshes for wheel in pair[::2]}
     return _train(meshes, counts, {f"L{case.stages}": case.value}, tolerance)
-
-
-def fork(shared: int, own: int, counts: Pair, values: Sequence[Fraction], tolerance: str) -> Train:
-    """Two outputs: both go through `shared` stages and then through `own` of their own; all wheels free."""
-    meshes = [(f"L{at}", f"a{at}", f"L{at + 1}", f"b{at}") for at in range(shared)]
-    for side in "CD":
-        links = [f"L{shared}", *(f"{side}{at}" for at in range(own))]
-        meshes += [(links[at], f"a{side}{at}", links[at + 1], f"b{side}{at}") for at in range(own)]
-    wheels = dict.fromkeys((wheel for _, *pair in meshes for wheel in pair[::2]), counts)
-    return _train(
-        meshes, wheels, {f"{side}{own - 1}": value for side, value in zip("CD", values, strict=True)}, tolerance
-    )
 
 
 def _train(

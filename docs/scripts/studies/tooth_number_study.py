@@ -12,20 +12,16 @@ from functools import partial
 from statistics import median
 from typing import Any
 
-from geartrain.search import StageConstraints, TargetRatio, find_stages, read_ratio, search_train
+from geartrain.search import TargetRatio, find_stages, read_ratio, search_train
 from geartrain.search.ratio.product_windows import multisets, products_of
-from geartrain.search.ratio.search_segments import lay_out, search_segment, task_of
-from geartrain.search.ratio.stage_problem import StageProblem
 from geartrain.train import Train
 from studies import tooth_number_methods as ways
 from studies.measurement import Cost, Step, in_turns, measure, taken
 from studies.tooth_number_methods import Found, Pair, RatioCase
 from studies.tooth_number_records import (
     CHAIN,
-    CONVERGENTS,
     EVERY,
     FACTORED,
-    FORK,
     PAIRS,
     PRINTED,
     PRODUCTS,
@@ -47,7 +43,7 @@ _RATIOS = {
 _PRINTED = ("tropical month", 3, (30, 100), (15, 40))  # the public brute-force tool's question
 _TRIES = (1, 16, 256, 4096)
 _MONTH = Fraction("13.36838")
-_FORKED = (Fraction("2.23607"), Fraction("1.61803"))
+_OUTPUT = Fraction("2.23607")
 _ROOM = "1e-3"
 _LIMIT = 300.0
 _LONG = 5.0
@@ -99,8 +95,7 @@ def requested(case: RatioCase, rounds: int, tries: Sequence[int], patience: floa
     tasks: list[tuple[str, Callable[[], Found]]] = [
         (FACTORED, partial(ways.factored, case, "convergent")),
         (WALKED, partial(ways.factored, case, "intermediate")),
-        (CONVERGENTS, partial(ways.by_stage, case, ways.convergent_pairs)),
-        *((PAIRS, partial(ways.by_stage, case, ways.nearest_pairs, width)) for width in widths),
+        *((PAIRS, partial(ways.by_stage, case, width)) for width in widths),
         (PRODUCTS, partial(ways.by_products, case)),
         (TRAIN, partial(ways.in_train, train, case)),
     ]
@@ -142,21 +137,17 @@ def _growths(quick: bool) -> Iterator[Step]:
     for stages, sizes in products.items():
         for size in sizes:
             yield f"{stages} stages of {size}", partial(_of_products, stages, size, rounds)
-    for stages, size, sample in ((3, 60, 2),) if quick else ((4, 200, 7), (5, 100, 6), (5, 200, 12)):
-        yield f"{stages} stages of {size}, a share", partial(_of_share, stages, size, sample)
     for stages in (1, 2, 3) if quick else (1, 2, 3, 4, 5):
         for size in (16,) if quick else (26, 46, 86):
             if stages < 5 or size < 60:
                 yield f"{2 * stages} free wheels of {size}", partial(_of_chain, stages, size, rounds)
-    for shared, own in ((0, 1), (1, 1)) if quick else ((0, 1), (1, 1), (2, 1), (0, 2), (1, 2), (2, 2)):
-        yield f"{shared} shared, {own} own stages", partial(_of_fork, shared, own, 16 if quick else 31, rounds)
 
 
 def _of_products(stages: int, size: int, rounds: int) -> list[TeethGrowth]:
     counts = range(12, 12 + size)
     task = partial(find_stages, TargetRatio(_MONTH), stages, counts, counts, best=1)
     considered = multisets(size, stages) ** 2
-    return [TeethGrowth(RATIO, stages, 2 * stages, 0, size, considered, *_cost(task, rounds)[:2])]
+    return [TeethGrowth(RATIO, stages, size, considered, *_cost(task, rounds)[:2])]
 
 
 def _of_printed(rounds: int) -> list[TeethGrowth]:
@@ -166,42 +157,13 @@ def _of_printed(rounds: int) -> list[TeethGrowth]:
         find_stages, TargetRatio(case.value), case.stages, case.top, case.beneath, tolerance=Fraction(1, 10**6)
     )
     cost = _cost(task, rounds, lambda found: float(found.count))
-    return [TeethGrowth(PRINTED, case.stages, 6, 0, len(case.top), case.considered, *cost)]
-
-
-def _of_share(stages: int, size: int, sample: int) -> list[TeethGrowth]:
-    """Some pieces of a search, evenly spread over all of them, with the tolerance that it would begin with."""
-    counts = tuple(range(12, 12 + size))
-    question = StageProblem(_MONTH, stages, counts, counts, StageConstraints(), "error", 1, Fraction(0))
-    plan = lay_out(question)
-    hint = plan.tolerance_for(4)
-    number = len(plan.segments)
-    sample = min(sample, number)
-    chosen = [plan.segments[number * (2 * at + 1) // (2 * sample)] for at in range(sample)]
-    requested = StageProblem(_MONTH, stages, counts, counts, StageConstraints(), "error", 1, hint)
-    tasks = [task_of(requested, *segment, hint) for segment in chosen]
-
-    def task() -> None:
-        for one in tasks:
-            search_segment(one)
-
-    considered = multisets(size, stages) ** 2
-    cost = _cost(task, 1)[:2]
-    note = "" if cost[0] is not None else "not finished"
-    return [TeethGrowth(RATIO, stages, 2 * stages, 0, size, considered, *cost, share=sample / number, note=note)]
+    return [TeethGrowth(PRINTED, case.stages, len(case.top), case.considered, *cost)]
 
 
 def _of_chain(stages: int, size: int, rounds: int) -> list[TeethGrowth]:
-    case = RatioCase("", _FORKED[0], stages, (15, 14 + size), (15, 14 + size))
+    case = RatioCase("", _OUTPUT, stages, (15, 14 + size), (15, 14 + size))
     cost = _searched(ways.chain(case, _ROOM), rounds)
-    return [TeethGrowth(CHAIN, stages, 2 * stages, 0, size, size ** (2 * stages), *cost)]
-
-
-def _of_fork(shared: int, own: int, size: int, rounds: int) -> list[TeethGrowth]:
-    train = ways.fork(shared, own, (15, 14 + size), _FORKED, _ROOM)
-    free = 2 * shared + 4 * own
-    cost = _searched(train, rounds)
-    return [TeethGrowth(FORK, shared + own, free, 2 * shared, size, size**free, *cost)]
+    return [TeethGrowth(CHAIN, stages, size, size ** (2 * stages), *cost)]
 
 
 def _searched(train: Train, rounds: int) -> tuple[float | None, float | None, int]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp, log
 
-from studies.records import StudyRecords, distinct, number_text, seconds_text, table
+from studies.records import StudyRecords
 
 TOGETHER, SINGLY = "together", "one by one"
 COUNTS = "tooth counts"
@@ -69,47 +69,20 @@ class ErrorRecord:
     covered: float
 
 
-@dataclass(frozen=True, slots=True)
-class WorkerRecord:
-    """The same trials by so many worker processes.
-
-    seconds   by the clock, median of rounds; `ratio`, how many times as fast as a loop of single solutions
-    same      the results are those of one worker, bit for bit
-    """
-
-    case: str
-    workers: int
-    trials: int
-    seconds: float
-    ratio: float
-    same: bool
-
-
 @dataclass(frozen=True)
 class UncertaintyRecords(StudyRecords):
     """All measurements of one run on one machine."""
 
     rates: Sequence[RateRecord]
     errors: Sequence[ErrorRecord]
-    workers: Sequence[WorkerRecord]
 
     @property
     def slopes(self) -> dict[str, tuple[float, float]]:
         """Of each case, the power of the number of trials with which the error changes, and its standard error."""
         return {
             case: slope([row for row in self.errors if row.case == case])
-            for case in distinct(row.case for row in self.errors)
+            for case in dict.fromkeys(row.case for row in self.errors)
         }
-
-    def tables(self) -> list[str]:
-        """Rates by family, errors against trials, workers."""
-        lines = []
-        for family in distinct(row.family for row in self.rates):
-            rows = [row for row in self.rates if row.family == family]
-            lines += [f"## {family[0].upper()}{family[1:]}", "", *table(_rates(family), rows)]
-        lines += ["## Error against trials", "", *table(_ERRORS, self.errors)]
-        lines += [f"{case}: error as trials to the power {a:.3f} +- {b:.3f}." for case, (a, b) in self.slopes.items()]
-        return [*lines, "", "## Workers", "", *table(_WORKERS, self.workers)]
 
 
 def slope(rows: Sequence[ErrorRecord]) -> tuple[float, float]:
@@ -128,38 +101,3 @@ def slope(rows: Sequence[ErrorRecord]) -> tuple[float, float]:
 def at_one(rows: Sequence[ErrorRecord]) -> float:
     """What the error would be with one trial, by the geometric mean of errors times roots of trials."""
     return exp(sum(log(row.rms) + log(row.trials) / 2 for row in rows) / len(rows))
-
-
-def _rates(family: str) -> dict[str, Callable[[RateRecord], str]]:
-    unit = "combinations" if family == COUNTS else "tooth pitches"
-    return {
-        "case": lambda row: row.case,
-        "way": lambda row: row.method,
-        "trials": lambda row: f"{row.trials:,}",
-        "time": lambda row: seconds_text(row.seconds),
-        f"{unit}/s": lambda row: f"{row.rate:,.3g}",
-        "over the loop": lambda row: f"{row.ratio:,.3g}",
-        "memory": lambda row: number_text(row.megabytes, ".1f", " MB"),
-        "greatest error": lambda row: number_text(row.error, ".1e"),
-        "decided otherwise": lambda row: f"{row.differing} of {row.checked}" if row.checked else "-",
-    }
-
-
-_ERRORS: dict[str, Callable[[ErrorRecord], str]] = {
-    "case": lambda row: row.case,
-    "truth": lambda row: f"{row.truth:.6f}" + (f" +- {row.truth_error:.1e}" if row.truth_error else ""),
-    "trials": lambda row: f"{row.trials:,}",
-    "estimates": lambda row: f"{row.estimates:,}",
-    "rms error": lambda row: f"{row.rms:.2e}",
-    "expected": lambda row: f"{row.expected:.2e}",
-    "intervals that hold it": lambda row: f"{row.covered:.1%}",
-}
-_WORKERS: dict[str, Callable[[WorkerRecord], str]] = {
-    "case": lambda row: row.case,
-    "workers": lambda row: str(row.workers),
-    "trials": lambda row: f"{row.trials:,}",
-    "time": lambda row: seconds_text(row.seconds),
-    "trials a second": lambda row: f"{row.trials / row.seconds:,.3g}",
-    "over the loop": lambda row: f"{row.ratio:,.3g}",
-    "same results": lambda row: "yes" if row.same else "no",
-}

@@ -13,7 +13,7 @@ from functools import partial
 from typing import Any
 
 from studies.count_trials import Counted
-from studies.cut_pair_trials import BLOCK, EVERY, EXACT, NORMAL, PLACES, Batch, errors_of, jams
+from studies.cut_pair_trials import EVERY, EXACT, NORMAL, PLACES, Batch, errors_of, jams
 from studies.displaced_pair_trials import FORMS, DisplacedBatch
 from studies.measurement import Step, in_turns, measure, taken
 from studies.uncertainty_records import (
@@ -24,12 +24,10 @@ from studies.uncertainty_records import (
     ErrorRecord,
     RateRecord,
     UncertaintyRecords,
-    WorkerRecord,
 )
 
 _TRAIN = "freeth-2008"
 _PAIRS = ((64, 38, 0.02), (48, 24, 0.02), (45, 225, 0.01))
-_WORKERS = (1, 2)
 _NUMBERS = (100, 200, 500, 1000, 2000, 5000, 10_000)
 
 
@@ -43,12 +41,11 @@ class Effort:
     counted: int
     solved: int
     blocks: int
-    shared: int
     numbers: tuple[int, ...]
 
 
-_QUICK = Effort(1, 20_000, 100_000, 5, 1, 2, 1, _NUMBERS[:4])
-_FULL = Effort(3, 500_000, 2_000_000, 100, 3, 50, 8, _NUMBERS)
+_QUICK = Effort(1, 20_000, 100_000, 5, 1, 2, _NUMBERS[:4])
+_FULL = Effort(3, 500_000, 2_000_000, 100, 3, 50, _NUMBERS)
 
 
 def uncertainty(quick: bool = False) -> UncertaintyRecords:
@@ -66,7 +63,6 @@ def _steps(effort: Effort, quick: bool) -> Iterator[Step]:
         yield f"64/38, {form}", partial(_displaced, form, effort)
     for case in (EXACT, NORMAL):
         yield f"estimates, {case}", partial(_estimates, case, effort)
-    yield "workers", partial(_by_workers, effort)
 
 
 # ------------------------------------------------------------------------------------------------------------- counts
@@ -75,7 +71,7 @@ def _steps(effort: Effort, quick: bool) -> Iterator[Step]:
 def _counts(effort: Effort) -> list[RateRecord]:
     """Whether combinations fit, and all that their outputs do, against whole solutions one by one."""
     requested = Counted(_TRAIN, effort.combinations)
-    case = f"{_TRAIN}, {len(requested.question.doubts)} wheels in doubt"
+    case = f"{_TRAIN}, {len(requested.question.uncertainties)} wheels in doubt"
     (
         requested.decided(),
         requested.told(),
@@ -83,15 +79,14 @@ def _counts(effort: Effort) -> list[RateRecord]:
     ways: list[tuple[str, int, Callable[[], Any]]] = [
         (SINGLY, effort.counted, partial(requested.singly, effort.counted)),
         (f"fit or not, {len(requested.question.witnesses)} outputs, drawn", effort.combinations, requested.decided),
-        ("the same, all in a row", requested.followed, requested.neighbours),
         (f"speeds of {len(requested.question.outputs)} outputs, with bounds", effort.combinations, requested.told),
     ]
     rows, singles = _measured(COUNTS, case, 1, ways, effort.rounds)
     error, share = requested.off(singles)
     differing = requested.differing(singles)
     fitting = sum(fits for _, fits in singles)
-    notes = ("", f"{fitting} of those checked fit", "", f"errors are {share:.2g} of their bounds at most")
-    checks = ((None, 0, 0), (None, differing, len(singles)), (None, 0, 0), (error, 0, 0))
+    notes = ("", f"{fitting} of those checked fit", f"errors are {share:.2g} of their bounds at most")
+    checks = ((None, 0, 0), (None, differing, len(singles)), (error, 0, 0))
     return [_checked(row, *check, note) for row, check, note in zip(rows, checks, notes, strict=True)]
 
 
@@ -145,21 +140,8 @@ def _checked(row: RateRecord, error: float | None, differing: int, checked: int,
     return replace(row, error=error, differing=differing, checked=checked, note=note)
 
 
-# ---------------------------------------------------------------------------------------------- estimates and workers
+# ---------------------------------------------------------------------------------------------------------- estimates
 
 
 def _estimates(case: str, effort: Effort) -> list[ErrorRecord]:
     return errors_of(case, jams(case, effort.blocks), effort.numbers)
-
-
-def _by_workers(effort: Effort) -> list[WorkerRecord]:
-    """The same blocks by one process and by more, against a loop over single solutions."""
-    batch = Batch(64, 38, 0.02, PLACES, effort.solved)
-    tasks = [partial(jams, NORMAL, effort.shared, 2, workers) for workers in _WORKERS]
-    loop, *found = in_turns([partial(batch.singly, effort.solved), *tasks], min(3, effort.rounds))
-    trials = effort.shared * BLOCK
-    rows = []
-    for workers, own in zip(_WORKERS, found, strict=True):
-        same = bool((own.found == found[0].found).all())
-        rows.append(WorkerRecord(NORMAL, workers, trials, own.median, loop.over(own) * trials / effort.solved, same))
-    return rows

@@ -1,10 +1,10 @@
-"""Composition evaluated by a compiled kernel: the same errors to 1e-12, about ten times as fast.
+"""Composition of transmission errors by a compiled kernel: equal to 1e-12 rad, about ten times as fast.
 
-This module has the arrays that the kernel reads, the kernel, and the composition that calls it. `ErrorComposition`
+This module contains the arrays that the kernel reads, the kernel, and the composition that calls it. `ErrorComposition`
 evaluates equations (2) to (4) of docs/motion.md with arrays of all positions, one transmission function after the
 other. The kernel evaluates blocks of about two thousand positions, whose angles and errors stay in the processor's
-cache. A pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair. Short
-of dead centres, delta is a periodic function of S, which is tabulated like any transmission function.
+cache. A pair that moves its own driver has the error delta = sigma error(S + g delta), equation (5) for one pair.
+Without dead centres, delta is a periodic function of S, which is tabulated like any transmission function.
 """
 
 from __future__ import annotations
@@ -35,7 +35,10 @@ BLOCK = 2048  # positions: enough to amortise the overhead of a block, few enoug
 
 @dataclass(frozen=True)
 class FedBackTransmission:
-    """Error and speed of a pair whose driver moves by `gain` times its error. `sense` is that of its driven side."""
+    """Transmission function of a pair whose error moves its own driver: by `gain` times the error of its driven side.
+
+    `sense` is the sense of the driven side, 1 or -1.
+    """
 
     transmission: TransmissionFunction
     sense: int
@@ -48,12 +51,12 @@ class FedBackTransmission:
 
     @property
     def period(self) -> float:
-        """Period of the transmission function."""
+        """Period of the transmission function [rad]."""
         return self.transmission.period
 
     @cached_property
     def has_no_dead_centre(self) -> bool:
-        """True if the transmission function with feedback has no dead centre."""
+        """True if the driven side never stops and reverses because of the feedback."""
         ratio = float(self.transmission.ratio)
         return all(1 - self.sense * (tau - ratio) * self.gain > 0 for tau in self.transmission.speed_range())
 
@@ -68,7 +71,7 @@ class FedBackTransmission:
         return self._solved(S)[0]
 
     def speed(self, S: Floats) -> Floats:
-        """Return the speed ratio of the driven side, including feedback."""
+        """Return the speed of the driven side over the speed of the driver, including feedback."""
         return self._solved(S)[1]
 
     def _solved(self, S: Floats) -> tuple[Floats, Floats]:
@@ -78,63 +81,65 @@ class FedBackTransmission:
 
 
 class CompositionOrder(NamedTuple):
-    """Order of solution, step by step, as flat arrays.
+    """Order of solution as flat arrays, step by step.
 
     Links have rows, which later links reuse. Ranges begin at `..._start`.
     """
 
     own_start: Ints
     own: Ints
-    """Rows of the links of a step."""
+    """Rows of the links that each step computes."""
     known_start: Ints
     known: Ints
-    """Rows of the known links on which they depend, with coefficients `from_known`, (own, known) flattened."""
+    """Rows of the links on which the links of each step depend. The coefficients are `from_known`, shape (own, known),
+    flattened.
+    """
     from_known_start: Ints
     from_known: Floats
     sources: Ints
     """Index of the first source of each step, and one past the last source.
 
-    Their coefficients are `from_sources`, (own, sources) flattened.
+    The coefficients are `from_sources`, shape (own, sources), flattened.
     """
     from_sources_start: Ints
     from_sources: Floats
     seen_start: Ints
     seen: Ints
-    """Rows of the links whose signed sum is an output, for each output."""
+    """Rows of the links whose signed sum is the error of an output, for each output."""
     seen_sign: Floats
     offset: Floats
     """Constant added to the error of each output [rad]."""
 
 
 class ComposedSources(NamedTuple):
-    """Sources in the order of the steps. The index of a source is that of its transmission function."""
+    """Error sources in the order of the steps. A source and its transmission function have the same index."""
 
     factor: Floats
-    """Cycles per turn of the input, rounded to a float."""
+    """Periods of the transmission function per revolution of the input, rounded to float64."""
     high: Floats
-    """High half of `factor` (Dekker's split)."""
+    """High half of `factor` in Dekker's split, with at most 26 bits."""
     low: Floats
-    """Low half of `factor` (Dekker's split)."""
+    """Low half of `factor` in Dekker's split."""
     rest: Floats
-    """Rounding error of `factor`."""
+    """Exact number of periods minus `factor`."""
     start: Floats
-    """Forward angle of the driver at turn 0 [rad]."""
+    """Forward angle of the driver at position 0 of the input [rad]."""
     mean: Floats
     """Mean speed of the driver over the input speed."""
     row: Ints
-    """Rows of driver and carrier, (sources, 2); -1 for links without error."""
+    """Rows of driver and carrier, shape (sources, 2); -1 for links without error."""
     sign: Floats
-    """Signs of driver and carrier, (sources, 2)."""
+    """Signs with which the errors of driver and carrier move the driver, shape (sources, 2)."""
     sense: Floats
-    """Sense of the driven side."""
+    """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
     ratio: Floats
     """Mean ratio of the transmission function."""
     gain: Floats
-    """Gain of the source on its own driver if it has a `FedBackTransmission`, else 0."""
+    """Change of the source's driver angle per unit of its own error, if it has a `FedBackTransmission`, else 0."""
 
 
 class CompositionArrays(NamedTuple):
-    """All input of the kernel. `rows` links are stored at once, and a step has at most `most` sources."""
+    """Input of the kernel. `rows` links are stored at once, and a step has at most `most` sources."""
 
     order: CompositionOrder
     sources: ComposedSources
@@ -144,10 +149,11 @@ class CompositionArrays(NamedTuple):
 
 
 def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays | None:
-    """Return the arrays of a composition, or None if a transmission function has no table or pairs are coupled."""
+    """Return the arrays of a composition; None if a transmission function has no table, or if pairs are coupled."""
     transmissions: list[TransmissionTable | None] = []
     gains: list[float] = []
     for step in composition.steps:
+        # coupled pairs need Newton's method, which the kernel has not
         if step.coupled and len(step.sources) > 1:
             return None
         own = _fed_back(composition, step) if step.coupled else None
@@ -171,7 +177,7 @@ def make_composition_arrays(composition: ErrorComposition) -> CompositionArrays 
 
 
 def _fed_back(composition: ErrorComposition, step: CompositionStep) -> TransmissionTable | None:
-    """Return the table of a pair that moves its own driver, or None if it has none or may reach a dead centre."""
+    """Return the table of a pair that moves its own driver; None if it has no table or may reach a dead centre."""
     (source,) = (composition.sources[at] for at in step.sources)
     transmission = FedBackTransmission(source.transmission, source.sense, float(composition.gain(step)[0, 0]))
     changing = type(source.transmission).picked is not TransmissionFunction.picked
@@ -184,6 +190,7 @@ def _order(composition: ErrorComposition) -> CompositionOrder:
     known = _ranges([[place[link] for link in step.known] for step in steps])
     from_known = _matrices([step.from_known for step in steps])
     from_sources = _matrices([step.from_sources for step in steps])
+    # an output is its link minus its reference link; links without error have no row
     seen = [
         [(place[link], sign) for link, sign in ((each.of, 1), (each.base, -each.sense)) if link in place]
         for each in composition.outputs
@@ -207,6 +214,7 @@ def _sources(composition: ErrorComposition, gains: Sequence[float]) -> ComposedS
     return ComposedSources(
         factor,
         *split(factor),
+        # rounding error of the factor, for Dekker's product
         np.array([float(source.cycles - Fraction(float(source.cycles))) for source in used]),
         np.array([source.start for source in used]),
         np.array([source.mean for source in used]),
@@ -240,10 +248,11 @@ def compose(
     rate: Floats,
     behind: Ints,
 ) -> None:
-    """Compute errors [rad] and rates of the outputs, (outputs, n), at some turns of the input.
+    """Compute errors [rad] and rates [1] of the outputs, shape (outputs, n), at positions of the input [revolutions],
+    in place.
 
-    plain    cycles per turn up to which a plain product gives the phase of a driver to rounding
-    behind   output by source: number of positions at which its driver turns against its mean
+    plain    periods per revolution up to which a product in float64 gives the phase of a driver to rounding
+    behind   result: number of positions at which the driver of each source turns against its mean motion
     """
     order, sources, transmissions, rows, most = arrays
     held = np.zeros((2, rows, BLOCK))
@@ -251,18 +260,21 @@ def compose(
     delta, slope = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
     scratch, cell = np.zeros(BLOCK), np.zeros(BLOCK, dtype=np.int32)
     behind[:] = 0
+    # blocks fit in the processor's cache
     for begin in range(0, len(turns), BLOCK):
         size = min(BLOCK, len(turns) - begin)
         here = turns[begin : begin + size]
         for step in range(len(order.own_start) - 1):
             _carry(order, step, size, held)
             first, last = order.sources[step], order.sources[step + 1]
+            # angle and speed of each driver, from its mean motion and the errors of links
             for source in range(first, last):
                 S, w = angle[source - first, :size], turning[source - first, :size]
                 _phase(sources, source, transmissions.period[source], plain, here, S)
                 _turn(sources, source, size, held, S, w)
             for source in range(first, last):
                 e, v = delta[source - first, :size], slope[source - first, :size]
+                # error and slope of each transmission function at this angle
                 transmission_along(
                     transmissions, source, angle[source - first, :size], e, v, scratch[:size], cell[:size]
                 )
@@ -274,7 +286,7 @@ def compose(
 
 @kernel
 def _carry(order: CompositionOrder, step: int, size: int, held: Floats) -> None:
-    """Compute the links of a step from the known links on which they depend."""
+    """Add to the links of a step the errors and rates of the known links on which they depend."""
     first, last = order.known_start[step], order.known_start[step + 1]
     at = order.from_known_start[step]
     for row in order.own[order.own_start[step] : order.own_start[step + 1]]:
@@ -284,6 +296,7 @@ def _carry(order: CompositionOrder, step: int, size: int, held: Floats) -> None:
                 into[:] = 0.0
             for known in range(first, last):
                 factor, other = order.from_known[at + known - first], held[kind, order.known[known], :size]
+                # the first term overwrites the row, which an earlier link may have used
                 if known == first:
                     for position in range(size):
                         into[position] = factor * other[position]
@@ -302,7 +315,7 @@ def _phase(
     turns: Floats,
     S: Floats,
 ) -> None:
-    """Compute the mean forward angle of a driver [rad], modulo whole periods, like `InputPhase.cycles`."""
+    """Compute the mean forward angle of a driver [rad], modulo whole periods, as `InputPhase.cycles` does."""
     factor, start = sources.factor[source], sources.start[source]
     if factor <= plain:
         for at in range(len(turns)):
@@ -323,7 +336,7 @@ def _phase(
 
 @kernel
 def _turn(sources: ComposedSources, source: int, size: int, held: Floats, S: Floats, w: Floats) -> None:
-    """Add the errors of links to the angle and speed of a driver."""
+    """Add the errors of driver and carrier to the driver's angle, and their rates to its speed, in place."""
     w[:] = sources.mean[source]
     for end in range(2):
         row, sign = sources.row[source, end], sources.sign[source, end]
@@ -336,7 +349,7 @@ def _turn(sources: ComposedSources, source: int, size: int, held: Floats, S: Flo
 
 @kernel
 def _sign(sources: ComposedSources, source: int, w: Floats, error: Floats, slope: Floats) -> None:
-    """Convert error and speed of a transmission function to error and rate of the driven side."""
+    """Convert error and speed of a transmission function to error and rate of the driven side, in place."""
     sense, ratio, gain = sources.sense[source], sources.ratio[source], sources.gain[source]
     for at in range(len(w)):
         error[at] *= sense
@@ -346,7 +359,6 @@ def _sign(sources: ComposedSources, source: int, w: Floats, error: Floats, slope
 
 @kernel
 def _count_negative(speed: Floats) -> int:
-    """Return the number of negative speeds."""
     found = 0
     for each in speed:
         found += each < 0.0
@@ -355,7 +367,7 @@ def _count_negative(speed: Floats) -> int:
 
 @kernel
 def _spread(order: CompositionOrder, step: int, size: int, delta: Floats, slope: Floats, held: Floats) -> None:
-    """Add the errors of a step's pairs to its links."""
+    """Add the errors of a step's pairs to its links, in place."""
     count = order.sources[step + 1] - order.sources[step]
     at = order.from_sources_start[step]
     for row in order.own[order.own_start[step] : order.own_start[step + 1]]:
@@ -370,7 +382,7 @@ def _spread(order: CompositionOrder, step: int, size: int, delta: Floats, slope:
 
 @kernel
 def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: Floats, rate: Floats) -> None:
-    """Compute the outputs as differences of links."""
+    """Compute errors and rates of the outputs as signed sums over links."""
     for output in range(len(order.offset)):
         e, v = error[output, begin : begin + size], rate[output, begin : begin + size]
         e[:] = order.offset[output]
@@ -384,11 +396,11 @@ def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: F
 
 @dataclass(frozen=True)
 class CompiledComposition:
-    """Composition with all transmission functions in tables and without coupled pairs.
+    """Composition by the compiled kernel, with all transmission functions in tables and without coupled pairs.
 
     Coupled pairs are evaluated with numpy. A kernel for their Newton's method was 4 to 7 times faster in the
-    composition itself (`planetary-24-18-60-triangular`, `pennestri-2002-teeth`), where other trains gain 9 to 27 times,
-    but no faster in complete runs. In plain Python it was 13 to 20 times slower than numpy.
+    composition (`planetary-24-18-60-triangular`, `pennestri-2002-teeth`), compared with 9 to 27 times for other trains,
+    but no faster in complete runs. Without compilation it was 13 to 20 times slower than numpy.
     """
 
     composition: ErrorComposition
@@ -397,16 +409,17 @@ class CompiledComposition:
 
     @property
     def chunk(self) -> int:
-        """Positions evaluated at once."""
+        """Maximum number of positions evaluated at once."""
         return self.composition.chunk
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return errors and rates of the outputs at some turns of the input."""
+        """Return errors [rad] and rates [1] of the outputs at positions of the input [revolutions]."""
         turns = np.array(turns, dtype=float)
         farthest = max(float(np.max(turns, initial=0.0)), -float(np.min(turns, initial=0.0)))
         outputs, used = len(self.composition.outputs), self.composition.used
         error, rate = np.empty((outputs, len(turns))), np.empty((outputs, len(turns)))
         behind = np.zeros(len(used), dtype=np.int64)
+        # within one period a plain product is accurate enough
         plain = PLAIN / farthest if farthest else np.inf
         compose.chosen(self.fast)(self.arrays, turns, plain, error, rate, behind)
         back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)
@@ -414,6 +427,8 @@ class CompiledComposition:
 
 
 def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:
-    """Return a composition with its kernel, or None if a transmission function has no table or pairs are coupled."""
+    """Return the compiled form of a composition; None if a transmission function has no table, or if pairs are
+    coupled.
+    """
     arrays = make_composition_arrays(composition)
     return None if arrays is None else CompiledComposition(composition, arrays)

@@ -1,8 +1,10 @@
-"""Motion with real teeth and pins: every pair's error propagates to every link, and back into the angles of the pairs.
+"""Motion with real teeth and pins: the error of every pair propagates to the links and to the driver angles of other
+pairs.
 
-Equations (2) to (4) of docs/motion.md. Each error depends on the angle of its own driver, which the errors of other
-pairs have displaced. In the order of solution these come first, and one pass composes the transmission functions
-exactly. Errors of coupled pairs are solved simultaneously (5).
+Equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's driver, which includes the errors
+of other
+pairs. These are computed first in the order of solution, so that one pass composes the transmission functions exactly.
+Errors of coupled pairs are solved simultaneously (5).
 """
 
 from __future__ import annotations
@@ -33,43 +35,45 @@ PLAIN = 1  # periods up to which a plain product gives the phase of the driver t
 
 @dataclass(frozen=True)
 class PairErrorSource:
-    """Pair with a variable transmission error."""
+    """Pair with a variable transmission error, as a source of errors of the links."""
 
     id: str
     transmission: TransmissionFunction
-    """Transmission function of the driver's forward angle."""
+    """Transmission function of the pair; its argument is the driver's forward angle [rad]."""
     pair: int
     """Index of the pair in the error propagation."""
     driver_sense: int
-    """Sense of the driver's axis: -1 if it points against its parallels, else 1.
+    """Sign of the driver's axis: -1 if it is opposite to the reference direction of its parallel axes, else 1.
 
-    `carrier_sense` is that of the carrier.
+    `carrier_sense` is the same sign for the carrier.
     """
     carrier_sense: int
     cycles: Fraction
-    """Exact mean number of periods of the transmission function per turn of the input, 0 or more."""
+    """Exact mean number of periods of the transmission function per revolution of the input, 0 or more."""
     phase: float
-    """Forward angle of the driver at turn 0 [rad]."""
+    """Forward angle of the driver at position 0 of the input [rad]."""
     forward: int
-    """Sense of the driver's mean motion: -1 if it turns backwards, else 1."""
+    """Sign of the driver's mean speed about its axis, 1 or -1."""
     sense: int
-    """Sense of the driven side's mean relative motion, 1 or -1."""
+    """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
     set_back: float = 0.0
-    """Advance of the driver over its mean angle at turn 0 [rad]. Its teeth are counted from there."""
+    """Angle of the driver at position 0 due to the errors of other pairs [rad]; the driver's teeth are counted from
+    there.
+    """
 
     @property
     def start(self) -> float:
-        """Forward angle of the driver at turn 0 without the errors of links [rad]."""
+        """Forward angle of the driver at position 0 of the input, without the errors of links [rad]."""
         return self.phase - self.set_back
 
     @property
     def mean(self) -> float:
-        """Mean forward speed of the driver over the input speed."""
+        """Mean forward speed of the driver over the speed of the input [1]."""
         return float(self.cycles) * self.transmission.period / (2 * np.pi)
 
 
 def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
-    """Return the turns of the input after which all sources repeat their positions, or None if none turns."""
+    """Return the revolutions of the input after which all sources repeat their positions; None if no driver turns."""
     cycles = [source.cycles for source in sources if source.cycles]
     if not cycles:
         return None
@@ -78,7 +82,7 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Block of the error propagation with variable errors, restricted to links that have one. `sources` are indices."""
+    """Block of the order of solution with variable errors, restricted to links with an error. `sources` are indices."""
 
     part: PropagationBlock
     links: tuple[int, ...]
@@ -90,38 +94,41 @@ class CompositionStep(NamedTuple):
 
 
 class SeenLink(NamedTuple):
-    """Link and its reference link, by index. `sense` is -1 if their axes are opposite."""
+    """Index of a link, and of the link relative to which it is measured. `sense` is -1 if their axes are opposite."""
 
     of: int
     base: int
     sense: int = 1
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link relative to its reference, from values of all links about their own axes."""
+        """Return the value of the link minus the value of its reference, from values of all links about their own
+        axes.
+        """
         return float(values[self.of] - self.sense * values[self.base])
 
 
 class ErrorSamples(NamedTuple):
-    """Errors of outputs at some positions of the input.
+    """Transmission errors of outputs at positions of the input.
 
     See Also
     --------
-    Motion.at : Method that returns these.
+    Motion.at : returns it
     """
 
     turns: Floats
-    """Turns of the input. Shape (n,)."""
+    """Positions of the input [revolutions], shape (n,)."""
     error: Floats
-    """Angle of each output less its mean motion [rad]. Shape (outputs, n).
+    """Angle of each output minus its mean motion [rad], shape (outputs, n).
 
-    With a pin and slot it includes the intended deviation from uniform motion (anomaly).
+    With a pin and slot it includes the designed deviation from uniform motion (anomaly).
     """
     rate: Floats
-    """Speed of each output less its mean, over the input speed. Shape (outputs, n)."""
+    """Speed of each output minus its mean, over the speed of the input [1], shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
-    """Pairs whose driver turns against its mean at some of these positions.
+    """Names of pairs whose driver turns against its mean motion at some of these positions.
 
-    Their flanks change there, but the transmission function remains that of the drive flanks, without backlash.
+    The contact then changes to the other flanks, but the transmission function of the drive flanks is used, without
+    backlash.
     """
 
     def __repr__(self) -> str:
@@ -130,7 +137,7 @@ class ErrorSamples(NamedTuple):
 
 @dataclass
 class ErrorComposition:
-    """Error sources of a train, and the requested outputs."""
+    """Composition of the error sources of a train for the requested outputs."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
@@ -138,12 +145,12 @@ class ErrorComposition:
     offsets: tuple[float, ...] = ()
     """Constant added to the error of each output [rad]; empty for zeros.
 
-    It has the backlash of teeth with constant ratio, and the setting of the pointers.
+    It contains the backlash of teeth with constant ratio, and the setting of the pointers.
     """
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """Order of solution, without links that have no error and without links on which no output depends."""
+        """Order of solution, restricted to links that have an error and on which an output depends."""
         wanted = {link for seen in self.outputs for link in (seen.of, seen.base)}
         kept = []
         for step in reversed(self._steps_with_errors):
@@ -154,7 +161,7 @@ class ErrorComposition:
 
     @cached_property
     def _steps_with_errors(self) -> tuple[CompositionStep, ...]:
-        """Order of solution, without links that have no error."""
+        """Order of solution, restricted to links that have an error."""
         of_pair = {source.pair: at for at, source in enumerate(self.sources)}
         lively: set[int] = set()
         steps = []
@@ -165,6 +172,7 @@ class ErrorComposition:
                 continue
             sources = tuple(of_pair[part.pairs[at]] for at in pairs)
             inside = set(part.links)
+            # the errors of this step move the driver of one of its own pairs
             coupled = any(inside.intersection(self._ends(source)) for source in sources)
             lively.update(part.links)
             steps.append(
@@ -182,22 +190,22 @@ class ErrorComposition:
 
     @cached_property
     def used(self) -> tuple[PairErrorSource, ...]:
-        """Sources that reach an output, directly or through the driver angle of another source."""
+        """Sources that affect an output, directly or through the driver angle of another source."""
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
-        """Return the change of a source's forward driver angle [rad] due to errors of links [rad, by index]."""
+        """Return the change of a source's forward driver angle [rad] due to `error`, the errors of all links [rad]."""
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
-        """Return the forward angle of a source's driver [rad], from errors of links [rad, by index]."""
+        """Return the forward angle of a source's driver [rad]; `error` has the errors of links by index [rad]."""
         S = phase.cycles(source.cycles) * source.transmission.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the two links whose errors turn a source's driver, itself and its carrier, with signs: (3)."""
+        """Return the two links whose errors turn a source's driver, the driver and its carrier, with signs: (3)."""
         joint = self.spread.joints[source.pair]
         return (
             (joint.driver, source.forward * source.driver_sense),
@@ -210,7 +218,7 @@ class ErrorComposition:
 
     @cached_property
     def place(self) -> dict[int, int]:
-        """Row in which the values of each link are stored until their last use. Later links reuse the row."""
+        """Link -> row in which its values are stored until their last use; later links use the row again."""
         last: dict[int, int] = {}
         for at, step in enumerate(self.steps):
             last.update(dict.fromkeys((*step.known, *(end for s in step.sources for end in self._ends(s))), at))
@@ -232,18 +240,20 @@ class ErrorComposition:
 
     @cached_property
     def rows(self) -> int:
-        """Number of links stored at once."""
+        """Maximum number of links whose values are stored at once."""
         return max(self.place.values(), default=-1) + 1
 
     @cached_property
     def chunk(self) -> int:
-        """Positions evaluated at once. It bounds the memory for trains of any length."""
+        """Maximum number of positions evaluated at once; it limits the memory for trains of any length."""
         # stored numbers: errors and rates of the links, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
         return max(64, min(_CHUNK, _NUMBERS // (2 * (self.rows + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return errors and rates of the outputs at some turns of the input, at most one chunk."""
+        """Return errors [rad] and rates [1] of the outputs at no more than `chunk` positions of the input
+        [revolutions].
+        """
         angle = InputPhase(turns)
         error = np.empty((self.rows, len(turns)))
         rate = np.empty_like(error)
@@ -251,6 +261,7 @@ class ErrorComposition:
         found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
         for at, seen in enumerate(self.outputs):
             for link, sign in ((seen.of, 1), (seen.base, -seen.sense)):
+                # links without a row have no error
                 if link in self.place:
                     found[0][at] += sign * error[self.place[link]]
                     found[1][at] += sign * rate[self.place[link]]
@@ -259,7 +270,7 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the links of a step in place. Yield its pairs whose driver turns against its mean."""
+        """Compute the links of a step in place. Yield the names of pairs whose driver turns against its mean motion."""
         known = [self.place[link] for link in step.known]
         first = self.place[step.links[0]]
         own = slice(first, first + 1) if len(step.links) == 1 else [self.place[link] for link in step.links]
@@ -285,9 +296,9 @@ class ErrorComposition:
         yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)
 
     def _driver_angle(self, at: int, angle: InputPhase, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
-        """Return the forward angle [rad] and speed of a source's driver.
+        """Return the forward angle [rad] and speed [1] of a source's driver.
 
-        Links of its own step count with their current errors.
+        The errors of links in the same step have their current values.
         """
         source = self.sources[at]
         S = angle.cycles(source.cycles) * source.transmission.period
@@ -302,7 +313,9 @@ class ErrorComposition:
         return S, turning
 
     def gain(self, step: CompositionStep) -> Floats:
-        """Return the gain of each driver of a step from the errors of the step's own pairs, (sources, sources)."""
+        """Return the change of each driver's angle per unit of each error in the same step [rad/rad], shape (sources,
+        sources).
+        """
         inside = {link: at for at, link in enumerate(step.links)}
         gain = np.zeros((len(step.sources), len(step.sources)))
         for row, at in enumerate(step.sources):
@@ -322,7 +335,7 @@ class ErrorComposition:
 
 
 class InputPhase:
-    """Positions of the input in turns, and the fraction of a period of any transmission function at them."""
+    """Positions of the input, from which the phase of any transmission function is computed."""
 
     def __init__(self, turns: Floats) -> None:
         self.turns = turns
@@ -333,10 +346,10 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """Return turns times an exact ratio with Dekker's product, reduced modulo 1 where there are many periods.
+        """Return position times an exact number of periods per revolution [periods], modulo 1 if there are many
+        periods.
 
-        The result is accurate to the rounding of one period at any length: after 1e12 turns the teeth are still in
-        place.
+        Dekker's product makes the result accurate to the rounding of one period, even after 1e12 revolutions.
         """
         factor = float(ratio)
         product: Floats = self.turns * factor

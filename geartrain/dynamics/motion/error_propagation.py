@@ -1,13 +1,13 @@
 """Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved block by block (its section 2).
 
-a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that of the pair's driven side.
-This is the Willis system with its mean speeds subtracted. Blocks (matching and strongly connected components) are
-solved once, exactly. After that every link is a sum over a few earlier links.
+a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta the error of the pair's driven
+side. This is the Willis system without the mean speeds. Blocks of the block triangular form (matching and strongly
+connected components) are solved once, exactly. Every link is then a sum over a few earlier links.
 
 Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
 docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Transmission functions have
 kinks, so a step that does not reduce the residual is halved. If that fails, a single pair is solved by bisection,
-because no Newton step leaves a dwell, in which the driven wheel rests while its driver turns.
+because Newton's method cannot leave a dwell, in which the driven wheel is at rest while its driver turns.
 """
 
 from __future__ import annotations
@@ -44,16 +44,18 @@ _DEAD_CENTRE = "it is past a dead centre: an error moves its own driver by more 
 
 @dataclass(frozen=True)
 class CoupledErrors:
-    """Coupled pairs: names, transmission functions, senses of the driven sides, and `gain`, (pairs, pairs)."""
+    """Coupled pairs: names, transmission functions, senses of the driven sides, and `gain`, shape (pairs, pairs)."""
 
     names: tuple[str, ...]
     transmissions: tuple[TransmissionFunction, ...]
     senses: Floats
     gain: Floats
-    """Change of driver m's forward angle per radian of pair n's driven error."""
+    """Change of the forward angle of driver m per unit of the error of pair n's driven side [rad/rad]."""
 
     def transmissions_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
-        """Return driven errors and their slopes over the drivers' angles, both signed, (pairs, n)."""
+        """Return the errors of the driven sides [rad] and their derivatives by the driver angles [1], signed, shape
+        (pairs, n).
+        """
         error, slope = np.empty_like(S), np.empty_like(S)
         for at, transmission in enumerate(self.transmissions):
             error[at], tau = transmission.picked(columns).error_and_speed(S[at])
@@ -63,16 +65,18 @@ class CoupledErrors:
         return error, slope
 
     def jacobian(self, slope: Floats) -> Floats:
-        """Return the Jacobian J = I - slope gain of equation (5) at each position, (n, pairs, pairs)."""
+        """Return the Jacobian J = I - slope gain of equation (5) at each position, shape (n, pairs, pairs)."""
         return np.eye(len(self.transmissions)) - slope.T[:, :, None] * self.gain
 
 
 def solve_coupled_errors(
     pairs: CoupledErrors, base: Floats, turning: Sequence[Floats | float]
 ) -> tuple[Floats, Floats, list[Floats | float]]:
-    """Solve for errors, their rates and the driver speeds, given driver angles and speeds without these errors.
+    """Return errors [rad], rates [1] and driver speeds [1] of coupled pairs, from driver angles and speeds without
+    these errors.
 
-    base      (pairs, n) rad; `turning` is the speed by pair over the input speed
+    base      driver angles [rad], shape (pairs, n)
+    turning   driver speeds over the speed of the input [1], by pair
 
     Raises `GearTrainError` if the solution is not unique: the train would jump or lock there.
     """
@@ -88,7 +92,7 @@ def solve_coupled_errors(
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Solve for errors by Newton's method. Return them with the slopes of the transmission functions."""
+    """Return the errors [rad] by Newton's method, with the slopes of the transmission functions [1]."""
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.transmissions_at(base, active)
@@ -122,10 +126,11 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Solve for the error of a single pair by bisection: delta - error increases short of a dead centre.
+    """Return the error [rad] and slope [1] of a single pair by bisection; delta - error increases until a dead centre.
 
-    A transmission function may jump past the solution, as for cut teeth that clash. The error is then at the jump, with
-    slope 0. Where nothing touches, the error is infinite like that of the transmission function.
+    If the transmission function jumps at the solution, as for cut teeth that clash, the position of the jump is
+    returned
+    with slope 0. Without contact the error is infinite, as in the transmission function.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -142,7 +147,7 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
-    """Return Newton's step, or 0 at dead centres, where the Jacobian is singular."""
+    """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
     dead = _determinant(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
@@ -153,7 +158,7 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Solve n small systems, (pairs, n), with Cramer's rule for two pairs, the usual number around a differential."""
+    """Return the solutions of n small systems, shape (pairs, n), by Cramer's rule for two pairs, the usual number."""
     if matrices.shape[1] == 1:
         return np.asarray(right / matrices[:, 0, 0])
     if matrices.shape[1] == 2:
@@ -171,7 +176,7 @@ def _determinant(matrices: Floats) -> Floats:
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
-    """Return the error for pairs that cannot be solved, with the cause."""
+    """Return the error for pairs without a unique motion, with its cause `why`."""
     names = ", ".join(pairs)
     if len(pairs) == 1:
         what = f"the motion of pair {names}, which moves its own driver, has no unique solution"
@@ -181,7 +186,9 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
 
 
 class ErrorPath(NamedTuple):
-    """Links of a pair or coupling for error propagation, and the coefficient of the driven side in its row."""
+    """Links of a pair or coupling, and the coefficient of the driven side in its equation, for the propagation of
+    errors.
+    """
 
     driver: int
     driven: int
@@ -190,36 +197,40 @@ class ErrorPath(NamedTuple):
 
 
 class PropagationBlock(NamedTuple):
-    """Links solved together, from earlier links and from the pairs of their rows."""
+    """Links whose errors are solved together, as linear functions of earlier links and of pair errors."""
 
     links: tuple[int, ...]
     """Indices of the links."""
     known: tuple[int, ...]
-    """Indices of the earlier links. Their coefficients are `from_known`, (links, known)."""
+    """Indices of the earlier links. The coefficients are `from_known`, shape (links, known)."""
     pairs: tuple[int, ...]
-    """Indices of the pairs. Their coefficients are `from_pairs`, (links, pairs)."""
+    """Indices of the pairs. The coefficients are `from_pairs`, shape (links, pairs)."""
     from_known: Floats
     from_pairs: Floats
 
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """Error propagation of a train: `parts` in order of solution, over `links` and `pairs` by index."""
+    """Propagation of pair errors to links: blocks `parts` in order of solution, with indices into `links` and
+    `pairs`.
+    """
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
-    """Links by pair. Each is built when it is first read."""
+    """Links of each pair, by index; they are determined when they are first read."""
     parts: tuple[PropagationBlock, ...]
-    """Blocks on which the wanted links depend. Other links have no error here."""
+    """Blocks on which the requested links depend. Errors of other links are 0 here."""
 
     @property
     def reached(self) -> frozenset[int]:
-        """Pairs whose error reaches the wanted links, directly or through the angle of another pair's driver."""
+        """Pairs whose error affects the requested links, directly or through the driver angle of another pair."""
         return frozenset(pair for part in self.parts for pair in part.pairs)
 
     def errors(self, deltas: Floats) -> Floats:
-        """Return errors of all links, (links, n), from those of all pairs, (pairs, n), without feedback."""
+        """Return errors of all links [rad], shape (links, n), from the errors of all pairs [rad], shape (pairs, n),
+        without feedback.
+        """
         found = np.zeros((len(self.links), deltas.shape[1]))
         for part in self.parts:
             spread = part.from_known @ found[list(part.known)] + part.from_pairs @ deltas[list(part.pairs)]
@@ -227,9 +238,10 @@ class ErrorPropagation:
         return found
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
-        """Return the sensitivity of a link relative to another to each pair's driven error, by the adjoint method.
+        """Return the sensitivity of a link's angle, relative to link `base`, to the error of each pair [rad/rad], by
+        the adjoint method.
 
-        sense   -1 where the axes of the two are opposite
+        sense   -1 if the axes of the two links are opposite
 
         Raises `RangeError` if a sensitivity exceeds float64.
         """
@@ -253,11 +265,12 @@ class ErrorPropagation:
 def find_error_propagation(
     system: WillisSystem, ends: Mapping[str, Sequence[int]], path: Callable[[str], ErrorPath], wanted: Iterable[int]
 ) -> ErrorPropagation | None:
-    """Return the order of solution of a square system for some links, or None if its rows do not determine them.
+    """Return the order of solution of a square system for some links; None if its equations do not determine them.
 
-    ends     both sides and the carrier of each pair, by the label of its row; other rows have no error (inputs, locks)
-    path     function from label to `ErrorPath`, called for pairs that the wanted links depend on, else when read
-    wanted   links by index
+    ends     row label of each pair -> both sides and the carrier; other rows (inputs, locks) have no error
+    path     function that returns the `ErrorPath` of a row label; it is called at once for pairs on which the requested
+             links depend, for others when it is needed
+    wanted   indices of the requested links
     """
     at = {link: number for number, link in enumerate(system.links)}
     rows = [{at[link]: coefficient for link, coefficient in row.terms} for row in system.equations]
@@ -282,7 +295,7 @@ def find_error_propagation(
 
 
 def _before(wanted: Iterable[int], blocks: Sequence[Block], rows: Sequence[Sequence[int]]) -> list[Block]:
-    """Return the blocks that some columns depend on, in order. `rows` lists the columns that each row depends on."""
+    """Return the blocks on which the columns `wanted` depend, in order; `rows` has the columns of each row."""
     needed, kept = set(wanted), []
     for block in reversed(blocks):
         if needed.intersection(block.columns):
@@ -294,10 +307,11 @@ def _before(wanted: Iterable[int], blocks: Sequence[Block], rows: Sequence[Seque
 def _solve(
     block: Block, rows: Sequence[Mapping[int, int]], own: Sequence[int], joints: Mapping[int, ErrorPath]
 ) -> PropagationBlock | None:
-    """Solve one block exactly: its links as linear forms of earlier links and of its pairs' errors."""
+    """Return the exact solution of one block: its links as linear forms of earlier links and of pair errors."""
     inside = {column: number for number, column in enumerate(block.columns)}
     known = tuple(dict.fromkeys(column for row in block.rows for column in rows[row] if column not in inside))
     pairs = tuple(own[row] for row in block.rows if own[row] >= 0)
+    # earlier links and pair errors are symbols (negative columns), which elimination does not solve for
     symbol = {column: -1 - number for number, column in enumerate(known)}
     forms: list[LinearForm] = []
     for row in block.rows:

@@ -1,7 +1,8 @@
 """Extreme errors and rates of outputs over a run of the input: branch and bound, then smooth pieces.
 
 The run is divided into steps narrower than the shortest pitch, and `rate_bounds` bounds errors and rates in each. Steps
-that cannot contain an extreme are discarded and the others divided in four, repeatedly. The remaining steps are divided
+that cannot contain an extreme are discarded, and the others are divided in four, repeatedly. The remaining steps are
+divided
 at the kinks of all transmission functions. Errors are smooth on each piece, and the extremes follow from Chebyshev
 polynomials and from the one-sided limits at jumps. The result does not depend on the sampled positions of a run.
 """
@@ -47,34 +48,34 @@ _NO_PIECE = 4  # times that distance: kinks closer than this are not separated
 
 
 def signed(error: Floats, rate: Floats) -> Floats:
-    """Return errors, negated errors, rates, negated rates, (outputs, 4, n). The maximum of each is sought."""
+    """Return errors, negated errors, rates and negated rates, shape (outputs, 4, n), whose maxima are searched for."""
     return np.stack([error, -error, rate, -rate], axis=1)
 
 
 class BoundedSteps(NamedTuple):
-    """Steps of the input with upper bounds of the values sought, (outputs, 4, n)."""
+    """Steps of the input, with upper bounds in each step of the values that are maximised, shape (outputs, 4, n)."""
 
     steps: InputSteps
     above: Floats
 
     @classmethod
     def joined(cls, parts: Sequence[BoundedSteps]) -> BoundedSteps:
-        """Join all steps of some parts."""
+        """Return the steps of all parts in one object."""
         low, high = (np.concatenate([part.steps[end] for part in parts]) for end in (0, 1))
         return cls(InputSteps(low, high), np.concatenate([part.above for part in parts], axis=2))
 
     def chosen(self, which: Bools | Indices | slice) -> BoundedSteps:
-        """Return a selection of the steps."""
+        """Return the steps selected by an index, a mask or a slice."""
         return BoundedSteps(InputSteps(self.steps.low[which], self.steps.high[which]), self.above[:, :, which])
 
     def of_outputs(self, outputs: list[int], search: StepSearch) -> BoundedSteps:
-        """Return the steps that may exceed the values found, for some of the outputs."""
+        """Return the steps, with bounds of some outputs only, in which these may exceed the maxima found so far."""
         above = self.above[outputs]
         more = (above > (search.values + search.tolerance)[outputs, :, None]).any(axis=(0, 1))
         return BoundedSteps(InputSteps(self.steps.low[more], self.steps.high[more]), above[:, :, more])
 
     def before(self, end: float) -> BoundedSteps:
-        """Return the steps that begin before a position of the input."""
+        """Return the steps that begin before the position `end` of the input [revolutions]."""
         return self.chosen(self.steps.low < end)
 
     @property
@@ -84,18 +85,18 @@ class BoundedSteps(NamedTuple):
 
     @property
     def width(self) -> float:
-        """Width of the widest step [turns]."""
+        """Width of the widest step [revolutions]."""
         return float(np.max(self.steps.high - self.steps.low, initial=0.0))
 
 
 class StepSearch:
-    """Search for extremes of a composition, or of the difference of two compositions, in steps of the input.
+    """Branch-and-bound search for the extremes of one composition, or of the difference of two, in steps of the input.
 
-    parts               the composition, and the one to subtract if there is one
-    share               fraction of the effort spent on steps that are not narrow
-    values              (outputs, 4): maxima found of errors, negated errors, rates, negated rates
-    dropped             (outputs, 4): upper bounds in steps not searched, or between evaluated positions
-    reversing_drivers   pairs whose driver turned against its mean at some position
+    parts               composition, and a second one to subtract if there is one
+    share               fraction of the maximum number of wide steps that this search may store
+    values              maxima found of errors, negated errors, rates, negated rates, shape (outputs, 4)
+    dropped             upper bounds in steps not searched, or between evaluated positions, shape (outputs, 4)
+    reversing_drivers   pairs whose driver turned against its mean motion at some position
     """
 
     def __init__(self, parts: tuple[ErrorComposition, ...], share: float = 1.0) -> None:
@@ -110,24 +111,24 @@ class StepSearch:
 
     @cached_property
     def step(self) -> float:
-        """Turns of the input that are narrow for every transmission function."""
+        """Maximum width of a narrow step [revolutions], which is narrow for every transmission function."""
         return min(kinks.step for kinks in self._kink_searches)
 
     @cached_property
     def _rate(self) -> float:
-        """Mean number of kinks per turn of the input."""
+        """Mean number of kinks per revolution of the input."""
         return sum(kinks.rate for kinks in self._kink_searches)
 
     @property
     def tolerance(self) -> Floats:
-        """Increments below which larger extremes are not sought."""
+        """Difference from the maxima found below which larger values are not searched for, shape (outputs, 4)."""
         ranges = np.repeat(self.values[:, ::2] + self.values[:, 1::2], 2, axis=1)
         return np.maximum(_SURE * ranges, _ROUNDING)
 
     # ------------------------------------------------------------------------------------------------ branch and bound
 
     def go(self, left: BoundedSteps) -> None:
-        """Search some steps by branch and bound."""
+        """Search the given steps by branch and bound."""
         before = 0
         for division in range(_MOST_DIVISIONS):
             # narrow steps are divided at least twice, and then as long as their number decreases
@@ -145,14 +146,14 @@ class StepSearch:
         self._drop(left)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
-        """Search near some positions within a run, as far as steps of that width are narrow."""
+        """Search near some positions of a run, within `step` but at most one narrow step on each side [revolutions]."""
         width = min(step, self.step)
         low = np.unique(np.clip(turns - width, start, end))
         high = np.minimum(low + 2 * width, np.append(low[1:], end))
         self._cut_at_kinks(InputSteps(low[high > low], high[high > low]))
 
     def _searched(self, steps: Iterator[InputSteps]) -> BoundedSteps:
-        """Return the steps that may contain an extreme, in order of their bounds, up to a maximum number."""
+        """Return the steps that may contain an extreme, sorted by falling bounds, up to a maximum number."""
         parts = [self._promising(self.bounded(part)) for part in steps]
         left = self._promising(BoundedSteps.joined(parts))
         most = min(_MOST_LEFT, _NUMBERS // (4 * len(self.values))) if left.width <= self.step else self._most_wide
@@ -160,7 +161,7 @@ class StepSearch:
         return left.chosen(slice(most))
 
     def bounded(self, steps: InputSteps) -> BoundedSteps:
-        """Return the steps with bounds. Values at their ends are included in the maxima."""
+        """Return the steps with their bounds. Values at the ends of the steps are included in the maxima."""
         found = self._bounds[0].over(*steps)
         if len(self._bounds) > 1:
             found = StepBounds.difference(found, self._bounds[1].over(*steps))
@@ -172,14 +173,14 @@ class StepSearch:
         return BoundedSteps(steps, np.where(np.isnan(above), -np.inf, above))
 
     def _promising(self, given: BoundedSteps) -> BoundedSteps:
-        """Return the steps that may exceed the values found, largest bounds first."""
+        """Return the steps that may exceed the maxima found so far, sorted by falling bounds."""
         excess = (given.above - self.values[:, :, None]) / self.tolerance[:, :, None]
         most = excess.max(axis=(0, 1), initial=-np.inf)
         order = np.argsort(-most, kind="stable")
         return given.chosen(order[: int(np.count_nonzero(most > 1))])
 
     def _drop(self, given: BoundedSteps) -> None:
-        """Record the bounds of steps that are not searched."""
+        """Record the bounds of steps that are not searched further."""
         self.dropped = np.maximum(self.dropped, given.above.max(axis=2, initial=-np.inf))
 
     def _count(self, passage: ErrorSamples) -> None:
@@ -192,13 +193,17 @@ class StepSearch:
     # --------------------------------------------------------------------------------------------------- smooth pieces
 
     def _cut_at_kinks(self, steps: InputSteps) -> None:
-        """Include the extremes within disjoint steps, piece by piece between kinks."""
+        """Include in the maxima the extremes within disjoint steps, found separately on each smooth piece between
+        kinks.
+        """
         order = np.argsort(steps.low)
         low, high = steps.low[order], steps.high[order]
         kinks = [search.between(InputSteps(low, high)).turns for search in self._kink_searches]
         edges = np.unique(np.concatenate([low, high, *kinks]))
         middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+        # step that contains each piece; gaps between steps are dropped
         within = np.maximum(np.searchsorted(low, middle) - 1, 0)
+        # pieces end slightly before a kink, where one-sided limits are taken
         beside = np.maximum(_BESIDE * (high - low)[within], _ULPS * np.spacing(np.abs(middle)))
         held = (middle < high[within]) & (width > _NO_PIECE * beside)
         middle, half = middle[held], (width / 2 - beside)[held]
@@ -207,7 +212,7 @@ class StepSearch:
             self._take_pieces(middle[first : first + size], half[first : first + size])
 
     def _take_pieces(self, middle: Floats, half: Floats) -> None:
-        """Include the extremes of smooth pieces."""
+        """Include the extremes of smooth pieces in the maxima."""
         found = self._at((middle[:, None] + half[:, None] * _NODES).ravel())
         self._count(found)
         values = signed(found.error, found.rate).reshape(len(self.values), 4, len(middle), -1)
@@ -216,6 +221,7 @@ class StepSearch:
             peak = self._peak(values[sought], sought)
             if peak is not None:
                 likely.setdefault(peak[0], []).append(peak[1])
+        # the composition is evaluated at the maxima of the polynomials, so that values are not interpolated
         if likely:
             turns = [middle[piece] + half[piece] * u for piece, places in likely.items() for u in places]
             self._count(self._at(np.array(turns)))
@@ -225,11 +231,12 @@ class StepSearch:
         return found[0] if len(found) == 1 else error_difference(*found)
 
     def _peak(self, pieces: Floats, sought: tuple[int, ...]) -> tuple[int, float] | None:
-        """Return the index of the highest polynomial and the place of its maximum, from -1 to 1.
+        """Return the index of the piece with the largest maximum, and the place of this maximum, -1 to 1, if it is
+        larger.
 
-        The result is None if the maximum is not in the interior.
+        The result is None if no piece has a larger maximum in its interior.
 
-        pieces    (n, nodes): their values at the nodes
+        pieces    values at the Chebyshev nodes of each piece, shape (n, nodes)
         """
         # a polynomial of degree 8 hardly exceeds its values at the nodes, so pieces far below the maximum are skipped
         with np.errstate(invalid="ignore"):
@@ -257,7 +264,7 @@ class StepSearch:
 
 
 def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
-    """Yield steps divided in equal parts, one chunk at a time."""
+    """Yield the steps, each divided into `_PARTS` equal parts, in chunks."""
     size = max(1, chunk // _PARTS)
     for first in range(0, len(steps.low), size):
         low, high = (each[first : first + size, None] for each in steps)
@@ -267,10 +274,10 @@ def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
 
 
 class ExtremeSearch:
-    """Extremes of a composition, or of the difference of two compositions, over a run of the input.
+    """Extremes of one composition, or of the difference of two, over a run of the input.
 
-    values              (outputs, 4): maxima found of errors, negated errors, rates, negated rates
-    reversing_drivers   pairs whose driver turned against its mean at some position
+    values              maxima found of errors, negated errors, rates, negated rates, shape (outputs, 4)
+    reversing_drivers   pairs whose driver turned against its mean motion at some position
     """
 
     def __init__(self, composition: ErrorComposition, less: ErrorComposition | None = None) -> None:
@@ -281,14 +288,14 @@ class ExtremeSearch:
         self.reversing_drivers = self._whole.reversing_drivers
 
     @property
-    def doubt(self) -> Floats:
-        """Bound on how far a value of the run may exceed the maxima found, (outputs, 4)."""
+    def uncertainty(self) -> Floats:
+        """Upper bound on the difference between the true maxima and the maxima found, shape (outputs, 4)."""
         beyond = self._dropped - self.values
         return np.where(beyond > 2 * self._whole.tolerance, beyond, 0.0)
 
     @cached_property
     def _groups(self) -> dict[tuple[int, ...], tuple[ErrorComposition, ...]]:
-        """Groups of outputs that depend on the same pairs, by index, with their compositions."""
+        """Compositions for groups of outputs that depend on the same pairs, by indices of the outputs."""
         found: dict[frozenset[int], list[int]] = {}
         for at in range(len(self.values)):
             pairs = (source.pair for part in self._parts for source in _restricted(part, (at,)).used)
@@ -296,12 +303,13 @@ class ExtremeSearch:
         return {tuple(each): tuple(_restricted(part, each) for part in self._parts) for each in found.values()}
 
     def over(self, start: float, end: float) -> None:
-        """Search from one position of the input to a later one."""
+        """Search the run between two positions of the input [revolutions]."""
         if not len(self.values):
             return
         end = _period_end(self._parts, start, end)
         left: dict[tuple[int, ...], list[BoundedSteps]] = {group: [] for group in self._groups}
         for steps in self._first(start, end):
+            # the first round bounds all outputs together, later rounds search groups separately
             bounded = self._whole.bounded(steps)
             for group, parts in left.items():
                 parts.append(bounded.of_outputs(list(group), self._whole))
@@ -312,7 +320,7 @@ class ExtremeSearch:
             self._take(group, search)
 
     def around(self, turns: Floats, step: float, start: float, end: float) -> None:
-        """Search near promising positions within a run, (outputs, n), in addition."""
+        """Search in addition near positions where extremes are expected, shape (outputs, n) [revolutions]."""
         for group, parts in self._groups.items():
             search = StepSearch(parts)
             search.values = self.values[list(group)]
@@ -320,14 +328,14 @@ class ExtremeSearch:
             self._take(group, search)
 
     def _take(self, group: tuple[int, ...], search: StepSearch) -> None:
-        """Record the results for some outputs."""
+        """Record the results of a search for some outputs."""
         at = list(group)
         self.values[at] = self._whole.values[at] = np.maximum(self.values[at], search.values)
         self._dropped[at] = np.maximum(self._dropped[at], search.dropped)
         self.reversing_drivers |= search.reversing_drivers
 
     def _first(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Yield the whole run in steps, which are narrow unless there would be too many."""
+        """Yield the whole run in steps, which are narrow unless there are too many."""
         wanted = (end - start) / self._whole.step
         number = _MOST_STEPS if wanted > _MOST_STEPS else max(_FEWEST_STEPS, ceil(wanted))
         for first in range(0, number, self._whole.chunk):
@@ -345,6 +353,6 @@ def _restricted(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorC
 
 
 def _period_end(parts: tuple[ErrorComposition, ...], start: float, end: float) -> float:
-    """Return the end of a run, or of its first period if that is earlier."""
+    """Return the end of a run, or the end of its first period if this is earlier [revolutions]."""
     period = common_period([source for part in parts for source in part.used])
     return end if period is None or period >= end - start else start + float(period)

@@ -1,9 +1,10 @@
-"""Positions of the input at which pairs pass kinks. All errors are smooth between them.
+"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between
+them.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
-equation (3) of docs/motion.md, which includes the errors of earlier pairs. S_m(x) = kink + a whole number of periods is
-solved for x. The values of S_m at the ends of a narrow step give the number of kinks it passes, and each is located by
-false position. If a driver reverses, the step is divided at the reversal.
+equation (3) of docs/motion.md, which includes the errors of earlier pairs. The equation S_m(x) = kink + an integer
+number of periods is solved for x. The values of S_m at the ends of a narrow step determine the number of kinks in it,
+and each is located by false position. If a driver reverses, the step is divided at the reversal.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Indices
 
 MOST_KINKS = 20_000_000
-"""Maximum number of kinks listed at once."""
+"""Maximum number of kinks in one list."""
 
 _STEPS = 4  # steps per period of the fastest pair: the driver is monotonic in a step, or slow at one of its ends
 _FEWEST = 16  # minimum number of steps in a run
@@ -43,13 +44,13 @@ class KinkPositions(NamedTuple):
 
     See Also
     --------
-    Motion.kink_positions : Method that returns these.
+    Motion.kink_positions : returns it
     """
 
     turns: Floats
-    """Turns of the input. Shape (n,)."""
+    """Positions of the input [revolutions], shape (n,)."""
     pair: Indices
-    """Index into `pairs` of the pair with the kink. Shape (n,)."""
+    """Index into `pairs` of the pair with the kink, shape (n,)."""
     pairs: tuple[str, ...]
     """Names of pairs and couplings."""
 
@@ -62,7 +63,7 @@ class KinkPositions(NamedTuple):
 
 
 class InputSteps(NamedTuple):
-    """Steps of the input: turns at their starts and ends, (n,) each."""
+    """Steps of the input, by the positions of their starts and ends [revolutions], shape (n,) each."""
 
     low: Floats
     high: Floats
@@ -70,9 +71,9 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of one transmission function, and its driver's angle by turns of the input.
+    """Kinks of one transmission function, with the angle of its driver as a function of the input position.
 
-    kinks    rad, within one period, each once
+    kinks    driver angles at the kinks [rad], within one period, each once
     """
 
     source: PairErrorSource
@@ -88,7 +89,9 @@ class PairKinks:
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
     def shift(self, turns: Floats) -> tuple[Floats, Floats]:
-        """Return the change of the driver's forward angle due to errors [rad], and its speed over the input speed."""
+        """Return the change of the driver's forward angle due to errors [rad], and its speed over the speed of the
+        input [1].
+        """
         if not len(turns):
             return np.zeros(0), np.zeros(0)
         size = self.drivers.chunk
@@ -101,7 +104,8 @@ class PairKinks:
         return way * error, self.source.mean + way * rate
 
     def between(self, steps: InputSteps) -> Floats:
-        """Return the turns of the input at the kinks within some steps, and the kink indices: (2, n), in any order.
+        """Return the positions of kinks within some steps [revolutions] and the indices of the kinks, shape (2, n), in
+        any order.
 
         A kink at the end of a step may be listed twice.
         """
@@ -114,7 +118,7 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Divide the steps in which the driver may reverse, at the reversals found by bisection."""
+        """Return the steps, divided at reversals of the driver, which are found by bisection."""
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
         ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum
@@ -132,7 +136,9 @@ class PairKinks:
         )  # fmt: skip
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
-        """Return the kinks as in `between`, in steps without reversals, from the shifts at their ends [rad]."""
+        """Return positions and indices of the kinks in steps without reversals, from `low` and `high`, the driver's
+        shifts at their ends [rad].
+        """
         period, cycles = self.source.transmission.period, self.source.cycles
         width = steps.high - steps.low
         phase = np.mod(InputPhase(steps.low).cycles(cycles) * period + self.source.start + low, period)
@@ -157,7 +163,7 @@ class PairKinks:
         return np.stack([steps.low[step] + share * width[step], kink])
 
     def unique(self, found: Floats) -> Floats:
-        """Sort the turns from `between`, and remove kinks found from both sides of a position."""
+        """Return the positions from `between` in ascending order, without kinks that were found from both sides."""
         turns, kink = found[:, np.lexsort(found)]
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
         again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(kink, prepend=-1) == 0)
@@ -165,14 +171,14 @@ class PairKinks:
 
 
 def _filled(chosen: Floats, values: Floats, ends: Floats) -> Floats:
-    """Return `values` at the chosen steps, and the ends of the other steps."""
+    """Return `values` at the indices `chosen`, and the ends of the steps elsewhere."""
     found = ends[:, 1:].copy()
     found[chosen] = values
     return found
 
 
 class KinkSearch:
-    """Search for kinks of all pairs that an output of a composition depends on."""
+    """Search for kinks of all pairs on which an output of a composition depends."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition = composition
@@ -191,17 +197,19 @@ class KinkSearch:
 
     @cached_property
     def rate(self) -> float:
-        """Mean number of kinks per turn of the input."""
+        """Mean number of kinks per revolution of the input."""
         return sum(float(pair.source.cycles) * len(pair.kinks) for pair in self.pairs)
 
     @cached_property
     def step(self) -> float:
-        """Turns of the input that are narrow for every transmission function; infinite if every error is constant."""
+        """Maximum width of a step [revolutions] that is narrow for every transmission function; infinite if every
+        error is constant.
+        """
         fastest = max((float(pair.source.cycles) for pair in self.pairs), default=0.0)
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Yield a stretch of the input in narrow steps, one chunk at a time."""
+        """Yield narrow steps from one position of the input to another [revolutions], in chunks."""
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
         size = self.composition.chunk
         for first in range(0, number, size):
@@ -211,11 +219,11 @@ class KinkSearch:
             yield InputSteps(ends[:-1], ends[1:])
 
     def between(self, steps: InputSteps) -> KinkPositions:
-        """Return the kinks within some narrow steps."""
+        """Return the kinks within the given narrow steps."""
         return self._joined([[pair.between(steps)] for pair in self.pairs])
 
     def over(self, start: float, end: float) -> KinkPositions:
-        """Return the kinks from one position of the input to a later one, both included."""
+        """Return the kinks between two positions of the input [revolutions], both included."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
             what = f"from {start:g} to {end:g} turns, pairs pass about {expected:.2g} kinks"
             why = f"at most {MOST_KINKS:g} are listed"
@@ -227,7 +235,7 @@ class KinkSearch:
         return self._joined(found)
 
     def _joined(self, found: list[list[Floats]]) -> KinkPositions:
-        """Merge the kinks of each pair, found in parts, in one order."""
+        """Return the kinks of all pairs, sorted by position."""
         each = [pair.unique(np.concatenate(parts, axis=1)) for pair, parts in zip(self.pairs, found, strict=True)]
         turns = np.concatenate(each or [np.zeros(0)])
         pair = np.repeat(np.arange(len(each)), [len(part) for part in each])

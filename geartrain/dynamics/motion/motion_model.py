@@ -1,7 +1,8 @@
 """Motion of a solved train: pairs with variable errors, driving sides, starting positions, and error propagation.
 
-At turn 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The angles
-of drivers are counted from turn 0, so that the errors of earlier pairs do not move the tooth with which a pair starts.
+At position 0 every tooth and pin has its declared phase, and every pointer is set: section 3 of docs/motion.md. The
+angles of drivers are counted from position 0, so that the errors of other pairs do not change the phase at which a pair
+starts.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_spe
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.kinematics.willis_system import axis_sense
 from geartrain.numerics.kernels import is_fast
-from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, picture_maker
+from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, imported_function
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -39,18 +40,21 @@ _PACE = 2e6  # link positions per second evaluated by numpy in typical trains
 
 @dataclass(frozen=True)
 class PointerCompositions:
-    """Compositions of some outputs of a train, from the errors of its pairs."""
+    """Compositions of the outputs of a train for both directions of the input, with pointers set at position 0."""
 
     errors: PairErrors
     outputs: tuple[SeenLink, ...]
 
     def composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the composition for one direction of the input. `besides` is that of `PairErrors.sources`."""
+        """Return the composition for one direction of the input, 1 or -1. `besides` has the same meaning as in
+        `PairErrors.sources`.
+        """
         backlash, (teeth, pins) = self.errors.backlash(way), self._start
         found = ErrorComposition(self.errors.spread, tuple(self.errors.sources(way, besides)), self.outputs)
         sources = tuple(
             replace(
                 each,
+                # backlash displaces the driver; `set_back` is its advance at position 0 due to other pairs
                 phase=each.phase + found.driver_shift(each, backlash),
                 set_back=found.driver_shift(each, teeth + pins),
             )
@@ -62,9 +66,9 @@ class PointerCompositions:
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles added to each link at turn 0 by teeth, and by pins [rad].
+        """Angles added to each link at position 0 of the input by teeth, and by pins [rad].
 
-        They are linear, because all driver angles are known.
+        They are linear in the errors of the pairs, because all driver angles are known.
         """
         deltas = np.zeros((len(self.errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self.errors.train.pins}
@@ -75,19 +79,21 @@ class PointerCompositions:
 
     @property
     def setting(self) -> Floats:
-        """Angle by which each link is turned on its wheels so that its teeth do not displace it at turn 0 [rad]."""
+        """Angle by which each link is turned relative to its wheels so that its teeth cause no error at position 0
+        [rad].
+        """
         return -self._start[0]
 
 
 @dataclass(frozen=True)
 class TransmissionErrorCurve(Tabular, Result):
-    """Transmission error of one output, position by position.
+    """Transmission error of one output as a function of the input angle.
 
-    With a pin and slot it includes the intended deviation from uniform motion (anomaly).
+    With a pin and slot it includes the designed deviation from uniform motion (anomaly).
 
     See Also
     --------
-    Motion.transmission_error : Method that returns this.
+    Motion.transmission_error : returns it
     """
 
     KEYS = (Key("", "statistics"),)
@@ -95,13 +101,13 @@ class TransmissionErrorCurve(Tabular, Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the input speed."""
+    """Exact mean speed over the speed of the input [1]."""
     angle: Floats
-    """Angle of the input [rad]. Shape (n,)."""
+    """Angle of the input [rad], shape (n,)."""
     error: Floats
-    """Angle less its mean motion [rad]. Shape (n,)."""
+    """Angle of the output minus its mean motion [rad], shape (n,)."""
     speed: Floats
-    """Speed over the input speed [1]. Shape (n,)."""
+    """Speed of the output over the speed of the input [1], shape (n,)."""
 
     def _summary(self) -> str:
         figures = f"p-p {degrees(self.peak_to_peak):.4g} deg, rms {degrees(self.rms):.4g} deg"
@@ -114,19 +120,19 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @property
     def mean(self) -> float:
-        """Mean speed over the input speed."""
+        """Mean speed over the speed of the input [1]."""
         return mean_speed(self.name, self.ratio)
 
     @cached_property
     def statistics(self) -> RunningStatistics:
-        """Peaks and moments."""
+        """Peaks and moments of error and speed."""
         found = RunningStatistics(self.name, self.ratio)
         found.add(self.error, self.speed - self.mean)
         return found
 
     @property
     def peak_to_peak(self) -> float:
-        """Maximum less minimum of the transmission error [rad]."""
+        """Maximum minus minimum of the transmission error [rad]."""
         return self.statistics.peak_to_peak
 
     @property
@@ -139,11 +145,12 @@ _MAIN = 3  # outputs in a summary
 
 
 class Motion(Shown):
-    """Motion of a train with real teeth and pins, as a function of the turns of its input.
+    """Motion of a train with real teeth and pins, as a function of the revolutions of its input.
 
     Transmission functions are composed along the order of solution of the train: equations (2) and (3) of
-    docs/motion.md. At turn 0 every tooth and pin has its declared `phase`, and every link the position that ideal teeth
-    would give it (section 3 there).
+    docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link the position that it
+    would
+    have with ideal teeth (section 3 of that page).
 
     Parameters
     ----------
@@ -152,11 +159,12 @@ class Motion(Shown):
     outputs : mapping of str to tuple of str
         Link and reference link of each output, by name.
     tolerance : float, optional
-        Accuracy of tables that replace the transmission functions [pitches, between 0 and 1]. By default they are
+        Accuracy of tables that replace the transmission functions [pitch], between 0 and 1. By default they are
         evaluated directly.
     fast : bool, optional
-        Use compiled kernels, which agree to 1e-12. By default they are used if numba is installed and there are enough
-        positions to repay loading it.
+        True to use compiled kernels, which agree to 1e-12 rad. By default they are used if numba is installed and there
+        are enough
+        positions to justify loading it.
 
     Raises
     ------
@@ -169,7 +177,7 @@ class Motion(Shown):
 
     Examples
     --------
-    The four pairs of triangular teeth before the Moon repeat their positions after 95 turns of the crank:
+    The four pairs of triangular teeth that drive the Moon repeat their positions after 95 revolutions of the crank:
 
     >>> import geartrain
     >>> motion = geartrain.load("moon-triangular").motion(outputs=["moon"])
@@ -214,11 +222,11 @@ class Motion(Shown):
 
     @property
     def _propagation(self) -> ErrorPropagation:
-        """Error propagation of the train, as far as its outputs depend on it."""
+        """Propagation of errors to the links on which the outputs depend."""
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Return the links of a pair or coupling, which determine how its errors propagate.
+        """Return the links of a pair or coupling, through which its errors propagate.
 
         Parameters
         ----------
@@ -228,7 +236,7 @@ class Motion(Shown):
         Raises
         ------
         QuestionError
-            If the pair only closes a loop of other pairs, which has no unique path.
+            If the pair is redundant, so that its errors have no unique effect.
         """
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
@@ -241,13 +249,13 @@ class Motion(Shown):
 
     @cached_property
     def _forward(self) -> ErrorComposition:
-        """Composition while the input turns as declared."""
+        """Composition while the input turns in the declared sense."""
         return self._compositions.composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the composition while the input turns as declared, with more pairs among its sources.
+        """Return the composition while the input turns in the declared sense, with additional pairs as sources.
 
-        Pairs of constant ratio can thus be given other transmission functions.
+        So pairs with constant ratio can have other transmission functions.
 
         Parameters
         ----------
@@ -258,12 +266,12 @@ class Motion(Shown):
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """Composition without set pointers: every link at the position given by its transmission functions."""
+        """Composition before the pointers are set: every link has the position given by the transmission functions."""
         return replace(self._forward, offsets=())
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition while the input turns the other way, with the other flanks driving."""
+        """Composition while the input turns against the declared sense, with the coast flanks driving."""
         return self._compositions.composed(-1)
 
     @cached_property
@@ -279,7 +287,9 @@ class Motion(Shown):
 
     @cached_property
     def pointer_offsets(self) -> Mapping[str, float]:
-        """Angle by which each output's pointer is turned on its wheels so that its teeth do not displace it [rad]."""
+        """Output -> angle by which its pointer is turned relative to its wheels so that teeth cause no error at
+        position 0 [rad].
+        """
         found = self._compositions.setting
         return {name: seen.difference(found) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
@@ -295,12 +305,12 @@ class Motion(Shown):
             )
 
     def with_random_phases(self, random: Generator) -> Motion:
-        """Return the train with a random phase for every pair with real teeth that declares none.
+        """Return the motion with a random phase for every pair with real teeth that declares no phase.
 
         Parameters
         ----------
         random : numpy.random.Generator
-            Source of the phases [pitches, 0 to 1].
+            Generator of the phases, which are uniform in 0 to 1 [pitch].
 
         Returns
         -------
@@ -317,36 +327,38 @@ class Motion(Shown):
 
     @cached_property
     def period(self) -> Fraction | None:
-        """Turns of the input after which every pair repeats its position; None if every error is constant."""
+        """Revolutions of the input after which every pair repeats its position; None if every error is constant."""
         return common_period(self._forward.used)
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Sensitivity of each output to the error of the driven side of each pair, real teeth or not [rad per rad]."""
+        """Output -> pair -> sensitivity of the output to the error of the pair's driven side [rad/rad], also for ideal
+        teeth.
+        """
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
             found[name] = dict(zip(self._propagation.pairs, self._propagation.sensitivity(*seen).tolist(), strict=True))
         return found
 
     def _statistics(self) -> list[RunningStatistics]:
-        """Return empty statistics for each output."""
+        """Return statistics without data for each output."""
         return [
             RunningStatistics(name, self._problem.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()
         ]
 
     @property
     def _start_angles(self) -> list[float]:
-        """Starting angle of each output [rad], in the sense of the input's motion."""
+        """Starting angle of each output [rad], positive in the sense in which the input turns."""
         angles = self._problem.way * np.array([self._problem.angles.get(link, 0.0) for link in self._propagation.links])
         return [seen.difference(angles) for seen in self._seen]
 
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
-        """Yield the run in stretches that fit in memory.
+        """Yield the errors of a run in chunks that fit into memory.
 
         Parameters
         ----------
         turns : float
-            Turns of the input from 0. Negative turns are in the other direction, with the other flanks driving.
+            Revolutions of the input from 0; negative against the declared sense, with the coast flanks driving.
         samples : int
             Number of positions including both ends, 2 or more.
         first : int
@@ -355,7 +367,7 @@ class Motion(Shown):
         Yields
         ------
         ErrorSamples
-            Errors of consecutive stretches.
+            Errors at consecutive positions.
         """
         composition = self._sampler(turns, samples)
         chunk = composition.chunk
@@ -365,12 +377,12 @@ class Motion(Shown):
             yield composition.at(turns * (at / (samples - 1)))
 
     def _sampler(self, turns: float, samples: int) -> ErrorSampler:
-        """Return the object that computes errors for a run.
+        """Return the composition for a run, or its compiled kernel.
 
         Parameters
         ----------
         turns : float
-            Turns of the input; only their sign matters.
+            Revolutions of the input; only the sign is used.
         samples : int
             Number of positions of the run.
 
@@ -383,6 +395,7 @@ class Motion(Shown):
         links = sum(len(step.links) for step in composition.steps)
         if not links or not is_fast(self.fast, samples * links / _PACE):
             return composition
+        # compiled once for each direction
         if (turns >= 0) not in self._compiled:
             from geartrain.dynamics.motion.compiled_composition import compiled_composition
 
@@ -391,21 +404,23 @@ class Motion(Shown):
 
     @cached_property
     def _compiled(self) -> dict[bool, CompiledComposition | None]:
-        """Compiled kernels of the forward (True) and backward (False) compositions, as far as requested."""
+        """Compiled kernels of the forward (True) and backward (False) compositions, filled in when they are
+        requested.
+        """
         return {}
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return errors and rates of the outputs while the input turns as declared.
+        """Return the errors and rates of the outputs at positions of the input, while it turns in the declared sense.
 
         Parameters
         ----------
         turns : sequence of float, (n,)
-            Turns of the input, in any order.
+            Positions of the input [revolutions], in any order.
 
         Returns
         -------
         ErrorSamples
-            Errors [rad] and rates at these turns.
+            Errors [rad] and rates [1] at these positions.
         """
         turns = np.asarray(turns, dtype=float)
         composition = self._sampler(1, len(turns))
@@ -415,31 +430,30 @@ class Motion(Shown):
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
 
     def kink_positions(self, start: float, end: float) -> KinkPositions:
-        """Return the positions at which some pair has a kink. All errors are smooth between them.
+        """Return the positions of the input at which some pair has a kink. All errors are smooth between them.
 
-        Only pairs that an output depends on are included.
-
-        A speed may jump at a kink. For its one-sided values, evaluate a little before and a little after.
+        Only pairs on which an output depends are included. A speed may jump at a kink: evaluate it slightly before and
+        after the kink for its one-sided limits.
 
         Parameters
         ----------
         start, end : float
-            Turns of the input. If the end is less than the start it turns back, with the other flanks driving.
+            Positions of the input [revolutions]. If `end` is less than `start`, the coast flanks drive.
 
         Returns
         -------
         KinkPositions
-            Turns in ascending order between the two, ends included, with the pair at each.
+            Positions in ascending order, with the pair at each; both ends are included.
 
         Raises
         ------
         QuestionError
-            If there are more than twenty million.
+            If there are more than 20 million kinks.
 
         Examples
         --------
-        A pair of triangular teeth has one kink per pitch, and the driver of the first passes 45 in one turn of the
-        crank:
+        A pair of triangular teeth has one kink per pitch, and the driver of the first pair passes 45 kinks in one
+        revolution of the crank:
 
         >>> import geartrain
         >>> kinks = geartrain.load("moon-triangular").motion(outputs=["moon"]).kink_positions(0, 1)
@@ -457,16 +471,16 @@ class Motion(Shown):
         Parameters
         ----------
         turns : float
-            Turns of the input from 0. Negative turns are in the other direction, with the other flanks driving.
+            Revolutions of the input from 0; negative against the declared sense, with the coast flanks driving.
         samples : int
             Number of positions including both ends, 2 or more.
         on_done : callable
-            Callback, called with the number of positions of each stretch that is done.
+            Progress function, called with the number of positions computed since the last call.
 
         Returns
         -------
         dict of str to TransmissionErrorCurve
-            Curves by output.
+            Transmission error of each output.
 
         Examples
         --------
@@ -498,7 +512,7 @@ class Motion(Shown):
         output : str
             Name of the output.
         turns, samples : float, int
-            Turns and number of positions, as for `transmission_errors`.
+            Revolutions of the input and number of positions, as for `transmission_errors`.
 
         Returns
         -------
@@ -521,17 +535,17 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over some turns of the input, and return its peaks and moments by output.
+        """Compute the motion over some revolutions of the input, and return its peaks and moments by output.
 
         Parameters
         ----------
         turns, samples : float, int
-            Turns and number of positions, as for `transmission_errors`.
+            Revolutions of the input and number of positions, as for `transmission_errors`.
 
         Returns
         -------
         geartrain.dynamics.MotionRun
-            Run with statistics of all outputs. `print` shows the report of `geartrain motion`.
+            Run with statistics of all outputs; `print` shows the report of `geartrain motion`.
 
         Examples
         --------
@@ -539,31 +553,31 @@ class Motion(Shown):
         >>> geartrain.load("moon-triangular").motion().run(turns=1, samples=2001)
         <MotionRun moon-triangular: 1 turn, transmission error p-p sun 0.02904 deg, moon 5.895 deg>
         """
-        run = picture_maker("dynamics.motion.motion_run", "MotionRun")(self, turns, samples)
+        run = imported_function("dynamics.motion.motion_run", "MotionRun")(self, turns, samples)
         run.run()
         return run
 
     @cached_property
     def _usual_run(self) -> Any:
-        """Run with the command's default turns and samples, which `print` shows."""
+        """Run with the default options of `geartrain motion`, which `print` shows."""
         return self.run()
 
     def _of(self, outputs: Sequence[str]) -> Motion:
-        """Return the motion of some of the outputs."""
+        """Return the motion of some of the outputs only."""
         shown = {name: self.outputs[name] for name in outputs}
         motion = Motion(self._problem, shown, self.tolerance, self.fast)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without
         return motion
 
     def plot(self, *outputs: str, turns: float = 1.0, samples: int = 2001) -> Any:
-        """Return a figure of angles, errors and speeds over turns of the input, for notebooks.
+        """Return a matplotlib figure of angles, errors and speeds over the revolutions of the input.
 
         Parameters
         ----------
         *outputs : str
             Names of the outputs to draw, by default all.
         turns : float
-            Turns of the input, from the position where ideal teeth are as declared.
+            Revolutions of the input, from position 0.
         samples : int
             Number of positions including both ends, 2 or more.
 
@@ -589,4 +603,4 @@ class Motion(Shown):
         for name in outputs:
             check_choice("output", name, list(self.outputs))
         shown = self._of(outputs or tuple(self.outputs))
-        return picture_maker("drawing", "outputs_figure")(shown, turns, samples)
+        return imported_function("drawing", "outputs_figure")(shown, turns, samples)

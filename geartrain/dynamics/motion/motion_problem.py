@@ -1,4 +1,4 @@
-"""Data of a train in one case for motion: equations, mean speeds, transmission functions, drivers, loops."""
+"""Data of a train in one state for its motion: equations, mean speeds, transmission functions, drivers, loops."""
 
 from __future__ import annotations
 
@@ -25,51 +25,57 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MotionProblem:
-    """Data of a train in one case for motion."""
+    """Data of a train in one state for its motion, as collected by `find_motion_problem`."""
 
     system: WillisSystem
-    """Labelled equations without redundant circuits."""
+    """Willis equations with labels, without redundant circuits."""
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
-    """Exact mean speeds. `driving_link` is the input whose angle is given."""
+    """Exact mean speeds of all links. `driving_link` is the input by whose angle positions are measured."""
     frame: str
     driving_link: str
     meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth as they are driven, by name. Each is built when it is first read."""
+    """Pairs with real teeth as driven in this state, by name; the teeth of a pair are built when it is first read."""
     pins: Sequence[PinMesh]
     drivers: Mapping[str, MeshDriver]
-    """Driver of each pair and coupling, with the reason."""
+    """Driver of each pair and coupling, with the reason why it drives."""
     angles: Mapping[str, float] = field(default_factory=dict)
-    """Starting angles of links [rad]."""
+    """Starting angles of links [rad]; 0 for links without an entry."""
     phases: Mapping[str, float] = field(default_factory=dict)
     shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
-    """Other pairs of each wheel with the same line of centres, by pair and wheel.
+    """(pair, wheel) -> other pairs of this wheel with the same line of centres.
 
-    Each has a flag that is True if its contacts are on opposite sides.
+    Each has a flag that is True if the two contacts are on opposite sides of the wheel.
     """
     loops: Sequence[Loop] = ()
-    """Redundant loops, in which real teeth contradict each other."""
+    """Loops with redundant pairs, around which real teeth may contradict each other."""
 
     @property
     def way(self) -> int:
-        """Sign of the driving link's motion about its own axis. Turns and angles count in its sense."""
+        """Sign of the driving link's speed about its own axis; revolutions and angles are positive in its sense."""
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
-        """Return the exact mean speed of a link over that of the driving link."""
+        """Return the exact mean speed of a link over the speed of the driving link."""
         return self.speeds[link] / self.speeds[self.driving_link]
 
     def seen_ratio(self, link: str, base: str) -> Fraction:
-        """Return the mean speed of a link relative to another, about the first one's axis, over the driving speed."""
+        """Return the mean speed of a link relative to another, about the axis of the first, over the speed of the
+        driving link.
+        """
         return relative_speed(link, base, self.ratio, self.signs)
 
     def relative(self, link: str, carrier: str) -> Fraction:
-        """Return the mean speed of a link relative to its carrier, about their parallels, over the driving speed."""
+        """Return the mean speed of a link relative to its carrier, about the reference direction, over the speed of the
+        driving link.
+        """
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:
-        """Return the pair that drives the driver of a pair and so places its teeth, as in `shared`, or None."""
+        """Return the pair that drives the driver of a pair, and so determines its phase, as in `shared`; None if no
+        pair does.
+        """
         if pair not in self.drivers:
             return None
         wheel = self.drivers[pair].wheel
@@ -92,7 +98,7 @@ class MotionProblem:
         return [mesh for mesh in self.teeth if mesh.rigid]
 
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
-        """Return the redundant loops with variable errors, with the pairs that have them."""
+        """Return the redundant loops with variable errors, and the pairs that cause these errors."""
         found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
         return [(loop, real) for loop, real in found if real]
 
@@ -102,19 +108,20 @@ class MotionProblem:
 
 
 def find_motion_problem(train: TrainMechanics, state: str | None = None, without: Sequence[str] = ()) -> MotionProblem:
-    """Collect the data of a train in one state. Raise `QuestionError` if it does not move.
+    """Collect the data of a train in one state. Raise `QuestionError` if the train does not move.
 
-    without   pairs to leave out with their teeth, so that real teeth do not contradict each other around a loop
+    without   pairs to leave out, so that real teeth do not contradict each other around a loop
     """
     own, declared, meshes, pins = train.kinematics, train.declaration, train.undriven, train.pins
     case = own.case(state)
     solution = own.solution(case)
     if not solution.verdict or not any(case.inputs.values()):
         what = f"'{declared.name}' does not move"
-        raise QuestionError(Problem(what, solution.verdict.text, "drive it from an input"))
+        raise QuestionError(Problem(what, solution.verdict.text, "declare a non-zero speed under `inputs`"))
     circuits, drivers = own.circuits_without(without), train.drivers(case.state, without)
     links = tuple(declared.links)
     parts = SolvedPart(links, declared.frame, circuits, tuple(case.inputs)).reduced.components
+    # redundant pairs are left out, so that the system is square
     redundant = {parts.circuits[chord].id for chord in parts.closing}
     whole = assemble_willis_system(links, declared.frame, circuits, case, own.signs)
     kept = {circuit.id for circuit in circuits}
@@ -136,9 +143,10 @@ def find_motion_problem(train: TrainMechanics, state: str | None = None, without
 
 
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
-    """Return the wheels with coaxial mates, such as a planet between sun and ring, which share a line of centres.
+    """Return for each wheel with coaxial mates the other pairs that share its line of centres.
 
-    The contacts are on opposite sides if one mate is a ring.
+    An example is a planet between sun and ring. The flag is True if the contacts are on opposite sides of the wheel,
+    because one mate is a ring.
     """
     of_wheel: dict[str, list[tuple[Circuit, str]]] = {}
     for circuit in circuits:
@@ -150,6 +158,7 @@ def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[st
     for wheel, pairs in of_wheel.items():
         for (one, axis), (other, second) in permutations(pairs, 2):
             if one.carrier == other.carrier and axis == second:
+                # one mate is a ring, the other is not
                 opposite = (one.a * one.b < 0) != (other.a * other.b < 0)
                 found.setdefault((one.id, wheel), []).append((other.id, opposite))
     return found

@@ -1,9 +1,10 @@
-"""Run of a motion over some turns of the input, sampled at some positions, with its statistics and spectrum.
+"""Run of a motion over some revolutions of the input, with its statistics and spectrum.
 
-The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per turn of
-the input, an exact rational number, so its harmonics have the orders k cycles. To first order the amplitude of a line
-is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is measured as well, by
-a Fourier sum with a Hann window. What these lines do not explain comes from modulation of pairs by each other.
+The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
+revolution
+of the input, an exact rational number, so its harmonics have the orders k cycles. To first order the amplitude of a
+line is the pair's own harmonic times the output's sensitivity. The amplitude in the composed motion is also computed,
+by a Fourier sum with a Hann window. Differences are due to modulation of pairs by each other.
 """
 
 from __future__ import annotations
@@ -42,12 +43,12 @@ _FAINT = 1e-6  # of the strongest line: weaker lines are omitted
 
 
 class HarmonicShare(NamedTuple):
-    """Harmonic of a pair, and its first-order amplitude in an output."""
+    """Harmonic of a pair's error, with its first-order amplitude in an output."""
 
     pair: str
-    """Name of the pair."""
+    """Name of the pair whose error has this harmonic."""
     harmonic: int
-    """Number of the harmonic of the pair's period."""
+    """Number of the harmonic, relative to the pair's period."""
     amplitude: float
     """First-order amplitude in the output [rad]."""
 
@@ -58,28 +59,29 @@ class SpectrumLine(Result):
 
     See Also
     --------
-    MotionRun.spectra : All lines by output, strongest first.
+    MotionRun.spectra : all lines by output
     """
 
     KEYS = (Key("order", to=float), Key("exact", "order"), "expected", "measured", Key("pairs", "shares"))
 
     order: Fraction
-    """Periods per turn of the input."""
+    """Exact number of periods per revolution of the input."""
     shares: tuple[HarmonicShare, ...]
-    """Pairs and harmonics of this order, each with its first-order amplitude [rad]."""
+    """Harmonics of pairs with this order."""
     expected: float
-    """First-order amplitude of their sum, including phases [rad]."""
+    """First-order amplitude of the sum of `shares`, including phases [rad]."""
     measured: float
-    """Amplitude in the composed motion [rad]."""
+    """Amplitude in the composed motion, from a Fourier sum [rad]."""
 
 
 def find_spectrum(
     motion: Motion, turns: float, samples: int, most: int = 12, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, list[SpectrumLine]]:
-    """Return the strongest lines of every output, strongest first, measured over `samples` positions.
+    """Return the spectral lines of every output with the largest amplitudes, in falling order, from `samples`
+    positions.
 
-    Lines are resolved if they differ by two periods over the run. Over a whole number of common periods the measurement
-    is exact except for harmonics above half the sampling rate.
+    Lines are resolved if they differ by at least two periods over the run. If the run is an integer number of common
+    periods, the amplitudes are exact except for aliases of harmonics above half the sampling rate.
     """
     from geartrain.dynamics.motion.superposition import Superposition
 
@@ -88,6 +90,7 @@ def find_spectrum(
     found = {}
     for at, name in enumerate(motion.outputs):
         found[name] = _expected(superposed, harmonics, at, most)
+    # lines of all outputs are measured in one pass through the run
     orders = sorted({line.order for lines in found.values() for line in lines})
     if not orders:
         on_done(samples)
@@ -103,7 +106,7 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period.
+    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad].
 
     Phases are those at the start of the run.
     """
@@ -141,9 +144,9 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Measure the amplitudes of the composed errors, (outputs, orders).
+    """Return the amplitudes of the composed errors at the given orders [rad], shape (outputs, orders).
 
-    A Hann window is applied unless the run is periodic.
+    A Hann window is applied unless the run is an integer number of periods.
     """
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
@@ -167,7 +170,7 @@ def _measure(
 
 
 MOST_TURNS = 10**12
-"""Maximum number of turns. Beyond it, positions in float64 do not resolve the teeth of one turn."""
+"""Maximum number of revolutions; positions in float64 do not resolve single teeth beyond it."""
 
 
 def _ignore(_: int) -> None:
@@ -176,14 +179,14 @@ def _ignore(_: int) -> None:
 
 @dataclass
 class MotionRun(Tabular, Pictured):
-    """Run of a motion: positions from 0 to `turns` of the input, and results on request.
+    """Run of a motion: positions from 0 to `turns` of the input, with results on request.
 
     Results are filled in by `run`, `run_random_phases`, `find_estimates` and `find_spectra`.
 
     Raises
     ------
     QuestionError
-        If there are more turns than positions can resolve, or fewer than two samples.
+        If `turns` exceeds 1e12, or if there are fewer than two samples.
 
     Examples
     --------
@@ -212,7 +215,9 @@ class MotionRun(Tabular, Pictured):
     motion: Motion
     """Motion that is evaluated."""
     turns: float
-    """Turns of the input, up to 1e12 in either direction. Negative turns use the coast flanks."""
+    """Revolutions of the input, up to 1e12 in magnitude; negative against the declared sense, with the coast flanks
+    driving.
+    """
     samples: int
     """Number of positions including both ends, 2 or more."""
     statistics: list[RunningStatistics] = field(default_factory=list)
@@ -220,15 +225,15 @@ class MotionRun(Tabular, Pictured):
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
     """Peaks and moments by output, for each set of random phases."""
     seed: int | None = None
-    """Random seed of these phases; None if none were drawn."""
+    """Random seed of the phases; None if no random phases were used."""
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
-    """Fast estimates by output."""
+    """First-order estimates of peaks by output."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
-    """Spectral lines by output, strongest first."""
+    """Spectral lines by output, sorted by falling amplitude."""
     done: int = 0
-    """Positions evaluated so far: fewer than `samples` in an interrupted run."""
+    """Number of positions evaluated so far; less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
-    """Pairs whose driver turned against its mean at some position, where backlash is not modelled."""
+    """Names of pairs whose driver turned against its mean motion at some position; backlash is not modelled there."""
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
@@ -255,7 +260,8 @@ class MotionRun(Tabular, Pictured):
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Table with a row for each evaluated output.
 
-        Its columns are the mean speed over the input speed, the error [rad], and the speed over its mean.
+        Its columns are the mean speed over the speed of the input [1], the error [rad], and the speed over its mean
+        [1].
         """
         return {
             "output": [each.name for each in self.statistics],
@@ -268,12 +274,12 @@ class MotionRun(Tabular, Pictured):
         }
 
     def run(self, on_done: OnDone = _ignore) -> None:
-        """Evaluate every position, and search for the extremes between them.
+        """Evaluate the outputs at every position, and search for the extremes between positions.
 
         Parameters
         ----------
         on_done : callable
-            Callback, called with the number of positions of each stretch that is done.
+            Progress function, called with the number of positions computed since the last call.
 
         Raises
         ------
@@ -289,13 +295,14 @@ class MotionRun(Tabular, Pictured):
             self.reversing_drivers |= passage.reversing_drivers
             self.done += len(passage.turns)
             on_done(len(passage.turns))
+        # samples miss sharp peaks, so extremes are searched between them
         composition = self.motion._forward if self.turns >= 0 else self.motion._backward
         search = ExtremeSearch(composition)
         count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.statistics)
         self.reversing_drivers |= search.reversing_drivers
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
-        """Repeat the run with random phases of the pairs that declare none.
+        """Repeat the run with random phases of the pairs that declare no phase.
 
         Parameters
         ----------
@@ -304,7 +311,7 @@ class MotionRun(Tabular, Pictured):
         seed : int
             Random seed, 0 or more.
         on_done : callable
-            Callback, as in `run`.
+            Progress function, as in `run`.
         """
         self.seed = seed if count else None
         if seed < 0:
@@ -316,42 +323,43 @@ class MotionRun(Tabular, Pictured):
             self.phase_statistics.append(other.statistics)
 
     def find_estimates(self, on_done: OnDone = _ignore) -> None:
-        """Compute the fast estimates, with their true error.
+        """Compute first-order estimates of peaks and rms values, with their true errors.
 
         Parameters
         ----------
         on_done : callable
-            Callback, as in `run`.
+            Progress function, as in `run`.
         """
         from geartrain.dynamics.motion.superposition import find_estimates
 
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
     def find_spectra(self, on_done: OnDone = _ignore) -> None:
-        """Compute the spectra by exact order.
+        """Compute the spectrum of every output by exact orders of the input.
 
         Parameters
         ----------
         on_done : callable
-            Callback, as in `run`.
+            Progress function, as in `run`.
         """
         self.spectra = find_spectrum(self.motion, self.turns, self.samples, on_done=on_done)
 
     @property
     def _position_columns(self) -> list[str]:
-        """Column names of a table of all positions."""
+        """Column names of the table of all positions."""
         names = self.motion.outputs
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the columns of one stretch: turns, then angle [rad], error [rad] and speed of each output.
+        """Return the table columns for some positions: revolutions of the input, then angle [rad], error [rad] and
+        speed [1] of each output.
 
         An angle is the sum of starting angle, mean motion and error.
 
         Parameters
         ----------
         passage : ErrorSamples
-            Stretch of the run.
+            Errors at consecutive positions of the run.
 
         Returns
         -------
@@ -366,7 +374,7 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if the last row of a table is not of this run.
+        """Raise an error if the last row of a partial table does not belong to this run.
 
         Parameters
         ----------
@@ -378,11 +386,11 @@ class MotionRun(Tabular, Pictured):
         Raises
         ------
         GearTrainError
-            If this run has other turns in this row, or fewer positions.
+            If this run has another position in this row, or fewer positions.
         """
         # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):
             why = f"its row {rows} is at {row.split(',')[0]} turns, but this run has {turns!r} there"
             fix = "give the same turns and samples, or omit --resume to start again"
-            raise GearTrainError(Problem("the partial file is of another run", why, fix))
+            raise GearTrainError(Problem("the partial file belongs to another run", why, fix))

@@ -1,6 +1,7 @@
-"""Errors of each pair of a moving train: driving side, phase of the teeth, and propagation of the errors.
+"""Transmission errors of the pairs of a moving train: driving side, phase of the teeth, and propagation of the errors.
 
-Sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the phase at which its teeth start.
+The equations are in sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the phase of the teeth at
+position 0.
 """
 
 from __future__ import annotations
@@ -33,22 +34,22 @@ _HALVINGS = 54  # bisections of four pitches, to rounding
 
 @dataclass(frozen=True)
 class PairErrors:
-    """Pairs of a train with their transmission functions, as sources of error."""
+    """Pairs of a train with their transmission functions, as sources of errors of the links."""
 
     train: MotionProblem
     tolerance: float | None
-    """Accuracy of tables that replace the transmission functions [pitches]; None evaluates them directly."""
+    """Accuracy of tables that replace the transmission functions [pitch]; None to evaluate them directly."""
     links: Collection[str]
-    """Links whose errors are wanted. The teeth of pairs that do not affect them are not built."""
+    """Links whose errors are requested. The teeth of pairs that do not affect them are not built."""
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Column of each link."""
+        """Link -> index of its column in the Willis system."""
         return {link: at for at, link in enumerate(self.train.system.links)}
 
     @cached_property
     def spread(self) -> ErrorPropagation:
-        """Error propagation of the train to the wanted links."""
+        """Propagation of the errors of pairs to the requested links."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
         ends = {name: [self.index[link] for link in (each.i, each.j, each.carrier)] for name, each in circuits.items()}
@@ -77,14 +78,14 @@ class PairErrors:
     def driven_side(self, circuit: Circuit) -> int:
         """Return 0 if the circuit's first link is driven, 1 if its second is.
 
-        The transmission function of a pin gives the angle of its slot, whichever of the two drives, because they have
-        no backlash.
+        The transmission function of a pin gives the angle of its slot, even if the slot drives, because they have no
+        backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
     @cached_property
     def _meshes(self) -> list[GearMesh]:
-        """Pairs with real teeth that the wanted links depend on."""
+        """Pairs with real teeth on which the requested links depend."""
         reached = self.spread.reached
         names = [name for at, name in enumerate(self.spread.pairs) if at in reached and name in self.train.meshes]
         return [self.train.meshes[name] for name in names]
@@ -92,7 +93,7 @@ class PairErrors:
     def backlash(self, way: int) -> Floats:
         """Return the constant angle that the backlash of teeth with constant ratio adds to each link [rad].
 
-        It is 0 while the input turns as declared.
+        It is 0 while the input turns in the declared sense (`way` = 1).
         """
         transmissions = {} if way > 0 else {mesh.name: mesh.coast for mesh in self._meshes if mesh.rigid}
         ahead = {name: transmission.error_moments()[0] for name, transmission in transmissions.items()}
@@ -101,15 +102,15 @@ class PairErrors:
         return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
 
     def sense(self, circuit: Circuit) -> int:
-        """Return -1 if the driven wheel turns backwards on average relative to its carrier, else 1."""
+        """Return the sense of the driven wheel's mean motion relative to its carrier, 1 or -1."""
         driver = (circuit.i, circuit.j)[1 - self.driven_side(circuit)]
         forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
         return forward if circuit.a * circuit.b < 0 else -forward
 
     def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
-        """Yield the pairs with variable error, and the pins, for one direction of the input.
+        """Yield the pairs with variable error, and the pins, for one direction of the input (`way`, 1 or -1).
 
-        besides   pairs of constant ratio to include as well
+        besides   names of pairs with constant ratio to include too
         """
         meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
         transmissions: dict[str, TransmissionFunction] = {mesh.name: mesh.transmission for mesh in meshes}
@@ -157,11 +158,12 @@ class PairErrors:
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
-        """Return the driver's forward angle [rad] that puts a tooth of the first wheel at the pair's phase.
+        """Return the driver's forward angle [rad] at which a tooth of the first wheel has the declared phase of the
+        pair.
 
-        The phase of a pin is that of the pin itself. If the first wheel is driven, its transmission function is
-        inverted. A planet between sun and ring has no independent phase in its second pair. There the first pair places
-        its teeth, half a pitch off if their number is odd and the contacts are on opposite sides.
+        For a pin and slot the phase refers to the pin. If the first wheel is driven, its transmission function is
+        inverted. A planet between sun and ring has no independent phase in its second pair: its first pair determines
+        the phase, with half a pitch added if its tooth count is odd and the contacts are on opposite sides.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:
@@ -172,14 +174,14 @@ class PairErrors:
                 teeth = round(2 * pi / transmission.period)
                 pitches = (
                     float(mesh.transmission.angle(start)) / transmission.period
-                    + mesh.stands
+                    + mesh.tooth_phase
                     - (teeth / 2 if opposite else 0)
                 )
                 return (pitches % 1) * transmission.period
         phase = self.train.phases.get(circuit.id, 0.0)
         if driven == 1 or circuit.kind != "gear":
             return phase * transmission.period
-        phase -= self.train.meshes[circuit.id].stands
+        phase -= self.train.meshes[circuit.id].tooth_phase
         wanted = phase * float(transmission.ratio) * transmission.period
         low, high = (phase - 2) * transmission.period, (phase + 2) * transmission.period
         # bisection: the driven angle increases with the driver's, and kinks would disturb faster methods

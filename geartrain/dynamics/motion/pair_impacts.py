@@ -1,12 +1,13 @@
 """Energy of tooth impacts of a pair, and the speed above which its quasi-static transmission function is invalid.
 
-Let the speed ratio tau fall at a rate s = max(-d tau / dS). The driven inertia J stays in contact at the driver's speed
-w if the load torque is at least J w^2 s. Under a load T contact is lost above w = sqrt(T / (J s)).
+Let s = max(-d tau / dS) be the maximum rate at which the speed ratio tau decreases. At the driver's speed w, the driven
+inertia J stays in contact if the load torque is at least J w^2 s. Under a load T contact is lost above
+w = sqrt(T / (J s)).
 
-In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. If the driven side of a pair
-jumps by one radian a second, every link l jumps by its response g_l, so the effective inertia of that side is
-sum J_l g_l^2. An inelastic impact with the speed difference v dissipates half of it times v^2. In an ordinary train the
-effective inertia is that of all that turns with the driven wheel, referred to it.
+In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. If the speed of a
+pair's driven side jumps by 1 rad/s, the speed of every link l jumps by its response g_l, so the effective inertia of
+this side is sum J_l g_l^2. An inelastic impact with the speed difference v dissipates half of it times v^2. In an
+ordinary train the effective inertia contains all links that the driven wheel drives, referred to its speed.
 """
 
 from __future__ import annotations
@@ -29,30 +30,31 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ToothImpact(Shown):
-    """Impacts of the teeth of one pair, where its speed ratio jumps up: equation (7) of docs/motion.md.
+    """Impacts of the teeth of one pair where its speed ratio increases abruptly: equation (7) of docs/motion.md.
 
     See Also
     --------
-    geartrain.dynamics.find_tooth_impacts : Returns these by pair.
+    geartrain.dynamics.find_tooth_impacts : returns them by pair
     """
 
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""
     rate: float
-    """Pitches per second [1/s]."""
+    """Frequency of tooth engagement [pitches per second]."""
     jumps: tuple[float, ...]
-    """Jumps of the driven wheel's speed within one pitch [rad/s]."""
+    """Increases of the driven wheel's speed at the impacts within one pitch [rad/s]."""
 
     @property
     def power(self) -> float:
-        """Power dissipated [W]."""
+        """Power that the impacts dissipate [W]."""
         return self.rate * sum(self.inertia * jump**2 / 2 for jump in self.jumps)
 
 
 def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) -> dict[str, ToothImpact]:
-    """Return the impacts of every pair whose speed ratio jumps, by name, for an input speed of `speed` [rad/s].
+    """Return the impacts of every pair whose speed ratio increases abruptly, by name, at an input speed of `speed`
+    [rad/s].
 
-    inertias   of links about their own axes [kg m2], 0 for other links
+    inertias   link -> moment of inertia about its own axis [kg m2]; other links have 0
     """
     spread = motion._propagation
     weight = np.array([inertias.get(link, 0.0) for link in spread.links])
@@ -64,6 +66,7 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
             continue
         unit = np.zeros((len(spread.pairs), 1))
         unit[source.pair] = 1.0
+        # effective inertia: sum of J g^2 for a unit jump of the driven side
         struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
         driver = abs(source.mean * speed)
         jumps = tuple(leap.size * driver for leap in leaps)
@@ -72,11 +75,12 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
 
 
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:
-    """Return energies of the impacts in one pitch [J]: transferred to the driven side, dissipated, and their sum.
+    """Return the energies of the impacts in one pitch [J]: transferred to the driven side, dissipated, and their sum.
 
-    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts. The driver has the
-    constant speed omega1 [rad/s], so the sum is its work. J is the `inertia` of all that turns with the driven wheel
-    [kg m2]. The source of triangular teeth counts the first term as lost; the energy actually lost is the second.
+    They are J w1^2 (after^2 - before^2)/2 and J w1^2 (after - before)^2/2 for inelastic impacts, with speed ratios
+    before and after the impact. The driver has the constant speed omega1 [rad/s], so the sum is its work. J is the
+    `inertia` of the driven wheel and all links that it drives [kg m2]. Sorge's paper on triangular teeth takes the
+    first term as lost energy; the lost energy is the second term.
     """
     leaps, scale = tuple(leaps), inertia * omega1**2
     handed = sum((leap.after**2 - leap.before**2) / 2 for leap in leaps) * scale
@@ -86,7 +90,7 @@ def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float
 
 @dataclass(frozen=True)
 class PairOperation:
-    """Known operating data of a pair in SI units. `rate` is that of the driver in turns per second."""
+    """Operating data of a pair in SI units, as far as they are known. `rate` is the driver's speed [1/s]."""
 
     inertia: float | None = None
     rate: float | None = None
@@ -100,7 +104,7 @@ class PairOperation:
 
 @dataclass(frozen=True)
 class PairImpacts(Result):
-    """Impact energies of one pair and limits of its contact. Figures are None if `PairOperation` lacks their data."""
+    """Impact energies of one pair and limits of its contact; None where `PairOperation` lacks the data."""
 
     KEYS = (
         *("inertia", "rate", "handed", "dissipated", "work"),
@@ -108,28 +112,29 @@ class PairImpacts(Result):
     )
 
     inertia: float
-    """Inertia of all that turns with the driven wheel [kg m2]."""
+    """Moment of inertia of the driven wheel and all links that it drives [kg m2]."""
     rate: float | None = None
-    """Speed of the driver [turns per second]."""
+    """Speed of the driver [revolutions per second]."""
     handed: float | None = None
     """Energy transferred to the driven side in one pitch [J]."""
     dissipated: float | None = None
     """Energy dissipated by impacts in one pitch [J]."""
     work: float | None = None
-    """Work of the driver in one pitch [J]: sum of the energies transferred and dissipated."""
+    """Work of the driver in one pitch [J]: sum of transferred and dissipated energy."""
     minimum_load: float | None = None
-    """Load torque that keeps the teeth in contact at this speed [N m]."""
+    """Minimum load torque that keeps the teeth in contact at this speed [N m]."""
     void: float | None = None
-    """Driver's speed above which the teeth separate under the declared load [turns per second]."""
+    """Speed of the driver above which the teeth separate under the declared load [revolutions per second]."""
 
 
 def find_pair_impacts(transmission: TransmissionFunction, operation: PairOperation) -> PairImpacts | None:
-    """Return the impact energies of a pair, or None if its inertia or its speed jumps are unknown."""
+    """Return the impact energies of a pair; None if its inertia or the jumps of its speed ratio are unknown."""
     inertia, load, omega1 = operation.inertia, operation.load, operation.omega1
     leaps, steepest = transmission.speed_leaps(), transmission.steepest_fall()
     if inertia is None or leaps is None or steepest is None:
         return None
     void = sqrt(load / (inertia * steepest)) / (2 * pi) if load is not None and steepest > 0 else None
+    # the limiting speed does not depend on the speed of operation
     if omega1 is None:
         return PairImpacts(inertia, void=void)
     energies = collision_energies(leaps, inertia, omega1)

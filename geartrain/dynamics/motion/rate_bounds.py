@@ -1,10 +1,10 @@
 """Bounds on errors and rates of outputs over steps of the input, by interval arithmetic along the order of solution.
 
-The angle S_m of every driver is known at both ends of a step. Within the step it is between these two, or beyond them
-by what its minimum speed allows if it can turn back. A table of each transmission function gives bounds of the speed
-ratio tau_m there. Rates follow as intervals: rate(driven) = sigma (tau - mean tau) S', summed by equation (2) of
-docs/motion.md. For coupled pairs they follow from Krawczyk's operator. An error with a rate between r and R is bounded
-by its values at the ends (Piyavskii's bounds).
+The angle S_m of every driver is known at both ends of a step. Within the step it is between these values; if the driver
+can reverse, the range is extended according to the driver's minimum speed. A table of each transmission function gives
+bounds of the speed ratio tau_m in this range. Rates follow as intervals: rate(driven) = sigma (tau - mean tau) S',
+summed by equation (2) of docs/motion.md. For coupled pairs they follow from Krawczyk's operator. An error with a rate
+between r and R is bounded by its values at the ends (Piyavskii's bounds).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class RangeExtremes:
-    """Minimum and maximum over ranges of cyclic cells in constant time (sparse table)."""
+    """Minimum and maximum over ranges of cyclic cells in constant time, by a sparse table."""
 
     def __init__(self, minimum: Floats, most: Floats) -> None:
         self.count = len(minimum)
@@ -32,7 +32,7 @@ class RangeExtremes:
 
     @cached_property
     def _levels(self) -> tuple[Floats, Floats]:
-        """Extremes of the 2^k cells from each one on, (levels, n)."""
+        """Minimum and maximum of the 2^k cells that follow each cell, shape (levels, n)."""
         minimum, most = [self._first[0]], [self._first[1]]
         length = 1
         while 2 * length <= self.count:
@@ -42,7 +42,7 @@ class RangeExtremes:
         return np.stack(minimum), np.stack(most)
 
     def over(self, first: Ints, last: Ints) -> tuple[Floats, Floats]:
-        """Return minimum and maximum over cells `first` to `last`, any integers with first <= last."""
+        """Return minimum and maximum over the cells `first` to `last`, integers modulo the number of cells."""
         length = np.clip(last - first + 1, 1, self.count)
         level = np.frexp(length)[1] - 1  # floor of the binary logarithm: two overlapping blocks of 2^level cells cover
         one, other = first % self.count, (first + length - (1 << level)) % self.count
@@ -61,7 +61,7 @@ _BESIDE = 1e-9  # of a period: distance from a kink at which its one-sided limit
 
 
 class Interval(NamedTuple):
-    """Intervals: minimum and maximum, arrays of one shape."""
+    """Intervals given by arrays of minimum and maximum, which have the same shape."""
 
     low: Floats
     high: Floats
@@ -86,12 +86,12 @@ class Interval(NamedTuple):
 
     @property
     def radius(self) -> Floats:
-        """Half of the width."""
+        """Half of the width of the interval."""
         return (self.high - self.low) / 2
 
 
 class SpeedRanges:
-    """Table of bounds on the speed ratio of a transmission function over ranges of driver angles."""
+    """Bounds on the speed ratio of a transmission function over ranges of driver angles, from a table."""
 
     def __init__(self, transmission: TransmissionFunction) -> None:
         self.period = transmission.period
@@ -111,7 +111,9 @@ class SpeedRanges:
         self._extremes = RangeExtremes(minimum - spread, most + spread)
 
     def over(self, phase: Floats, travel: Interval) -> Interval:
-        """Return bounds from the angle `phase` + travel.low to `phase` + travel.high [rad]."""
+        """Return bounds on the speed ratio for driver angles from `phase` + travel.low to `phase` + travel.high
+        [rad].
+        """
         scale = self.cells / self.period
         first, last = (np.floor((phase + end) * scale) for end in travel)
         # one period includes all values, so that more periods need not be counted
@@ -120,13 +122,15 @@ class SpeedRanges:
 
 
 def error_difference(one: ErrorSamples, other: ErrorSamples) -> ErrorSamples:
-    """Return the difference of errors at the same positions, with the reversing drivers of both."""
+    """Return the errors of `one` minus the errors of `other` at the same positions, with the reversing drivers of
+    both.
+    """
     both = one.reversing_drivers | other.reversing_drivers
     return ErrorSamples(one.turns, one.error - other.error, one.rate - other.rate, both)
 
 
 class StepBounds(NamedTuple):
-    """Errors and rates of outputs over steps, (outputs, n): end values, and bounds on the rates between them."""
+    """Errors and rates of outputs at the ends of steps, and bounds on the rates between them, shape (outputs, n)."""
 
     low: ErrorSamples
     high: ErrorSamples
@@ -134,12 +138,12 @@ class StepBounds(NamedTuple):
 
     @classmethod
     def difference(cls, one: StepBounds, other: StepBounds) -> StepBounds:
-        """Return the bounds of the errors of one composition less those of another."""
+        """Return the bounds for the errors of one composition minus the errors of another."""
         ends = error_difference(one.low, other.low), error_difference(one.high, other.high)
         return cls(*ends, one.rate + other.rate.scaled(-1.0))
 
     def errors(self) -> Interval:
-        """Return bounds on the errors."""
+        """Return bounds on the errors within each step [rad]."""
         angle = 2 * np.pi * (self.high.turns - self.low.turns)
         start, end, (minimum, most) = self.low.error, self.high.error, self.rate
         with np.errstate(all="ignore"):
@@ -157,18 +161,18 @@ class StepBounds(NamedTuple):
 
 @dataclass(frozen=True)
 class RateBounds:
-    """Bounds over steps of the input for the outputs of a composition."""
+    """Bounds on errors and rates of a composition's outputs over steps of the input."""
 
     composition: ErrorComposition
 
     @cached_property
     def _sources(self) -> dict[int, PairErrorSource]:
-        """Sources that reach an output, by index."""
+        """Sources on which an output depends, by index."""
         return {at: self.composition.sources[at] for step in self.composition.steps for at in step.sources}
 
     @cached_property
     def _whole(self) -> ErrorComposition:
-        """Composition with the drivers of its sources, relative to their carriers, as additional outputs."""
+        """Composition with additional outputs: the drivers of its sources relative to their carriers."""
         given, joints = self.composition, self.composition.spread.joints
         drivers = tuple(
             SeenLink(joints[s.pair].driver, joints[s.pair].carrier, s.driver_sense * s.carrier_sense)
@@ -183,11 +187,13 @@ class RateBounds:
 
     @property
     def chunk(self) -> int:
-        """Steps evaluated at once."""
+        """Maximum number of steps evaluated at once."""
         return self._whole.chunk
 
     def over(self, low: Floats, high: Floats) -> StepBounds:
-        """Return bounds over steps from turns `low` to turns `high` of the input, (n,) each, at most one chunk."""
+        """Return bounds over steps from position `low` to position `high` of the input [revolutions], shape (n,), at
+        most `chunk` steps.
+        """
         # most steps begin where others end, so that shared ends are evaluated once
         edges, at_edge = np.unique(np.concatenate([low, high]), return_inverse=True)
         found = self._whole.at(edges)
@@ -205,13 +211,14 @@ class RateBounds:
         return StepBounds(first, last, rate)
 
     def _rates(self, low: Floats, angle: Floats, shifts: dict[int, tuple[Floats, Floats]]) -> Interval:
-        """Return bounds on the rates of the outputs, (outputs, n)."""
+        """Return bounds on the rates of the outputs [1], shape (outputs, n)."""
         still = Interval(np.zeros(len(low)), np.zeros(len(low)))
         links: dict[int, Interval] = {}
         phase = InputPhase(low)
         for step in self.composition.steps:
             base = [_summed(row, [links[link] for link in step.known], still) for row in step.from_known]
             inside = dict(zip(step.links, base, strict=True))
+            # driver speeds with the errors of earlier links; the step's own are added in `_pair_rates`
             turning = [self._turning(at, {**links, **inside}, still) for at in step.sources]
             rates = self._pair_rates(step, turning, phase, angle, shifts)
             for link, known, row in zip(step.links, base, step.from_sources, strict=True):
@@ -223,7 +230,7 @@ class RateBounds:
         return Interval(np.stack([each.low for each in found]), np.stack([each.high for each in found]))
 
     def _turning(self, at: int, links: dict[int, Interval], still: Interval) -> Interval:
-        """Return bounds on the speed of a source's driver over the input speed."""
+        """Return bounds on the speed of a source's driver over the speed of the input [1]."""
         source = self._sources[at]
         turning = Interval(still.low + source.mean, still.high + source.mean)
         for link, sign in self.composition.turned_by(source):
@@ -239,7 +246,7 @@ class RateBounds:
         angle: Floats,
         shifts: dict[int, tuple[Floats, Floats]],
     ) -> list[Interval]:
-        """Return bounds on the rates that a step's pairs add to their driven sides."""
+        """Return bounds on the rates that a step's pairs add to their driven sides [1]."""
         if not step.sources:
             return []
         if not step.coupled:
@@ -261,7 +268,7 @@ class RateBounds:
         angle: Floats,
         shifts: dict[int, tuple[Floats, Floats]],
     ) -> list[Interval]:
-        """Return bounds on sigma (tau - mean tau) of a step's pairs."""
+        """Return bounds on sigma (tau - mean tau) for the pairs of a step [1]."""
         found = []
         for at, speed in zip(step.sources, turning, strict=True):
             source, (first, last) = self._sources[at], shifts[at]
@@ -269,7 +276,9 @@ class RateBounds:
             start = np.mod(
                 phase.cycles(source.cycles) * transmission.period + source.start + first, transmission.period
             )
+            # the driver covers at least the range between its end angles
             travel = source.mean * angle + (last - first)
+            # a driver that can turn back may leave this range at both ends
             back = np.nan_to_num(
                 np.maximum(0.0, -speed.low) * angle, nan=transmission.period, posinf=transmission.period
             )
@@ -290,10 +299,11 @@ def _summed(row: Floats, each: list[Interval], still: Interval) -> Interval:
 
 
 def _coupled_rates(slopes: list[Interval], turning: list[Interval], gain: Floats) -> list[Interval]:
-    """Return intervals of x = slope (w + gain x), for intervals of slopes and speeds w, or infinite intervals.
+    """Return intervals of x = slope (w + gain x) for intervals of slopes and speeds w; infinite intervals if none is
+    found.
 
-    With the middle slope m, the solution of J x = b, J = I - diag(m) G, has an error of at most r, where
-    r = |J^-1| (rad b + rad slope |G| (|x| + r)): Krawczyk's operator, solved for r.
+    Krawczyk's operator: with the middle slope m, the solution of J x = b, J = I - diag(m) G, has an error of at most r,
+    where r = |J^-1| (rad b + rad slope |G| (|x| + r)) is solved for r.
     """
     count = len(slopes)
     middle, radius = (np.stack([getattr(slope, part) for slope in slopes]) for part in ("middle", "radius"))

@@ -1,6 +1,6 @@
-"""Peaks and moments of an output, accumulated stretch by stretch, and its extremes at any position.
+"""Peaks and moments of an output, accumulated over chunks of positions, and its extremes between positions.
 
-Moments of stretches are combined with the update of Chan, Golub and LeVeque (1983). Transmission errors have sharp
+Moments of chunks are combined with the update of Chan, Golub and LeVeque (1983). Transmission errors have sharp
 peaks that samples miss, so extremes are searched separately (docs/motion.md, section 5).
 """
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def mean_speed(name: str, ratio: Fraction) -> float:
-    """Return an exact mean speed as a float. Raise `RangeError` if it overflows."""
+    """Return an exact mean speed as a float. Raise `RangeError` beyond the range of float64."""
     found = as_float(ratio)
     if found is None:
         what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the input's"
@@ -35,26 +35,26 @@ def mean_speed(name: str, ratio: Fraction) -> float:
 
 
 class SpeedSpan(NamedTuple):
-    """Minimum and maximum speed over the mean, and the mean over the input's speed.
+    """Minimum and maximum speed over the mean speed, and the mean speed over the speed of the input.
 
-    If the mean is 0, minimum and maximum are over the input's speed.
+    If the mean is 0, minimum and maximum are relative to the speed of the input.
     """
 
     min: float
-    """Minimum speed over the mean, or over the input's speed if the mean is 0."""
+    """Minimum speed over the mean speed, or over the speed of the input if the mean is 0."""
     max: float
-    """Maximum speed over the mean, or over the input's speed if the mean is 0."""
+    """Maximum speed over the mean speed, or over the speed of the input if the mean is 0."""
     mean: float
-    """Mean speed over the input speed."""
+    """Mean speed over the speed of the input."""
 
 
 @dataclass
 class RunningStatistics(Result):
-    """Peaks and moments of error and speed of one output over all positions so far (Welford, Chan et al.).
+    """Peaks and moments of error and speed of one output over the positions evaluated so far (Welford, Chan et al.).
 
     See Also
     --------
-    MotionRun.statistics : Statistics of all outputs.
+    MotionRun.statistics : statistics of all outputs
     """
 
     KEYS = (
@@ -67,9 +67,9 @@ class RunningStatistics(Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the input speed."""
+    """Exact mean speed over the speed of the input."""
     count: int = 0
-    """Number of positions."""
+    """Number of positions evaluated so far."""
     centre: float = 0.0
     """Mean error [rad]."""
     square: float = 0.0
@@ -79,27 +79,28 @@ class RunningStatistics(Result):
     most: float = -inf
     """Maximum error [rad]."""
     slow: float = inf
-    """Minimum speed less its mean, over the speed of the input."""
+    """Minimum speed minus mean speed, over the speed of the input."""
     fast: float = -inf
-    """Maximum speed less its mean, over the speed of the input."""
+    """Maximum speed minus mean speed, over the speed of the input."""
     error_within: float | None = 0.0
-    """Bound on how far any error of the run exceeds the extremes found [rad].
+    """Upper bound on the difference between the true extremes of the error and `minimum`, `most` [rad].
 
-    It is 0 if the run was searched completely, to 1e-9 of the range, and None if no bound is known.
+    It is 0 if the run was searched completely, with a tolerance of 1e-9 of the range; None if no bound is known.
     """
     speed_within: float | None = 0.0
-    """Bound on how far any speed exceeds the extremes found, over the speed of the input; 0 or None as for the error.
+    """Upper bound on the difference between the true extremes of the speed and `slow`, `fast`, over the speed of the
+    input; 0 or None as for `error_within`.
     """
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Add some positions to the statistics.
+        """Add positions to the statistics: peaks and moments.
 
         Parameters
         ----------
         error : array of float, (n,)
-            Errors [rad].
+            Errors at these positions [rad].
         rate : array of float, (n,)
-            Speeds less their mean, over the input speed.
+            Speeds minus the mean speed, over the speed of the input.
         """
         new = len(error)
         centre = float(error.mean())
@@ -112,24 +113,24 @@ class RunningStatistics(Result):
         self.reach(error, rate)
 
     def reach(self, error: Floats, rate: Floats) -> None:
-        """Include extremes, without changing the moments.
+        """Add values to the extremes, without changing the moments.
 
         Parameters
         ----------
         error, rate : array of float, (n,)
-            Errors and rates, as for `add`.
+            Errors [rad] and rates, as for `add`.
         """
         self.minimum, self.most = min(self.minimum, float(error.min())), max(self.most, float(error.max()))
         self.slow, self.fast = min(self.slow, float(rate.min())), max(self.fast, float(rate.max()))
 
     @property
     def mean(self) -> float:
-        """Mean speed over the input speed."""
+        """Mean speed over the speed of the input."""
         return mean_speed(self.name, self.ratio)
 
     @property
     def peak_to_peak(self) -> float:
-        """Peak-to-peak error [rad]."""
+        """Maximum minus minimum error [rad]."""
         return self.most - self.minimum
 
     @property
@@ -139,12 +140,12 @@ class RunningStatistics(Result):
 
     @property
     def speed_span(self) -> SpeedSpan:
-        """Minimum, maximum and mean speed."""
+        """Minimum and maximum speed relative to the mean, with the mean speed over the speed of the input."""
         return SpeedSpan(*self.speeds, self.mean)
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Minimum and maximum speed over the mean, or over the input speed if the mean is 0."""
+        """Minimum and maximum speed over the mean speed, or over the speed of the input if the mean is 0."""
         scale = self.mean or 1.0
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high
@@ -155,20 +156,20 @@ _KEPT = 10  # bins kept for each output and each extreme
 
 
 class ErrorSampler(Protocol):
-    """Protocol of objects that compute errors of outputs, at most one chunk of positions at once."""
+    """Protocol of objects that compute errors of outputs, for at most `chunk` positions at once."""
 
     @property
     def chunk(self) -> int:
-        """Positions evaluated at once."""
+        """Maximum number of positions evaluated at once."""
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return errors and rates at some turns of the input."""
+        """Return errors [rad] and rates [1] of the outputs at positions of the input [revolutions]."""
 
 
 class SampledPeaks:
-    """Extreme errors and speeds of each output among sampled positions, and the turns at which they occur.
+    """Extreme errors and speeds of each output among the sampled positions, and the positions where they occur.
 
-    values, turns    (outputs, 4, n): maxima of `signed` errors and rates, largest first
+    values, turns    maxima of `signed` errors and rates, in falling order, and their positions, shape (outputs, 4, n)
     """
 
     def __init__(self, outputs: int) -> None:
@@ -176,7 +177,7 @@ class SampledPeaks:
         self.turns = np.zeros((outputs, 4, 0))
 
     def add(self, passage: ErrorSamples) -> None:
-        """Update the peaks with some positions."""
+        """Update the peaks with the errors at further positions."""
         bins = [_peaks(passage, slice(start, start + _BIN)) for start in range(0, len(passage.turns), _BIN)]
         values = np.concatenate([self.values, np.stack([value for value, _ in bins], axis=2)], axis=2)
         turns = np.concatenate([self.turns, np.stack([turns for _, turns in bins], axis=2)], axis=2)
@@ -186,7 +187,9 @@ class SampledPeaks:
 
 
 def _peaks(passage: ErrorSamples, part: slice) -> tuple[Floats, Floats]:
-    """Return the maxima of `signed` errors and rates in a part of a stretch, and their turns, (outputs, 4)."""
+    """Return the maxima of `signed` errors and rates in a slice of positions, and their positions, shape (outputs,
+    4).
+    """
     found, turns = [], []
     for each in (passage.error[:, part], passage.rate[:, part]):
         for sign, at in ((1, np.argmax(each, axis=1)), (-1, np.argmin(each, axis=1))):
@@ -200,14 +203,17 @@ def count_extremes(
 ) -> None:
     """Include the extremes between sampled positions in the statistics, with bounds on their uncertainty.
 
-    step, peaks    turns between sampled positions, and the sampled extremes; the search is limited to their
-                   neighbourhood if the run is too long to be searched completely
+    step, peaks    distance of the sampled positions [revolutions], and the sampled extremes; the search is limited to
+                   their neighbourhood if the run is too long to be searched completely
     """
     low, high = sorted((0.0, turns))
     search.over(low, high)
-    if search.doubt.any():
+    # the run is too long for a complete search: the neighbourhood of sampled peaks is searched
+    if search.uncertainty.any():
         search.around(peaks.turns.reshape(len(tallies), -1), abs(step), low, high)
-    for tally, (most, minimum, fast, slow), doubt in zip(tallies, search.values.tolist(), search.doubt, strict=True):
+    for tally, (most, minimum, fast, slow), uncertainty in zip(
+        tallies, search.values.tolist(), search.uncertainty, strict=True
+    ):
         tally.reach(np.array([most, -minimum]), np.array([fast, -slow]))
-        within = float(doubt[:2].max()), float(doubt[2:].max())
+        within = float(uncertainty[:2].max()), float(uncertainty[2:].max())
         tally.error_within, tally.speed_within = (each if isfinite(each) else None for each in within)

@@ -1,9 +1,10 @@
-"""Fast estimates of transmission error, equation (6) of docs/motion.md, and their accuracy: sums over pairs.
+"""First-order estimates of the transmission error, equation (6) of docs/motion.md, and their accuracy: sums over
+pairs.
 
 The estimates neglect the effect of pairs on each other. To first order an output's error is the sum of its
-sensitivities times the pairs' errors. The sum of their ranges bounds its range. For independent phases the squares of
-their rms values add. Superposition in phase approximates the motion as far as the errors of drivers do not change their
-angles. Including the mean of these errors relative to turn 0 (lag) corrects a part of the rest.
+sensitivities times the pairs' errors. The sum of these terms' ranges is a bound on its range. For independent phases
+the squares of their rms values add. Superposition in phase neglects only the change of driver angles by errors. Part of
+this change is corrected by the mean error of each driver relative to position 0 (lag).
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class Superposition:
-    """First-order errors of a composition, with each pair at the mean angle of its driver."""
+    """First-order errors of a composition; every pair is evaluated at the mean angle of its driver."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used
@@ -38,23 +39,23 @@ class Superposition:
 
     @cached_property
     def ranges(self) -> Floats:
-        """Range of each pair's error [rad of its driven side]."""
+        """Range of each pair's error, maximum minus minimum angle of the driven side [rad]."""
         ends = [source.transmission.error_range() for source in self.sources]
         return np.array([high - low for low, high in ends])
 
     @cached_property
     def moments(self) -> Floats:
-        """Mean and rms of each pair's error [rad of its driven side], (2, pairs)."""
+        """Mean and rms value of each pair's error, angle of the driven side [rad], shape (2, pairs)."""
         return np.array([source.transmission.error_moments() for source in self.sources]).reshape(-1, 2).T
 
     @property
     def bounds(self) -> list[float]:
-        """Upper bound on the range of each output's error [rad]."""
+        """Upper bound on the range (maximum minus minimum) of each output's error [rad]."""
         return [float(row) for row in np.abs(self.response) @ self.ranges]
 
     @property
     def independent(self) -> list[float]:
-        """Rms of each output's error for independent phases of the pairs [rad]."""
+        """Rms value of each output's error for independent phases of the pairs [rad]."""
         return [hypot(*row) for row in self.response * self.moments[1]]
 
     @cached_property
@@ -67,7 +68,10 @@ class Superposition:
         return np.array([self.composition.driver_shift(source, error) for source in self.sources])
 
     def at(self, turns: Floats, lagged: bool = True) -> Floats:
-        """Return errors of the outputs [rad], (outputs, n), with or without mean lags in the phases."""
+        """Return errors of the outputs [rad], shape (outputs, n), at positions of the input [revolutions].
+
+        `lagged=True` adds the mean errors of the drivers to their angles.
+        """
         angle = InputPhase(turns)
         found = np.zeros((len(self.response), len(turns)))
         for at, source in enumerate(self.sources):
@@ -79,7 +83,7 @@ class Superposition:
 
 @dataclass(frozen=True)
 class SuperpositionEstimate(Result):
-    """Estimate by superposition: statistics of its own error, and of its difference from the composed motion."""
+    """Estimate by superposition: statistics of the estimated error, and of its difference from the composed motion."""
 
     KEYS = (
         Key("peak_to_peak", "own.peak_to_peak"),
@@ -92,17 +96,17 @@ class SuperpositionEstimate(Result):
 
     @property
     def maximum(self) -> float:
-        """Maximum difference from the composed motion, about its mean [rad]."""
+        """Maximum magnitude of the difference from the composed motion, relative to the mean difference [rad]."""
         return max(self.off.centre - self.off.minimum, self.off.most - self.off.centre)
 
 
 @dataclass(frozen=True)
 class ErrorEstimates(Result):
-    """Fast estimates of one output's error, with the exact result: equation (6) of docs/motion.md.
+    """First-order estimates of one output's error, with the exact result: equation (6) of docs/motion.md.
 
     See Also
     --------
-    MotionRun.find_estimates : Method that computes these.
+    MotionRun.find_estimates : computes them
     """
 
     KEYS = (
@@ -113,36 +117,39 @@ class ErrorEstimates(Result):
     )
 
     true: RunningStatistics
-    """Exact composition over the same positions."""
+    """Statistics of the exact composition over the same positions."""
     bound: float
     """Sum over pairs of sensitivity times range, an upper bound on the range of the error [rad]."""
     independent: float
-    """Root mean square of the error for independent phases of the pairs [rad]."""
+    """Rms value of the error for independent phases of the pairs [rad]."""
     nominal: SuperpositionEstimate
-    """Sum of the errors with each driver at its mean angle."""
+    """Superposition with each driver at its mean angle."""
     lagged: SuperpositionEstimate
-    """Sum of the errors with each driver displaced by the mean lag of all pairs before it."""
+    """Superposition with each driver displaced by the mean error (lag) of the pairs before it."""
 
     @property
     def bound_error(self) -> float:
-        """Relative error of the bound."""
+        """Relative error of `bound`, compared with the exact peak-to-peak error [1]."""
         return (self.bound - self.true.peak_to_peak) / (self.true.peak_to_peak or 1.0)
 
     @property
     def independent_error(self) -> float:
-        """Relative error of the rms for independent phases."""
+        """Relative error of `independent`, compared with the exact rms value [1]."""
         return (self.independent - self.true.rms) / (self.true.rms or 1.0)
 
 
 def find_estimates(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> dict[str, ErrorEstimates]:
-    """Return all estimates of every output's error with their true accuracy, over `samples` positions."""
+    """Return the first-order estimates of every output's error, compared with the composition at `samples`
+    positions.
+    """
     superposed = Superposition(motion._forward if turns >= 0 else motion._backward)
     true, nominal, lagged = motion._statistics(), *((motion._statistics(), motion._statistics()) for _ in range(2))
     for passage in motion._stretches(turns, samples):
         for at, tally in enumerate(true):
             tally.add(passage.error[at], passage.rate[at])
+        # statistics of the estimated error, and of its difference from the exact one
         for counted, tallies in ((False, nominal), (True, lagged)):
             error = superposed.at(passage.turns, counted)
             for at, (own, off) in enumerate(zip(*tallies, strict=True)):

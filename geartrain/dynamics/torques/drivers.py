@@ -1,16 +1,15 @@
 """Driving side of each gear pair and coupling, from the power that flows through it relative to its carrier.
 
-"Who drives a pair" in docs/torques.md, section 3. If loads are declared, the torques decide for all pairs that a load
-reaches. Otherwise every pointer on a dial is assumed to resist its motion with an unknown torque. Without loss the
-multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0. If all c_o of a pair have one sign, the
-power flows in one direction for any torques of the pointers; otherwise the direction is undetermined. For pairs through
-which no pointer takes power, resistance is assumed at the outputs on shafts, then at all outputs, all shafts, and
-finally every joint. The order of declaration does not matter.
+The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driving
+side of all pairs that transmit a load. Otherwise every pointer on a dial is assumed to resist its motion with an
+unknown torque. Without loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0. If all
+c_o of a pair have one sign, the power flows in one direction for any torques of the pointers; otherwise the direction
+is undetermined. For pairs through which no pointer takes power, resistance is assumed at the outputs on shafts, then at
+all outputs, all shafts, and finally every joint. The order of declaration does not matter.
 
-The coefficients c_o are exact (point 3 there). One elimination treats all loads at once, with a symbol for each load
-and every unknown torque as a linear form of symbols. Where loads continue through a single torque, with one sign, only
-their sum matters beyond it. That sum becomes a symbol, which keeps the cost of long trains and the length of their
-numbers small.
+The coefficients c_o are exact. One elimination treats all loads at once: each load is a symbol, and every unknown
+torque is a linear form of the symbols. If several loads have the same sign in one torque and occur nowhere else, their
+sum becomes a new symbol. This reduces run time and the number of digits in long trains.
 """
 
 from __future__ import annotations
@@ -38,14 +37,14 @@ if TYPE_CHECKING:
 
 
 UnitLoads = Mapping[str, Mapping[str, Fraction]]
-"""Torques by link under a unit load, by the name of the resisting output or link."""
+"""Unit loads: name of the resisting output or link -> link -> torque."""
 
 _NAMED = 3  # loads listed by name; the others are only counted
 
 
 @dataclass(frozen=True)
 class LoadGroup:
-    """Sum of loads: their number, and their first names in alphabetical order."""
+    """Set of loads: their number, and their first names in alphabetical order."""
 
     count: int
     names: tuple[str, ...]
@@ -56,17 +55,19 @@ class LoadGroup:
         return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
     def joined(self, other: LoadGroup) -> LoadGroup:
-        """Return the union of two groups. Common members count once if both groups name them."""
+        """Return the union of two sets of loads; loads whose names are in both are counted once."""
         names = sorted({*self.names, *other.names})
         twice = len({*self.names} & {*other.names})
         return LoadGroup(self.count + other.count - twice, tuple(names[:_NAMED]))
 
 
-NOTHING = LoadGroup(0, ())
+NOTHING = LoadGroup(0, ())  # no load
 
 
 class LoadInfluence(NamedTuple):
-    """Loads that make the multiplier of a mesh positive or negative. `open` is True if it is undetermined."""
+    """Loads that make the multiplier of a mesh positive, and loads that make it negative. `open` is True if it is
+    undetermined.
+    """
 
     plus: LoadGroup = NOTHING
     minus: LoadGroup = NOTHING
@@ -74,9 +75,9 @@ class LoadInfluence(NamedTuple):
 
 
 def find_load_influence(balance: TorqueBalance, loads: UnitLoads) -> dict[str, LoadInfluence] | None:
-    """Return the influence of loads on every mesh, or None if no torques balance the loads.
+    """Return the influence of loads on every mesh; None if no torques balance the loads.
 
-    balance   without losses; its known torques only mark the loaded links
+    balance   torque balance without losses; its known torques only mark the loaded links
     """
     weighing = _InfluenceSolver(balance, loads)
     return weighing.found if weighing.go() else None
@@ -92,6 +93,7 @@ class _InfluenceSolver:
         self.rows: dict[int, LinearForm] = {row: {} for row in self.balance.rows}
         self.holding_rows: dict[int, set[int]] = {}
         at = {link: row for row, link in enumerate(self.balance.links)}
+        # sorted, so that the order of declaration has no effect
         for name in sorted(self.loads):
             symbol = self._symbol(LoadGroup(1, (name,)))
             for link, torque in self.loads[name].items():
@@ -111,7 +113,9 @@ class _InfluenceSolver:
             (self.holding_rows[symbol].add if symbol in own else self.holding_rows[symbol].discard)(row)
 
     def go(self) -> bool:
-        """Solve block by block, or all at once if a block leaves open what a later one may need."""
+        """Solve the system block by block, or as a whole if a block leaves a torque open that a later block may
+        need.
+        """
         self._start()
         done = self._through(self.balance.parts)
         if done is None:
@@ -125,6 +129,7 @@ class _InfluenceSolver:
             forms = self._solve(block)
             if forms is None:
                 return False
+            # an undetermined torque may be determined by a later block
             if block is not blocks[-1] and None in forms.values():
                 return None
             for column, form in forms.items():
@@ -132,9 +137,9 @@ class _InfluenceSolver:
         return True
 
     def _solve(self, block: Block) -> dict[int, LinearForm | None] | None:
-        """Solve a block for its unknowns as linear forms of symbols, None if undetermined.
+        """Return the unknowns of a block as linear forms of symbols, with None for undetermined unknowns.
 
-        The result as a whole is None if nothing balances.
+        The result is None if no torques balance the loads.
         """
         known = {row: self.rows.pop(row) for row in block.rows}
         for row, form in known.items():
@@ -146,7 +151,9 @@ class _InfluenceSolver:
         return {column: None if form is None else self._merged(form) for column, form in found.items()}
 
     def _merged(self, form: LinearForm) -> LinearForm:
-        """Replace loads of one sign by a single symbol, if they are not needed separately elsewhere."""
+        """Return the form with loads of one sign replaced by a new symbol for their sum, if no other row contains
+        them.
+        """
         # symbols in no remaining row are not needed separately; only their sum continues
         signs = {value > 0 for value in form.values()}
         if len(signs) != 1 or any(self.holding_rows[symbol] for symbol in form):
@@ -175,12 +182,12 @@ class _InfluenceSolver:
 
 
 class FlowDirections(NamedTuple):
-    """Loads that take power flowing from a pair's first wheel to its second, and those that take it in reverse."""
+    """Loads whose power flows from a pair's first wheel to its second, and loads whose power flows in reverse."""
 
     ahead: LoadGroup = NOTHING
     back: LoadGroup = NOTHING
     shared: bool = False
-    """True if redundant pairs share the power in an undetermined way."""
+    """True if redundant pairs share the power, and the shares are undetermined."""
     note: str = ""
     """Note on outputs that take no power through this pair."""
 
@@ -188,16 +195,18 @@ class FlowDirections(NamedTuple):
         return bool(self.ahead.count or self.back.count or self.shared)
 
     def joined(self, other: FlowDirections) -> FlowDirections:
-        """Return the union of two directions."""
+        """Return the union of the loads of two results for one pair."""
         ahead, back = self.ahead.joined(other.ahead), self.back.joined(other.back)
         return FlowDirections(ahead, back, self.shared or other.shared, self.note)
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """Return the driving wheel of every pair and the driving link of every coupling in one case, found when first read.
+    """Return the driving wheel of every pair and the driving link of every coupling in one state, found when first
+    read.
 
-    circuits   those that are included; `setting` may have more
-    setting    the case with its speeds; None if they are undetermined, which leaves only declared drivers
+    circuits   circuits of the pairs and couplings to include
+    setting    load case with the speeds of the state; None if they are undetermined: only declared drivers are then
+    certain
     """
     if setting is None:
         return _undetermined(train, circuits, "the speeds of the train are not determined")
@@ -205,7 +214,7 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
 
 
 def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
-    """Return the drivers without known speeds: only declared drivers are certain."""
+    """Return the drivers for a train with unknown speeds, for the reason `why`: only declared drivers are certain."""
     declared = _declared(train)
     text = f"undetermined: {why}"
     return {
@@ -218,7 +227,7 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """Drivers in one case with its speeds. Efficiencies, which need teeth, are computed only where a load acts."""
+    """Driving sides in one state with known speeds. Efficiencies are computed only for pairs that transmit a load."""
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting
@@ -236,7 +245,9 @@ class _Drivers:
 
     @cached_property
     def _idle(self) -> Collection[str]:
-        """Pairs that no load reaches, whose efficiencies do not matter. Searched only if efficiencies need teeth."""
+        """Pairs that transmit no load, so that their efficiencies are not needed; searched for only if efficiencies
+        need teeth.
+        """
         return find_idle_pairs(self.setting) if self.setting.meshes else ()
 
     @cached_property
@@ -263,7 +274,9 @@ def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
 
 
 def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
-    """Return the directions of power through pairs that roll, from resisting pointers, outputs, shafts or joints."""
+    """Return the directions of power through the pairs `wanted` from assumed resistance at pointers, outputs, shafts or
+    joints.
+    """
     found: dict[str, FlowDirections] = {}
     note = ""
     for loads, missed in _RESISTING:
@@ -277,15 +290,15 @@ def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirection
 
 
 def _pointers(setting: LoadCase) -> UnitLoads:
-    """Return unit loads on every output with a dial, against its motion."""
+    """Return unit loads at every output with a dial, against its motion."""
     outputs = setting.case.outputs
     return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
 
 
 def _output_shafts(setting: LoadCase) -> UnitLoads:
-    """Return unit loads on every output shaft in the frame.
+    """Return unit loads at every output shaft that turns in the frame.
 
-    Outputs on carriers, or relative to one, are only readings.
+    Outputs on carriers, or relative to a carrier, are only displays without power.
     """
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
@@ -294,19 +307,19 @@ def _output_shafts(setting: LoadCase) -> UnitLoads:
 
 
 def _outputs(setting: LoadCase) -> UnitLoads:
-    """Return unit loads on every output, against its motion."""
+    """Return unit loads at every output, against its motion."""
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     return {name: drag for name, (of, base) in ends.items() if (drag := _drag(setting, of, base))}
 
 
 def _shafts(setting: LoadCase) -> UnitLoads:
-    """Return unit loads on every link that turns in the frame."""
+    """Return unit loads at every link that turns in the frame, against its motion."""
     return {link: drag for link, drag in _joints(setting).items() if setting.bearer(link) == setting.train.frame}
 
 
 def _joints(setting: LoadCase) -> UnitLoads:
-    """Return unit loads on every link, against its rotation in its bearing."""
+    """Return unit loads at every link, against its rotation in its bearing."""
     links = (link for link in setting.train.links if link != setting.train.frame)
     return {link: drag for link in links if (drag := _drag(setting, link, setting.bearer(link)))}
 
@@ -318,11 +331,13 @@ _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_shafts, ""),
     (_joints, ""),
 )
-"""Assumed resistances in order of precedence, and the words for pairs through which they take no power."""
+"""Assumed resistances in order of precedence, with the text for pairs through which they take no power."""
 
 
 def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
-    """Return a unit torque between two links against their relative rotation, or nothing if it is 0."""
+    """Return a unit torque between two links against their relative rotation, by link; empty if they are at relative
+    rest.
+    """
     own, other = setting.sense(of), setting.sense(base)
     relative = setting.relative(of, base) or Fraction(0)
     sign = (relative > 0) - (relative < 0)
@@ -333,7 +348,7 @@ def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 
 
 def _flow_directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """Return the direction of power in every pair under any positive combination of loads."""
+    """Return the directions of power in every pair for any combination of loads with positive factors."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting) if loads else ():
         like = _equal_planets(build_balance(setting, {}, requested))
@@ -350,7 +365,10 @@ def _flow_directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirec
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield the links of unknown torque, as many as inputs: every combination if there is a crank besides inputs."""
+    """Yield the sets of links with unknown torque, each with as many links as there are inputs.
+
+    If there is a crank besides the inputs, the sets are all combinations of the crank with further links.
+    """
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
         links = inputs  # the crank is at rest and passes no power
@@ -361,7 +379,7 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
-    """Return the equal planets of each planet, including itself."""
+    """Return for each planet the planets that are equal to it, including itself."""
     ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
     found: dict[str, tuple[str, ...]] = {}
     for group in balance.ties:
@@ -372,7 +390,9 @@ def _equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Apply a load equally to all planets equal to the loaded one, and as often to their carrier."""
+    """Return the load applied equally to all planets that are equal to the loaded planet, and as often to their
+    carrier.
+    """
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)
@@ -413,7 +433,9 @@ def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
 
 
 def _assumed_driver(train: Train, circuit: Circuit) -> str:
-    """Return the assumed driver where it is undetermined: the wheel of fewer teeth, then by name; or the pin."""
+    """Return the assumed driver of a pair whose driver is undetermined: the wheel with fewer teeth (then by name), or
+    the pin.
+    """
     if circuit.kind != "gear":
         return circuit.j
     return min(

@@ -1,10 +1,10 @@
-"""Patterns of power flow consistent with the losses, equations (5), (7) and (8) of docs/torques.md, block by block.
+"""Patterns of power flow that are consistent with the losses, equations (5), (7) and (8) of docs/torques.md.
 
-The balance is piecewise linear, with one piece per pattern. If all pieces have the same orientation there is exactly
-one solution (Samelson, Thrall and Wesler); otherwise there is none (self-locking) or there are several. In block
-triangular form an ordinary train has one unknown per block, and only the patterns of coupled meshes in one block are
-enumerated together. In a block with too many lossy meshes, a fixed-point iteration gives one pattern, and the result is
-marked as not exhaustively checked.
+The balance is piecewise linear, with one linear system per pattern. If all pieces have the same orientation there is
+exactly one solution (Samelson, Thrall and Wesler); otherwise there is none (self-locking) or there are several. In
+block triangular form an ordinary train has one unknown per block, and only the patterns of coupled meshes in one block
+are enumerated together. In a block with too many lossy meshes, a fixed-point iteration gives one pattern, and the
+result is marked as not exhaustively checked.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 
 Sides = Mapping[int, int]
-"""Driving side by column; see `TorqueUnknown`."""
+"""Column -> driving side; see `TorqueUnknown`."""
 
 KnownTorques = Mapping[int, LinearForm]
-"""Known torques by row, as linear forms of symbols (columns below 0)."""
+"""Row -> known torques, as linear forms of symbols (columns below 0)."""
 _MOST_TRIED = 14  # lossy torques of a block with exhaustive enumeration: 2^14 small systems
 _MOST_OPEN = 10  # the same if torques remain undetermined anyway and the iteration has found a solution
 _FEW = 4  # with fewer lossy torques, a floating-point filter does not pay
@@ -35,15 +35,15 @@ _CHUNK = 2**21  # matrix entries solved at once: 16 MB of float64
 _MOST_ROUNDS = 50  # maximum iterations; a repeated pattern ends them sooner
 _MOST_FLOWS = 256  # maximum number of partial solutions
 NEAR = 1e-9
-"""Fraction of the maximum torque below which a torque may have either sign."""
+"""Fraction of the maximum torque below which the sign of a torque is undecided."""
 _KNOWN = -1  # column of the known torques
 
 Values = dict[int, Fraction | None]
-"""Torque by column; None if it is undetermined."""
+"""Column -> torque; None if it is undetermined."""
 
 
 def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Echelon:
-    """Eliminate the rows of a block over the rationals: equation (3) under one pattern."""
+    """Return the echelon form of a block's rows for one pattern, over the rationals: equation (3)."""
     rows = {row: dict(form) for row, form in known.items()}
     for column in block.columns:
         for row, value in columns[column].pieces[sides[column]].items():
@@ -55,9 +55,9 @@ def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides
 def solve_block(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques
 ) -> dict[int, LinearForm | None] | None:
-    """Solve a block for its unknowns as linear forms of symbols, None if undetermined.
+    """Return the unknowns of a block as linear forms of symbols, with None for undetermined unknowns.
 
-    The result as a whole is None if nothing balances.
+    The result is None if no torques balance the known ones.
     """
     if len(block.rows) == len(block.columns) == 1:
         # fast path: an ordinary train may have thousands of such blocks
@@ -73,7 +73,7 @@ def solve_block(
 
 @dataclass(frozen=True)
 class FlowPattern:
-    """Consistent pattern of power flow, with its torques."""
+    """Pattern of power flow that is consistent with the losses, with its torques."""
 
     pattern: DrivingSides
     solved: SolvedTorques
@@ -81,7 +81,7 @@ class FlowPattern:
 
 @dataclass
 class _Partial:
-    """Partial solution: sides and torques by column, and their sum in each row."""
+    """Solution of the first blocks: sides and torques by column, and the sum of torques in each row."""
 
     sides: dict[int, int]
     values: Values
@@ -92,7 +92,7 @@ class _Partial:
 
 
 def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
-    """Find all consistent patterns of power flow. Return them, and whether all patterns were tried.
+    """Return all consistent patterns of power flow, and whether all patterns were tried.
 
     The blocks of the Dulmage-Mendelsohn decomposition are solved in order, each by enumeration of its patterns or by
     fixed-point iteration.
@@ -105,7 +105,7 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 
 
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """Solve the blocks in order. Return all combinations of their solutions, and whether all patterns were tried.
+    """Return all combinations of the solutions of the blocks, and whether all patterns were tried.
 
     The result is None if a block leaves a torque open that a later block may need or determine.
     """
@@ -115,6 +115,7 @@ def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list
         for partial in partials:
             found, tried = _solutions(balance.columns, block, partial.rows)
             complete &= tried
+            # an undetermined torque may be determined by a later block
             if block is not blocks[-1] and any(value is None for _, values in found for value in values.values()):
                 return None
             followed += _branches(balance.columns, partial, found)
@@ -126,7 +127,7 @@ def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list
 def _branches(
     columns: Sequence[TorqueUnknown], partial: _Partial, found: Sequence[tuple[Sides, Values]]
 ) -> Iterator[_Partial]:
-    """Yield `partial` extended by each solution of one block. The last solution reuses `partial` itself."""
+    """Yield `partial` extended by each solution of one block. The last one is `partial`, changed in place."""
     for at, (sides, values) in enumerate(found):
         branch = partial.copy() if at + 1 < len(found) else partial
         branch.sides.update(sides)
@@ -140,7 +141,7 @@ def _branches(
 
 
 def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
-    """Return the torques of a complete solution, by name."""
+    """Return a complete solution as driving sides and torques by name."""
     pattern: dict[str, int] = {}
     found: dict[str, Fraction | None] = {}
     for at, column in enumerate(balance.columns):
@@ -150,6 +151,7 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
                 pattern[mesh.id] = column.side_of(mesh, partial.sides[at])
     multipliers = {mesh.id: found[mesh.id] for mesh in balance.meshes}
     plain = [partial.values[at] for at, column in enumerate(balance.columns) if not column.meshes]
+    # columns without meshes are in the order: unknown torques, brakes, locks
     unknown, held = len(balance.unknown), len(balance.held)
     external = dict(zip(balance.unknown, plain, strict=False))
     brakes = dict(zip(balance.held, plain[unknown:], strict=False))
@@ -196,7 +198,9 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
 ) -> bool:
-    """Return whether power flows in the assumed directions, equation (7), for some values of undetermined torques."""
+    """Return whether power flows in the assumed directions, equation (7), for at least one choice of undetermined
+    torques.
+    """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
         return False
     bound = [column for column, value in values.items() if value is None and (sides[column] or columns[column].barred)]
@@ -206,6 +210,7 @@ def _is_consistent(
     demands: list[LinearForm] = []
     for column in bound:
         form = solved.get(column, {column: Fraction(1)})
+        # required sign of the torque: power in the direction of the side
         way = -sides[column] * columns[column].turn
         demands.append({at: way * value for at, value in form.items()})
         if columns[column].barred:
@@ -216,7 +221,7 @@ def _is_consistent(
 def _solve(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]
 ) -> Values | None:
-    """Return all torques of a block, or None if none balance the known ones."""
+    """Return all torques of a block; None if no torques balance the known ones."""
     found = solve_block(columns, block, sides, _forms(known))
     if found is None:
         return None
@@ -230,7 +235,9 @@ def _forms(known: Mapping[int, Fraction]) -> dict[int, LinearForm]:
 def _candidates(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Iterator[Sides]:
-    """Yield sides that may be consistent. If several torques are lossy, floating-point solutions filter them."""
+    """Yield the driving sides that may be consistent; if several torques are lossy, float solutions exclude the
+    others.
+    """
     every = ({**base, **dict(zip(lossy, sides, strict=True))}
              for sides in product(*(columns[column].sides for column in lossy)))  # fmt: skip
     if len(lossy) < _FEW or len(block.rows) != len(block.columns):
@@ -244,9 +251,11 @@ def _candidates(
 def _iterate(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Sides | None:
-    """Find a consistent pattern by fixed-point iteration, starting without losses.
+    """Return a consistent pattern found by fixed-point iteration from the lossless solution; None if it does not
+    converge.
 
-    Every mesh through which power flows against its assumed direction is reversed, until none is or a pattern repeats.
+    In each iteration every mesh is reversed through which power flows against the assumed direction. The iteration ends
+    if no such mesh remains, or if a pattern repeats.
     """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []
@@ -266,7 +275,7 @@ def _iterate(
 
 
 class _FloatBlock:
-    """Square block in floating point, to filter the many patterns that contradict themselves."""
+    """Square block in float64, to exclude patterns that contradict their own torques."""
 
     def __init__(self, columns: Sequence[TorqueUnknown], block: Block, known: Mapping[int, Fraction]) -> None:
         import numpy as np
@@ -283,7 +292,7 @@ class _FloatBlock:
                 self.pieces[side, :, at] = [float(piece.get(row, 0)) for row in block.rows]
 
     def likely(self, chunk: Sequence[Sides]) -> Iterator[Sides]:
-        """Yield the patterns not contradicted by their torques, or all patterns if a matrix is singular."""
+        """Yield the patterns that their torques do not contradict; all patterns if a matrix is singular."""
         import numpy as np
 
         sides = np.array([[each[column] for column in self.block.columns] for each in chunk])
@@ -299,9 +308,10 @@ class _FloatBlock:
 
 
 def contradicts(torques: Floats, signs: Floats | Ints) -> Bools:
-    """Return where torques (columns, n) contradict the signs of a pattern beyond rounding: equation (7).
+    """Return a mask of the patterns whose signs the torques, shape (columns, n), contradict beyond rounding: equation
+    (7).
 
-    signs   1, -1, or 0 for any sign
+    signs   required sign of each torque: 1, -1, or 0 for any sign
     """
     import numpy as np
 

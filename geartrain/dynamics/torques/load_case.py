@@ -1,8 +1,7 @@
-"""A train in one load case: determined speeds, real teeth and pins, loads.
+"""Train in one load case: determined speeds, real teeth and pins, loads; check of equilibrium by virtual work.
 
-Equilibrium by virtual work: equations (14) to (16) of docs/torques.md. Loads balance if they do no work in any motion
-compatible with the constraints. Speeds do not enter, so the torque on a link may be determined even if its speed is
-not.
+The equations are (14) to (16) of docs/torques.md. Loads are in equilibrium if they do no work in any motion compatible
+with the constraints. The condition does not contain speeds, so a torque may be determined although a speed is not.
 """
 
 from __future__ import annotations
@@ -23,12 +22,12 @@ from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train
 
 PRESCRIBED = -1
-"""Column of a linear form that has prescribed numbers."""
+"""Column of a linear form that contains the constant term from prescribed speeds."""
 
 
 @dataclass(frozen=True)
 class VirtualMotion:
-    """Virtual displacement of the train: speeds by link, and the power of the loads."""
+    """Virtual motion of the train: speed of each link, and the power of the loads."""
 
     speeds: Mapping[str, Fraction]
     power: Fraction
@@ -42,9 +41,10 @@ def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
 def unbalanced_motions(
     system: WillisSystem, loads: Mapping[str, Fraction], still: Collection[str]
 ) -> list[VirtualMotion]:
-    """Return a basis of virtual motions if loads do work in at least one, equation (15); an empty list if they balance.
+    """Return a basis of virtual motions if loads do work in at least one, equation (15); empty if loads are in
+    equilibrium.
 
-    still   links of unknown torque; they are at rest in all these motions, so that their torques do no work
+    still   links with unknown torques; they are at rest in all these motions, so their torques do no work
     """
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
     forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
@@ -57,11 +57,12 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """Return the torque on one link that balances the loads in every motion, equation (16), or None."""
+    """Return the torque on one link that balances the loads in every motion, equation (16); None if there is none."""
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))
         if not speed:
+            # the loads do work in a motion in which the link is at rest
             if motion.power:
                 return None
             continue
@@ -84,30 +85,31 @@ def _forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, Li
     return {link: found.get(number, {number: Fraction(1)}) for link, number in at.items()}
 
 
-_ONE = Fraction(1)
+_ONE = Fraction(1)  # efficiency without loss
 
 
 @dataclass(frozen=True)
 class MeanEfficiencies:
-    """Efficiencies of one pair with the first link driving, then with the second."""
+    """Efficiencies of one pair: with the first link driving, and with the second link driving."""
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driver's torque is constant over a turn."""
+    """Efficiencies if the driver's torque is constant over a revolution."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driven side's torque is constant over a turn."""
+    """Efficiencies if the driven side's torque is constant over a revolution."""
     exact: bool = True
-    """True for declared values; False for means over teeth, which are floats to 15 digits."""
+    """True for declared values; False for means over teeth, which are floats rounded to 15 digits."""
 
     @property
     def differ(self) -> bool:
-        """True if the efficiency depends on which torque is constant."""
+        """True if the efficiency depends on whether the driver's or the driven side's torque is constant."""
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return forward and backward efficiency, depending on which torque is constant.
+        """Return the efficiencies with the first and with the second link driving, depending on which torque is
+        constant.
 
-        side      1 for the torque of the first link, -1 for that of the second, 0 for neither
-        driving   True if loads put power in; decides the case of neither
+        side      1 if the first link's torque is constant, -1 if the second link's is, 0 if neither is
+        driving   True if loads put power in; used if neither torque is constant
         """
         if side > 0:
             return self.driver[0], self.load[1]
@@ -118,7 +120,7 @@ class MeanEfficiencies:
 
 @dataclass(frozen=True)
 class LoadCase:
-    """Train in one load case, solved for its speeds: all input of the torque analysis."""
+    """Train in one load case with its speeds: the input of the torque analysis."""
 
     train: Train
     tree: Tree
@@ -126,14 +128,14 @@ class LoadCase:
     signs: Mapping[str, int]
     case: StateCase
     speeds: Mapping[str, Fraction]
-    """Speeds of the links whose speed is determined."""
+    """Link -> speed, for links whose speed is determined [unit of the train]."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
     """Pairs with real teeth by name."""
     pins: Sequence[PinMesh] = ()
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
-    """Speeds of all links as linear forms of the free speeds, if the train is underdetermined; otherwise empty."""
+    """Speeds of all links as linear forms of the free speeds if the train is underdetermined; otherwise empty."""
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """Cache of mean efficiencies by pair or coupling."""
+    """Cache of mean efficiencies, by name of the pair or coupling."""
 
     @cached_property
     def gears(self) -> Mapping[str, GearPair]:
@@ -142,17 +144,17 @@ class LoadCase:
 
     @cached_property
     def couplings(self) -> Mapping[str, Coupling]:
-        """Pin-and-slot couplings by name."""
+        """Couplings by pin and slot, by name."""
         return {coupling.name: coupling for coupling in self.train.couplings}
 
     @cached_property
     def joints(self) -> Mapping[str, PinMesh]:
-        """Pin-and-slot couplings with dimensions, by name."""
+        """Couplings by pin and slot with declared dimensions, by name."""
         return {joint.coupling.name: joint for joint in self.pins}
 
     @cached_property
     def system(self) -> WillisSystem:
-        """Labelled equations of the case."""
+        """Willis equations of the case, with labels."""
         return assemble_willis_system(tuple(self.train.links), self.train.frame, self.circuits, self.case, self.signs)
 
     @cached_property
@@ -161,12 +163,12 @@ class LoadCase:
         return Axes(self.train, self.tree)
 
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
-        """Return the axes of a circuit's first and second link in its carrier."""
+        """Return the labels of the axes of a circuit's first and second link on its carrier."""
         seen_from = self.tree.axis_seen_from
         return seen_from(circuit.carrier, circuit.i), seen_from(circuit.carrier, circuit.j)
 
     def helix_angles(self, circuit: Circuit) -> tuple[float, float] | None:
-        """Return the helix angles [rad] of a pair on skew axes; None for parallel axes or unknown angles."""
+        """Return the helix angles of a pair on skew axes [rad]; None for parallel axes or unknown angles."""
         first, second = (self.train.wheels[name][1] for name in circuit.wheels)
         return self.axes.helix_angles(self.axis_labels(circuit), (first, second))
 
@@ -176,11 +178,12 @@ class LoadCase:
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """Return -1 if the link's axis points against its parallels, else 1."""
+        """Return -1 if the link's axis is opposite to the reference direction of its parallel axes, else 1."""
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:
-        """Return the speed of a link relative to another, about the direction of their parallels; None if undetermined.
+        """Return the speed of a link relative to `carrier`, about the reference direction [unit of the train]; None if
+        undetermined.
 
         The relative speed of two links may be determined even if neither speed is.
         """
@@ -193,32 +196,32 @@ class LoadCase:
         free = any(value for column, value in form.items() if column != PRESCRIBED)
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
-    def rubs(self, part: GearPair | Coupling) -> bool:
-        """Return whether the friction of a pair or coupling is above 0 or depends on speed."""
+    def has_friction(self, part: GearPair | Coupling) -> bool:
+        """Return whether the declared friction of a pair or coupling is above 0 or depends on speed."""
         friction = self.train.friction_of(part)
-        return friction is not None and friction.rubs
+        return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
-        """Return the link that carries the axis of a link, regardless of how its coaxial joints are declared."""
+        """Return the link that carries the axis of `link`, independent of the declared order of coaxial joints."""
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
-        """Return the link that takes the reaction of an unknown torque: usually the frame.
+        """Return the link on which the reaction of an unknown torque acts: usually the frame.
 
-        Pallets react on the link that carries the escape wheel.
+        For the escape wheel it is the link that carries this wheel, because the pallets are mounted there.
         """
         escapement = self.train.escapement
         return self.train.frame if escapement is None or link != escapement.link else self.bearer(link)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
-        """Return the speed of a circuit's first link relative to its carrier. If it is 0 no power passes the pair."""
+        """Return the speed of a circuit's first link relative to its carrier; at 0 no power flows through the pair."""
         return self.relative(circuit.i, circuit.carrier)
 
     @cached_property
     def bearings(self) -> tuple[BearingTorque, ...]:
-        """Friction of every bearing that has any, against the rotation of its link: equation (10).
+        """Friction torque of every bearing with friction, against the rotation of its link: equation (10).
 
-        It is 0 if the speed in the joint is 0 or undetermined.
+        The torque is 0 if the speed in the joint is 0 or undetermined.
         """
         found = []
         for link in self.train.links:
@@ -226,13 +229,14 @@ class LoadCase:
                 continue
             carrier = self.tree.parent[link][0]
             relative = self.relative(link, carrier) or Fraction(0)
+            # Coulomb friction has the sign of the relative speed
             torque = friction * ((relative > 0) - (relative < 0))
             reaction = Fraction(0) if carrier == self.train.frame else self.sense(carrier) * torque
             found.append(BearingTorque(link, carrier, -self.sense(link) * torque, reaction, torque * relative))
         return tuple(found)
 
     def bearing(self, link: str) -> Fraction:
-        """Return the friction torque of a link's bearing [N m, or plain]."""
+        """Return the friction torque of a link's bearing [N m, or plain number]."""
         friction = self.train.links[link].bearing
         if friction is None or link == self.train.frame:
             return Fraction(0)
@@ -240,7 +244,7 @@ class LoadCase:
 
 
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
-    """Return the only input and the link at which power leaves, or None if they are not unique.
+    """Return the only input and the link at which power leaves the train; None if they are not unique.
 
     Power leaves at the only loaded link, or at the only output.
     """

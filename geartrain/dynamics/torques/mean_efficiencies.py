@@ -1,9 +1,8 @@
 """Mean efficiency of a pair: declared, or computed from its teeth or its pin, equations (17) to (20).
 
-docs/torques.md, section 12. Over a turn the torques on the two sides of a pair cannot both be constant. If the driver's
-torque is constant, the mean efficiency is mean(eta). If the driven side's torque is constant, it is
-mean(tau)/mean(tau/eta). The balance determines which of the two is given: it is the torque on the link whose own row
-determines the pair.
+docs/torques.md, section 12. Over a revolution the torques on the two sides of a pair cannot both be constant. If the
+driver's torque is constant, the mean efficiency is mean(eta). If the driven side's torque is constant, it is
+mean(tau)/mean(tau/eta). A torque is constant if the balance of its own link alone determines it.
 """
 
 from __future__ import annotations
@@ -25,19 +24,21 @@ _ROUNDING = 1e-9  # amount by which rounding in the quadrature may make a mean e
 
 
 def all_mean_efficiencies(setting: LoadCase) -> Mapping[str, MeanEfficiencies]:
-    """Return the mean efficiencies of every pair and coupling, by name."""
+    """Return the mean efficiencies of all pairs and couplings, by name."""
     return {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
 
 
 def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the mean efficiencies of one pair or coupling. They are cached because they do not depend on the loads."""
+    """Return the mean efficiencies of one pair or coupling. The result is cached, because it does not depend on the
+    loads.
+    """
     if circuit.id not in setting.means:
         setting.means[circuit.id] = _of_circuit(setting, circuit)
     return setting.means[circuit.id]
 
 
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a circuit: 1 if no loss is declared or dimensions are unknown."""
+    """Return the efficiencies of a circuit; they are 1 if no loss is declared or if dimensions are unknown."""
     if circuit.kind != "gear":
         return _of_pin(setting, circuit)
     gear = setting.gears[circuit.id]
@@ -46,11 +47,12 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
         return MeanEfficiencies(declared, declared)
     if (screw := _of_screw(setting, circuit)) is not None:
         return screw
-    if not setting.rubs(gear) or circuit.id not in setting.meshes:
+    if not setting.has_friction(gear) or circuit.id not in setting.meshes:
         return MeanEfficiencies()
     tooth = setting.meshes[circuit.id]
     if tooth.wheels.friction_law is not None:
         speed = pitch_line_speed(setting, circuit, tooth)
+        # undetermined relative motion: `find_neglected_effects` reports these losses
         if speed.value is None and speed.problem is None:
             return MeanEfficiencies()
         tooth = at_speed(tooth, speed.known())
@@ -58,7 +60,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Return the efficiencies of a worm or of crossed helical gears, or None if angles or friction are unknown."""
+    """Return the efficiencies of a worm drive or of crossed helical gears; None if angles or friction are unknown."""
     gear = setting.gears[circuit.id]
     friction = setting.train.friction_of(gear)
     if friction is None or friction.sliding is None:
@@ -68,12 +70,15 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
         return None
     form = setting.train.form_of(gear)
     angle = NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
+    # 15 digits, so that equal efficiencies are equal fractions
     found = [Fraction(f"{screw_efficiency(*pair, friction.sliding, angle):.15g}") for pair in (helix, helix[::-1])]
     return MeanEfficiencies((found[0], found[1]), (found[0], found[1]), exact=False)
 
 
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a pin and slot, slot first. They are 1 for a follower, which passes no mean power."""
+    """Return the efficiencies of a pin and slot, slot driving first; 1 for a follower, which transmits no mean
+    power.
+    """
     joint = setting.joints.get(circuit.id)
     if joint is None or not joint.transmission.friction or not circuit.b:
         return MeanEfficiencies()
@@ -87,7 +92,7 @@ def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficienc
 
 
 def _mean(efficiency: float | None) -> Fraction:
-    """Return a mean over teeth as a fraction to 15 digits, or 0 if friction locks."""
+    """Return a mean efficiency as a fraction with 15 digits; 0 if friction locks the pair (None)."""
     if efficiency is None:
         return Fraction(0)
     # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
@@ -97,7 +102,8 @@ def _mean(efficiency: float | None) -> Fraction:
 def apply_mean_efficiencies(
     balance: TorqueBalance, means: Mapping[str, MeanEfficiencies], driving: bool
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
-    """Insert the applicable mean efficiency of each pair into a balance.
+    """Return the balance with the applicable mean efficiency of each pair, and the pairs neither of whose torques is
+    constant.
 
     The result is the balance, and the pairs neither of whose torques is constant.
     """
@@ -115,7 +121,7 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return the link whose own balance determines a pair: 1 for its first link, -1 for its second, by pair."""
+    """Return by pair the link whose own balance determines its torque: 1 for the first link, -1 for the second."""
     found: dict[str, int] = {}
     for block in balance.parts:
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):
@@ -135,9 +141,9 @@ def _side(mesh: LoadedPair, link: str) -> int:
 
 
 def screw_efficiency(driving: float, driven: float, friction: float, pressure_angle: float = NORMAL_ANGLE) -> float:
-    """Compute the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less locks.
+    """Compute the efficiency of a screw gear, equation (12c) of docs/theory.md; 0 or less means self-locking.
 
-    Only sliding along the teeth counts, at the pitch point. Sliding along the profile is small compared with it.
+    Only sliding along the teeth at the pitch point is considered; sliding along the profile is small compared with it.
 
     Parameters
     ----------
@@ -151,7 +157,7 @@ def screw_efficiency(driving: float, driven: float, friction: float, pressure_an
     Examples
     --------
     A worm with a lead angle of 5 degrees and a coefficient of friction of 0.1 has the efficiency
-    tan(lead angle) / tan(lead angle + friction angle). It does not run backwards:
+    tan(lead angle) / tan(lead angle + friction angle). The wheel cannot drive the worm:
 
     >>> round(screw_efficiency(radians(85), radians(5), 0.1 * cos(NORMAL_ANGLE)), 6)
     0.462552

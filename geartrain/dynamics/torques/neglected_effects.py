@@ -1,10 +1,10 @@
-"""Effects that a balance of mean torques neglects, by name: the table in section 13 of docs/torques.md.
+"""Effects that a balance of mean torques neglects: the table in section 13 of docs/torques.md.
 
-Some bearings reverse within a turn although their mean speed does not change. Interval bounds find them, equation (21).
-Each nonuniform pair adds g (tau(S) - m) w to the mean speed of every link. Here g is its gain at the link, tau its
-speed ratio at the angle S of its driver, m the mean ratio, and w the speed of its driver relative to the carrier. Gains
-are exact, and the bounds of w widen from pair to pair. A bearing named here may therefore reverse; a bearing not named
-does not.
+Some bearings reverse within a revolution although their mean speed is constant. Interval bounds find them, equation
+(21). Each nonuniform pair adds g (tau(S) - m) w to the mean speed of every link. Here g is its gain at the link, tau
+its speed ratio at the angle S of its driver, m the mean ratio, and w the speed of its driver relative to the carrier.
+Gains are exact, and the bounds of w widen from pair to pair. So a bearing in the result may reverse, and a bearing that
+is not in the result does not.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ _MEAN = "the torques given are means over a turn"
 
 @dataclass(frozen=True)
 class SpeedBounds:
-    """Bounds of a speed, such as that of a bearing."""
+    """Bounds of a speed, such as the speed of a bearing."""
 
     low: float
     high: float
     magnitude: float | None = None
-    """Mean magnitude of the speed, if a single pair causes its variation."""
+    """Mean magnitude of the speed, if only one pair causes its variation; else None."""
     most: float | None = None
-    """Maximum magnitude of the speed, if a single pair causes its variation."""
+    """Maximum magnitude of the speed, if only one pair causes its variation; else None."""
 
     @property
     def reverses(self) -> bool:
@@ -56,31 +56,33 @@ class SpeedBounds:
         return self.low < -_SLACK * abs(self.high) and self.high > _SLACK * abs(self.low)
 
     def plus(self, other: SpeedBounds) -> SpeedBounds:
-        """Return the bounds of the sum of two speeds."""
+        """Return bounds of the sum of two speeds, each within its bounds."""
         return SpeedBounds(self.low + other.low, self.high + other.high)
 
     def times(self, other: SpeedBounds) -> SpeedBounds:
-        """Return the bounds of the product of two numbers."""
+        """Return bounds of the product of two numbers, each within its bounds."""
         ends = [_product(x, y) for x in (self.low, self.high) for y in (other.low, other.high)]
         return SpeedBounds(min(ends), max(ends))
 
 
 @dataclass(frozen=True)
 class _NonuniformPair:
-    """Pair with a variable speed ratio. Its row has factor (tau - m) times the speed of its driver."""
+    """Pair with a variable speed ratio tau. It adds a factor times (tau - m) times the speed of its driver to its
+    equation.
+    """
 
     id: str
     transmission: TransmissionFunction | None
-    """Transmission function; None if unknown, as for a pin without dimensions or teeth that cannot turn."""
+    """Transmission function; None if it is unknown, as for a pin without dimensions or teeth that cannot turn."""
     driver: str
-    """Driver, moving relative to `carrier`. `mean` is m."""
+    """Driving link, whose speed is relative to `carrier`. `mean` is the mean speed ratio m."""
     carrier: str
     factor: Fraction
     mean: Fraction
 
     @property
     def swing(self) -> SpeedBounds:
-        """Bounds of tau - m."""
+        """Bounds of tau - m, the deviation of the speed ratio from its mean."""
         if self.transmission is None:
             return SpeedBounds(-inf, inf)
         low, high = self.transmission.speed_range()
@@ -88,7 +90,9 @@ class _NonuniformPair:
 
 
 def find_reversing_bearings(setting: LoadCase, links: Sequence[str]) -> Mapping[str, SpeedBounds] | None:
-    """Return speed bounds of the links that may reverse in their bearings; None if there are too many pairs."""
+    """Return speed bounds of the links that may reverse in their bearings; None if there are too many nonuniform
+    pairs.
+    """
     nonuniform = list(_nonuniform_pairs(setting))
     if len(nonuniform) > _MOST_NONUNIFORM:
         return None
@@ -116,6 +120,7 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
         tooth = setting.meshes.get(circuit.id)
         if tooth is None or tooth.rigid:
             continue
+        # the row a w_i + b w_j = 0 deviates by -own / mean times (tau - mean) times the driver's speed
         first = tooth.driver == circuit.wheels[0]
         driver, own = (circuit.i, circuit.a) if first else (circuit.j, circuit.b)
         mean = Fraction(tooth.transmission.ratio)
@@ -125,7 +130,9 @@ def _nonuniform_pairs(setting: LoadCase) -> Iterator[_NonuniformPair]:
 
 
 def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[str, Mapping[int, float]]:
-    """Return the speed that a unit of each pair's deviation, by index, adds to each link, with input speeds fixed."""
+    """Return for each link the speed added by a unit deviation of each pair, by index of the pair, with input speeds
+    fixed.
+    """
     number = {each.id: at for at, each in enumerate(nonuniform)}
     system = setting.system
     column = {link: at for at, link in enumerate(system.links)}
@@ -133,6 +140,7 @@ def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[
     for row in system.equations:
         form: LinearForm = {column[link]: Fraction(value) for link, value in row.terms}
         if row.kind not in ("input", "fixed", "lock", "frame") and row.label in number:
+            # the deviation of the pair is a symbol, with inputs fixed
             form[-1 - number[row.label]] = -nonuniform[number[row.label]].factor
         rows.append(form)
     forms = eliminate(rows).forms()
@@ -143,7 +151,7 @@ def _gains(setting: LoadCase, nonuniform: Sequence[_NonuniformPair]) -> Mapping[
 
 
 def _between(gains: Mapping[str, Mapping[int, float]], link: str, carrier: str) -> dict[int, float]:
-    """Return the gains at a link relative to another."""
+    """Return the gains of the speed of a link relative to `carrier`, by index of the pair."""
     found = dict(gains[link])
     for number, gain in gains[carrier].items():
         found[number] = found.get(number, 0.0) - gain
@@ -153,7 +161,7 @@ def _between(gains: Mapping[str, Mapping[int, float]], link: str, carrier: str) 
 def _bounds(
     setting: LoadCase, gains: Mapping[str, Mapping[int, float]], added: Sequence[SpeedBounds], link: str, carrier: str
 ) -> SpeedBounds:
-    """Return the bounds of a link's speed relative to another."""
+    """Return the bounds of the speed of a link relative to `carrier`."""
     mean = setting.relative(link, carrier)
     found = SpeedBounds(-inf, inf) if mean is None else SpeedBounds(_number(mean), _number(mean))
     for number, gain in _between(gains, link, carrier).items():
@@ -164,7 +172,7 @@ def _bounds(
 def _added(
     setting: LoadCase, nonuniform: Sequence[_NonuniformPair], gains: Mapping[str, Mapping[int, float]]
 ) -> Sequence[SpeedBounds]:
-    """Return bounds of the speed that each pair adds, from the bounds of its driver's speed."""
+    """Return bounds of the deviation tau - m times driver speed for each pair, by fixed-point iteration."""
     swings = [each.swing for each in nonuniform]
     added = [SpeedBounds(0.0, 0.0)] * len(nonuniform)
     # without cyclic dependencies each round fixes one more pair, and the last round changes nothing
@@ -185,7 +193,9 @@ def _with_mean(
     link: str,
     bounds: SpeedBounds,
 ) -> SpeedBounds:
-    """Add the mean magnitude, if a single pair causes the variation of the link and its driver turns uniformly."""
+    """Return the bounds with mean and maximum magnitude, if only one pair causes the variation and its driver turns
+    uniformly.
+    """
     import numpy as np
 
     carrier = setting.tree.parent[link][0]
@@ -205,7 +215,7 @@ def _with_mean(
 
 
 def _number(value: Fraction) -> float:
-    """Return the nearest float, or an infinity if it overflows."""
+    """Return the nearest float; beyond the range of float64, 0 or an infinity."""
     number = as_float(value)
     if number is not None:
         return number
@@ -213,7 +223,7 @@ def _number(value: Fraction) -> float:
 
 
 def _product(x: float, y: float) -> float:
-    """Return x times y, with 0 times infinity equal to 0."""
+    """Return x times y, where 0 times infinity is 0."""
     return x * y if x and y else 0.0  # IEEE arithmetic would give NaN for 0 times infinity
 
 
@@ -224,10 +234,10 @@ def find_neglected_effects(
     idle: Sequence[str],
     bearings: bool,
 ) -> tuple[NeglectedEffect, ...]:
-    """Return everything that the torques of one case neglect.
+    """Return all effects that the mean torques of one load case neglect.
 
-    neither   pairs neither of whose torques is constant over a turn
-    idle      pairs without torque, whose losses are not neglected
+    neither   pairs neither of whose torques is constant over a revolution
+    idle      pairs without torque, which have no losses
     bearings  False if friction of bearings was not requested
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
@@ -244,7 +254,7 @@ def find_neglected_effects(
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield viscous drag, which a balance of exact means does not include."""
+    """Yield the viscous drag of links, which a balance of exact means does not include."""
     if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
         yield NeglectedEffect(
             "viscous drag", links, "it depends on speed: torques over a turn include it if speeds have units"
@@ -252,11 +262,11 @@ def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
-    """Return the effects neglected by torques over a turn.
+    """Return the effects that torques over a revolution neglect.
 
-    Friction of pins and bearings and variation within a turn are included there, as far as their data are declared.
+    Torques over a revolution include friction of pins and bearings, and their variation, if the data are declared.
 
-    at_means   pairs with real teeth that have their mean efficiency at every position
+    at_means   pairs with real teeth that have their mean efficiency at all positions
     """
     found = [
         *_pins_without_dimensions(setting, setting.circuits),
@@ -270,20 +280,24 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield friction of pins that is not a fraction of the transmitted power."""
+    """Yield the friction of pins that is not a fraction of the transmitted power."""
     couplings = setting.couplings
-    rubbing = [circuit for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
-    if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
+    bearing_friction = [
+        circuit for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
+    ]
+    if swinging := tuple(circuit.id for circuit in bearing_friction if not circuit.b):
         why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
         yield NeglectedEffect("friction of pins", swinging, why)
-    yield from _pins_without_dimensions(setting, [circuit for circuit in rubbing if circuit.b])
+    yield from _pins_without_dimensions(setting, [circuit for circuit in bearing_friction if circuit.b])
 
 
 def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield friction declared on pins without dimensions."""
+    """Yield the friction declared for pins without dimensions."""
     couplings = setting.couplings
-    rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
-    if bare := tuple(name for name in rubbing if name not in setting.joints):
+    bearing_friction = [
+        circuit.id for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
+    ]
+    if bare := tuple(name for name in bearing_friction if name not in setting.joints):
         why = "it depends on `pin_radius` and `offset`, which are not declared"
         yield NeglectedEffect("friction of pins", bare, why)
 
@@ -291,14 +305,14 @@ def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iter
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield friction declared on teeth without a form, and on worms of unknown helix angle."""
+    """Yield the friction declared for teeth without a tooth form, and for worms with unknown helix angle."""
     bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: []}
     for circuit in busy:
         gear = setting.gears.get(circuit.id)
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
-        rubs = setting.rubs(gear) and means[circuit.id] == MeanEfficiencies()
-        if rubs and setting.relative(circuit.i, circuit.carrier) != 0:
+        has_friction = setting.has_friction(gear) and means[circuit.id] == MeanEfficiencies()
+        if has_friction and setting.relative(circuit.i, circuit.carrier) != 0:
             bare[_NO_HELIX if _slides(setting, circuit) else _NO_FORM].append(circuit.id)
     for why, names in bare.items():
         if names:
@@ -306,7 +320,7 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return whether a pair is a worm or crossed helical gears, whose tooth forms have no mean loss."""
+    """Return whether a pair is a worm drive or a pair of crossed helical gears, whose tooth forms have no mean loss."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
@@ -315,7 +329,7 @@ def _slides(setting: LoadCase, circuit: Circuit) -> bool:
 def _open(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield losses of pairs whose direction of rolling is undetermined."""
+    """Yield the losses of pairs whose relative speed is undetermined."""
     found = tuple(
         circuit.id
         for circuit in busy
@@ -327,29 +341,29 @@ def _open(
 
 
 def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return whether the friction of teeth depends on a speed."""
+    """Return whether a pair's efficiency depends on speed."""
     tooth = setting.meshes.get(circuit.id)
     declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
     return tooth is not None and not declared and tooth.wheels.friction_law is not None
 
 
-def _rubbing(setting: LoadCase) -> list[str]:
+def _bearing_friction(setting: LoadCase) -> list[str]:
     return [link for link in setting.train.links if setting.bearing(link)]
 
 
 def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    if rubbing := _rubbing(setting):
+    if bearing_friction := _bearing_friction(setting):
         why = "it does not depend on the load, so it is not part of an efficiency"
-        yield NeglectedEffect("friction of bearings", tuple(rubbing), why)
+        yield NeglectedEffect("friction of bearings", tuple(bearing_friction), why)
 
 
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield bearings whose sense of rotation is undetermined or changes within a turn."""
-    rubbing = _rubbing(setting)
-    free = tuple(link for link in rubbing if setting.relative(link, setting.tree.parent[link][0]) is None)
+    """Yield the bearings whose sense of rotation is undetermined or changes within a revolution."""
+    bearing_friction = _bearing_friction(setting)
+    free = tuple(link for link in bearing_friction if setting.relative(link, setting.tree.parent[link][0]) is None)
     if free:
         yield NeglectedEffect("friction of bearings", free, "their sense of rotation is not determined")
-    known = [link for link in rubbing if link not in free]
+    known = [link for link in bearing_friction if link not in free]
     back = find_reversing_bearings(setting, known)
     if back is None:
         why = "it is computed at the mean speeds; the train has too many nonuniform pairs to find reversing bearings"
@@ -361,7 +375,7 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
-    """Describe the ratio of a bearing's loss to its loss at mean speed."""
+    """Describe the mean and maximum magnitude of a bearing's speed relative to its mean speed."""
     reach = f"the speed varies from {bounds.low:.4g} to {bounds.high:.4g} within a turn"
     what = f"it is computed at the mean speed {decimal(mean, 4)}, but {reach}"
     if bounds.magnitude is None or bounds.most is None:
@@ -376,19 +390,19 @@ def _turns(bounds: SpeedBounds, mean: Fraction) -> str:
 
 
 def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield pairs whose torques depend on their position."""
+    """Yield the pairs whose torques vary with position."""
     found = []
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
         declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
-        if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.rubs and not declared))):
+        if circuit.swings or (tooth is not None and (not tooth.rigid or (tooth.has_friction and not declared))):
             found.append(circuit.id)
     if found:
         yield NeglectedEffect("variation within a turn", tuple(found), f"{_MEAN}, about which they vary with position")
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield links with inertia that nonuniform pairs accelerate."""
+    """Yield the links with inertia in a train with nonuniform pairs, which accelerate them."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
     nonuniform = any(circuit.swings for circuit in setting.circuits)
     if heavy and (nonuniform or any(not tooth.rigid for tooth in setting.meshes.values())):

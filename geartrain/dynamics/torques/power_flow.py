@@ -1,8 +1,8 @@
-"""Power flow: absolute powers from shaft to pair to shaft, the losses of each pair, and recirculating power.
+"""Power flow: absolute powers between shafts and pairs, the losses of each pair, and recirculating power.
 
-The power that a link gives to a pair is minus its torque there times its absolute speed. A pair takes in what it passes
-on plus its loss; a shaft passes on all it takes in. Links that are locked together are one shaft. The friction of a
-bearing acts between its link and the carrier like a pair that only has losses.
+The power from a link to a pair is minus the pair's torque on the link times the link's absolute speed. Powers into and
+out of a pair differ by its loss; powers into and out of a shaft are equal. Links that are locked together are one
+shaft. A bearing with friction is treated as a pair between its link and the carrier that only has losses.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]
 
 
 class PowerNode(NamedTuple):
-    """Node of the power flow.
+    """Node of the power flow: a pair, a shaft, a bearing, or a point where power enters or leaves.
 
     See Also
     --------
-    PowerFlow.nodes : All nodes.
+    PowerFlow.nodes : all nodes
     """
 
     kind: PowerNodeKind
-    """Kind of node. Power enters the train at `in` and leaves it at `out`."""
+    """Kind of the node. Power enters the train at `in` and leaves it at `out`."""
     name: str
     """Name of the link, pair or shaft.
 
@@ -46,28 +46,28 @@ class PowerStream(Result):
 
     See Also
     --------
-    PowerFlow.streams : All streams.
+    PowerFlow.streams : all streams
     """
 
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
     source: PowerNode
-    """Node from which the power comes."""
+    """Node from which the power flows."""
     target: PowerNode
-    """Node to which the power goes."""
+    """Node to which the power flows."""
     power: Fraction
-    """Power, above 0 [torque times the train's unit of speed]."""
+    """Power, above 0 [unit of torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)
-    """Part of the power that recirculates in closed loops."""
+    """Part of `power` that recirculates in closed loops, in the same unit."""
 
 
 @dataclass(frozen=True)
 class RecirculatingPower(Result):
-    """Nodes of closed power loops, and the power that recirculates in them.
+    """Closed loops in the power flow, with the power that recirculates in them.
 
     See Also
     --------
-    PowerFlow.loops : All loops.
+    PowerFlow.loops : all loops
     """
 
     KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
@@ -75,32 +75,32 @@ class RecirculatingPower(Result):
     nodes: tuple[PowerNode, ...]
     """Pairs and shafts of the loops."""
     power: Fraction
-    """Recirculating power [torque times the train's unit of speed]."""
+    """Recirculating power [unit of torque times the train's unit of speed]."""
     power_in: Fraction
-    """Power that enters the train."""
+    """Power that enters the train, in the same unit."""
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Recirculating power over the power that enters the train; None if none enters."""
+        """Recirculating power over the power that enters the train; None if no power enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
     def pairs(self) -> tuple[str, ...]:
-        """Pairs of the loop."""
+        """Names of the pairs in the loops."""
         return tuple(node.name for node in self.nodes if node.kind == "pair")
 
     @property
     def shafts(self) -> tuple[str, ...]:
-        """Shafts of the loop."""
+        """Names of the shafts in the loops."""
         return tuple(node.name for node in self.nodes if node.kind == "shaft")
 
 
 def find_circulation(
     streams: Sequence[PowerStream], power_in: Fraction
 ) -> tuple[list[PowerStream], list[RecirculatingPower]]:
-    """Return streams with their recirculating part, and the power loops.
+    """Return the streams with their recirculating parts, and the power loops.
 
-    Cycles are removed in order of decreasing bottleneck power.
+    Cycles are removed in the order of falling bottleneck power.
     """
     left = [stream.power for stream in streams]
     rounds: list[tuple[PowerNode, Fraction]] = []
@@ -124,10 +124,11 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Find the cycle with the largest minimum power (bottleneck cycle) by bisection. Return it, or an empty list."""
+    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty without one."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
+    # bisection over the widths: streams of at least this power contain a cycle or not
     widths = sorted({power for power in left if power > min(left[at] for at in best)})
     low, high = 0, len(widths)
     while low < high:
@@ -138,7 +139,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Find one cycle in the selected streams by iterative depth-first search. Return it, or an empty list."""
+    """Return one cycle in the selected streams, found by iterative depth-first search; empty without a cycle."""
     after: dict[PowerNode, list[int]] = {}
     for at in open_:
         after.setdefault(streams[at].source, []).append(at)
@@ -162,7 +163,7 @@ def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
 
 
 def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerNode]:
-    """Return the strongly connected component of a node."""
+    """Return the strongly connected component that contains a node."""
     ways: list[set[PowerNode]] = []
     for pairs in (((s.source, s.target) for s in streams), ((s.target, s.source) for s in streams)):
         after: dict[PowerNode, list[PowerNode]] = {}
@@ -179,11 +180,11 @@ def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerN
 
 @dataclass(frozen=True)
 class PowerLoss(Result):
-    """Loss of a pair or bearing, with the power input of the train and its total loss.
+    """Loss of a pair or bearing, compared with the power input of the train and with its total loss.
 
     See Also
     --------
-    PowerFlow.shares : All losses.
+    PowerFlow.shares : all losses
     """
 
     KEYS = (
@@ -192,30 +193,30 @@ class PowerLoss(Result):
     )
 
     node: PowerNode
-    """Pair or bearing."""
+    """Pair or bearing in which the power is lost."""
     power: Fraction
-    """Power it loses [torque times the train's unit of speed]."""
+    """Lost power [unit of torque times the train's unit of speed]."""
     power_in: Fraction
-    """Power that enters the train."""
+    """Power that enters the train, in the same unit."""
     loss: Fraction
-    """Total power lost."""
+    """Total lost power of the train, in the same unit."""
 
     @property
     def of_power_in(self) -> Fraction | None:
-        """Loss over the power that enters the train; None if none enters."""
+        """Lost power over the power that enters the train; None if no power enters."""
         return self.power / self.power_in if self.power_in else None
 
     @property
     def of_loss(self) -> Fraction:
-        """Loss over the total loss."""
+        """Lost power over the total lost power."""
         return self.power / self.loss
 
 
 @dataclass(frozen=True)
 class PowerFlow(Result):
-    """All power streams of a train in one state. Power is torque times absolute speed.
+    """Power streams of a train in one state. Power is torque times absolute speed.
 
-    Every shaft therefore passes on all power that it takes in, and every pair all but its loss.
+    Powers into and out of a shaft are equal; powers into and out of a pair differ by its loss.
 
     Examples
     --------
@@ -234,31 +235,32 @@ class PowerFlow(Result):
     KEYS = ("streams", "loops")
 
     power_in: Fraction = Fraction(0)
-    """Power that enters the train [torque times the train's unit of speed]."""
+    """Power that enters the train [unit of torque times the train's unit of speed]."""
     streams: tuple[PowerStream, ...] = ()
     """Streams from `in` through shafts and pairs to `out`."""
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
-    """Losses by pair and bearing, where they are not 0."""
+    """Pair or bearing -> lost power, for losses other than 0, in the same unit."""
     loops: tuple[RecirculatingPower, ...] = ()
-    """Recirculating power, largest first."""
+    """Power loops, sorted by falling power."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:
-        """All nodes that power passes."""
+        """All nodes through which power flows."""
         return tuple(dict.fromkeys(end for stream in self.streams for end in (stream.source, stream.target)))
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in all pairs and bearings."""
+        """Power lost in all pairs and bearings [unit of torque times the train's unit of speed]."""
         return sum(self.losses.values(), Fraction(0))
 
     @property
     def shares(self) -> tuple[PowerLoss, ...]:
-        """Losses with their fractions of the total."""
+        """Losses with their fractions of the power input and of the total loss."""
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
     def surplus(self, node: PowerNode) -> Fraction:
-        """Return the power that a node takes in but neither passes on nor loses: 0 except at `in` and `out`.
+        """Return the power that flows into a node minus the power that flows out and the loss; 0 except at `in` and
+        `out`.
 
         Parameters
         ----------
@@ -268,7 +270,7 @@ class PowerFlow(Result):
         Returns
         -------
         Fraction
-            Power in less power out and losses [torque times the train's unit of speed].
+            Power in minus power out and losses [unit of torque times the train's unit of speed].
         """
         taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
         given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
@@ -276,7 +278,7 @@ class PowerFlow(Result):
 
 
 def find_power_flow(found: Torques) -> PowerFlow:
-    """Compute the power streams under given torques.
+    """Compute the power streams between shafts and pairs from computed torques.
 
     Parameters
     ----------
@@ -286,7 +288,7 @@ def find_power_flow(found: Torques) -> PowerFlow:
     Returns
     -------
     PowerFlow
-        Power flow, empty if torques are unknown or some pairs share load in an undetermined way.
+        Power flow; empty if torques are unknown, or if redundant pairs share the load in an undetermined way.
 
     Examples
     --------
@@ -303,6 +305,7 @@ def find_power_flow(found: Torques) -> PowerFlow:
     ends = [(shafts.get(link, PowerNode("shaft", link)), link, power) for link, power in found.powers.items()]
     streams += [PowerStream(PowerNode("in", link), shaft, power) for shaft, link, power in ends if power > 0]
     for node, given in _takers(found):
+        # powers of links on one shaft are added, because they are locked together
         net: dict[PowerNode, Fraction] = {}
         for link, power in given:
             shaft = shafts.get(link, PowerNode("shaft", link))
@@ -317,14 +320,14 @@ def find_power_flow(found: Torques) -> PowerFlow:
 
 
 def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
-    """Return the shaft of every locked link, named by all its links."""
+    """Return the shaft of every locked link; the name of a shaft contains all its links."""
     pairs = list(locks)
     groups = joined_groups(chain(*pairs), pairs)
     return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
 
 
 def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
-    """Yield pairs and bearings with the power that each of their links gives them."""
+    """Yield each pair and bearing with the power that flows into it from each of its links."""
     speed = found.speeds
     for pair in found.pairs.values():
         yield (
@@ -343,7 +346,8 @@ def has_torque_units(train: Train, state: str | None) -> bool:
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
-    """Return the watts in one unit of power: N m times the train's unit of speed; None if either has no units.
+    """Return the unit of power in watts, N m times the train's unit of speed; None if torques or speeds are plain
+    numbers.
 
     Speeds are physical if the train has a `rate`, which is the speed of the first input that turns, or if its inputs
     have units.

@@ -1,7 +1,7 @@
-"""Torques of a declared train in one case: known and unknown torques, losses, and the verdict.
+"""Torques of a declared train in one load case: known and unknown torques, losses, and the verdict.
 
-Verdicts state why nothing balances, which of several solutions is given, and where the input must drive as well
-(sections 5, 6, 8 and 11 of docs/torques.md).
+A verdict explains why no torques balance the loads, which of several solutions is returned, or that the input must
+drive too (sections 5, 6, 8 and 11 of docs/torques.md).
 """
 
 from __future__ import annotations
@@ -23,64 +23,65 @@ _GREAT = 10**12  # lambda of section 6: factor of the load that makes constant f
 
 @dataclass(frozen=True)
 class LoadedBalance:
-    """Balance with the two sources of its known torques: loads, and friction of bearings."""
+    """Torque balance with the two kinds of known torques: loads, and friction of bearings."""
 
     balance: TorqueBalance
     speeds: Mapping[str, Fraction]
     loads: Mapping[str, Fraction]
-    rubbing: Mapping[str, Fraction]
+    bearing_friction: Mapping[str, Fraction]
     enough: bool = True
-    """True if as many torques are unknown as the train has degrees of freedom.
+    """True if the number of unknown torques equals the number of degrees of freedom.
 
-    Otherwise the loads must balance by themselves.
+    If it is smaller, the loads must be in equilibrium without them.
     """
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
 
     @property
     def names(self) -> str:
-        """Links of unknown torque, as text."""
+        """Links with unknown torques as text, separated by commas."""
         return ", ".join(self.balance.unknown) or "any link"
 
     @property
     def load(self) -> str:
-        """Load of the train, as text."""
+        """Name of the load in sentences: "the load", or "the friction of the bearings"."""
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
     def driving(self) -> Fraction:
-        """Net power that the loads put in."""
+        """Net power that the loads put into the train [unit of torque times the train's unit of speed]."""
         return self._power(self.loads)
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if both a load and friction of bearings act."""
-        return any(self.loads.values()) and any(self.rubbing.values())
+        return any(self.loads.values()) and any(self.bearing_friction.values())
 
     def power(self, flow: FlowPattern) -> Fraction:
-        """Return the power input of the unknown torques."""
+        """Return the power that the unknown torques put into the train."""
         return self._power(flow.solved.external)
 
     def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
-        """Return the power of torques at the links of determined speed."""
+        """Return the total power of torques on links with determined speed."""
         return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
-        """Return the flows under a load so large that constant friction is negligible."""
-        known = dict(self.rubbing)
+        """Return the flow patterns under a load so large that constant friction is negligible."""
+        known = dict(self.bearing_friction)
         for link, torque in self.loads.items():
             known[link] = known.get(link, Fraction(0)) + _GREAT * torque
         return find_flow_patterns(replace(self.balance, known=known))[0]
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
-    """Return the verdict on loads that the unknown torques cannot balance even without losses, or None."""
+    """Return the verdict on loads that the unknown torques cannot balance even without losses; None if they can."""
     motions = unbalanced_motions(setting.system, known, requested)
     if not motions:
         return None
     moving = {link for motion in motions if motion.power for link in motion.speeds}
     outputs = (output.of or name for name, output in setting.case.outputs.items())
     borne = (link for link in setting.train.links if setting.tree.parent.get(link, ("",))[0] == setting.train.frame)
+    # links at which a torque can be applied are suggested first: inputs, outputs, links that turn on the frame
     likely = [link for link in dict.fromkeys((*setting.case.inputs, *outputs, *borne)) if link in moving]
     torques = {link: torque for link in likely if (torque := balancing_torque(motions, link)) is not None}
     helpful = {link: torque for link, torque in torques.items() if not known.get(link)}
@@ -94,18 +95,21 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
 
 
 def _some(links: Sequence[str]) -> str:
-    """Format up to three links by name, and the number of the others."""
+    """Return up to three names as text, followed by the number of the others."""
     more = f" and {len(links) - 3} more" if links[3:] else ""
     return ", ".join(links[:3]) + more
 
 
 def find_torque_verdict(
-    question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, left_out: Sequence[NeglectedEffect] = ()
+    question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, neglected: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
-    """Return the verdict on flows, sorted by undetermined torques and losses. The first flow is the one given."""
+    """Return the verdict on flow patterns that are sorted by undetermined torques, then by losses; the first one is the
+    result.
+    """
     if not flows:
         return _unbalanced(question, complete)
-    but = _neglected_note(left_out)
+    but = _neglected_note(neglected)
+    # undetermined torques come first, because the number of patterns then has no meaning
     if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
         verdict = _indeterminate(flows, question)
         return replace(verdict, text=verdict.text + but)
@@ -116,53 +120,57 @@ def find_torque_verdict(
     source = "the loads" if question.loads else question.load
     free = f"; {_some(question.open)} turn freely: torques do not depend on their speeds" if question.open else ""
     return TorqueVerdict(
-        "incomplete" if left_out else "determined",
+        "incomplete" if neglected else "determined",
         f"every torque follows from {source}{but}{_driving_note(question, flows[0])}{free}{sure}",
     )
 
 
-def _neglected_note(left_out: Sequence[NeglectedEffect]) -> str:
-    """Summarise the neglected effects in a few words."""
+def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
+    """Return a short text on the neglected effects."""
     uncounted: dict[str, list[str]] = {}
-    for each in left_out:
+    for each in neglected:
         if each.counts:
             uncounted.setdefault(each.what, []).extend(each.where)
     if uncounted:
         named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
         return f"; not included: {', '.join(named)}"
-    return " (mean over a turn)" if left_out else ""
+    return " (mean over a turn)" if neglected else ""
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Explain why no torques balance: shares, bearings, or teeth."""
+    """Return the verdict that no torques balance the load, with the cause: shares, bearing friction, or tooth
+    friction.
+    """
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
         return TorqueVerdict("unbalanced", text)
     if shares := question.balance.shares:
         pairs = dict.fromkeys(name for _, parts in shares for name in parts)
+        # without the shares there is a solution, so they are the cause
         if find_flow_patterns(replace(question.balance, shares=()))[0]:
             text = (
                 f"the declared shares of {', '.join(pairs)} contradict the balance, which has a solution without them"
             )
             return TorqueVerdict("contradictory", text)
-    if question.rubs and question.heavily_loaded():
+    # a larger load turns the train, so the constant friction of bearings is the cause
+    if question.has_friction and question.heavily_loaded():
         text = (
             f"the load is too small to overcome the friction of the bearings, and no torque on {names} compensates for "
             "it while the train turns this way; the teeth do not lock: a larger load turns the train"
         )
         return TorqueVerdict("stalled", text)
     sure = "" if complete else " (not every pattern of power flow was tried)"
-    great = ", however large: the teeth lock, not the bearings" if question.rubs else ""
+    great = ", however large: the teeth lock, not the bearings" if question.has_friction else ""
     text = f"no torque on {names} balances {question.load} while the train turns this way{great}{sure}"
     return TorqueVerdict("self-locking", text)
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Describe a load that puts power in but cannot drive the train alone."""
+    """Return a text on a load that puts power in, but cannot drive the train without further power."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
-    heavy = question.heavily_loaded() if question.rubs else ()
+    heavy = question.heavily_loaded() if question.has_friction else ()
     if any(question.power(each) <= 0 for each in heavy):
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
@@ -174,7 +182,7 @@ def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
 
 
 def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> TorqueVerdict:
-    """Return the verdict on torques that redundant pairs, brakes and locks leave undetermined."""
+    """Return the verdict on torques that are undetermined because of redundant pairs, brakes and locks."""
     loose = tuple(dict.fromkeys(name for flow in flows for name in flow.solved.loose))
     links = list(flows[0].solved.open)
     locks = zip(question.balance.locks, flows[0].solved.locks, strict=True)
@@ -191,7 +199,7 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several flows, which describes the given one and mentions the others."""
+    """Return the verdict on several flow patterns; it describes the resulting one and mentions the others."""
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
@@ -202,7 +210,9 @@ def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueV
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Describe one flow. `resisted` is True if power leaves in the given flow."""
+    """Return a text on one flow pattern; `resisted` is True if power leaves at the unknown torque in the resulting
+    pattern.
+    """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
     also = " as well, and all power is lost" if resisted else ""
@@ -214,11 +224,12 @@ _EVEN = ("gear", "parallel", "pins_in_holes")  # kinds of circuits with a consta
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
-    """Return declared fractions of the torque on each wheel that two or more sharing pairs have in common.
+    """Return the declared fractions of the torque on each wheel that has two or more pairs with a `share`.
 
-    loaded   links with an external torque, or that are braked
+    loaded   links with an external torque or a brake
 
-    An idler passes on its torque, so nothing is shared there, though its pairs may share on their other wheels.
+    On an idler no torque is shared, because it transmits all of it; its pairs may share the torque on their other
+    wheels.
     """
     by_wheel: dict[str, dict[str, Fraction]] = {}
     for gear in train.gears:
@@ -239,11 +250,13 @@ def find_ties(
     known: Mapping[str, Fraction],
     singled: Collection[str],
 ) -> tuple[tuple[str, ...], ...]:
-    """Group pairs of equal planets: same carrier, mates, tooth counts, efficiencies and external torque.
+    """Return groups of pairs of equal planets: same carrier, mates, tooth counts, efficiencies and external torque.
 
-    singled   links unlike others: the frame, braked, locked or requested links, or those with declared shares
+    singled   links that are not equal to any other: frame, braked, locked or requested links, links with declared
+    shares
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
+    # pins in slots have different angles at equal planets
     apart |= {link for circuit in circuits if circuit.kind not in _EVEN for link in (circuit.i, circuit.j)}
     by_planet: dict[str, list[tuple[_Key, str]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
@@ -267,27 +280,28 @@ def find_ties(
 
 @dataclass(frozen=True)
 class UnknownLinks:
-    """Links of unknown torque."""
+    """Links with unknown torques, chosen for one load case."""
 
     links: tuple[str, ...]
     enough: bool = True
-    """True if they are as many as the degrees of freedom. With fewer, the loads must balance by themselves."""
+    """True if their number equals the number of degrees of freedom; if it is smaller, the loads must be in equilibrium.
+    """
     undecided: TorqueVerdict | None = None
-    """Verdict that asks for more unknown torques, given if the loads do not balance without them."""
+    """Verdict that requests more unknown torques; it is returned if the loads are not in equilibrium without them."""
 
 
 @dataclass(frozen=True)
 class TorqueQuestion:
-    """Loads in one case, and the links of unknown torque."""
+    """Loads in one load case, and the links with unknown torques."""
 
     loads: Mapping[str, Fraction]
     requested: UnknownLinks
 
 
 def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
-    """Compute torques under the declared loads, or under friction of bearings only: equations (3) to (8) and (10).
+    """Compute the torques under the declared loads and friction of bearings: equations (3) to (8) and (10).
 
-    flows_only   skip the search for neglected effects, which would build the teeth of every pair
+    flows_only   True to skip the search for neglected effects, which builds the teeth of every pair
     """
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
@@ -296,21 +310,23 @@ def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
 
 
 def find_idle_pairs(setting: LoadCase) -> Collection[str]:
-    """Return the pairs without torque under the declared loads at any losses; empty if torques are undetermined.
+    """Return the pairs that have no torque under the declared loads for any losses; empty if torques are undetermined.
 
-    They correspond to zero-force members of trusses.
+    They correspond to the zero-force members of a truss.
     """
     # proof: nothing but such pairs acts on the links beyond them, so the balance of these links is homogeneous for all
     # efficiencies, which only scale its coefficients: the multipliers are 0, or open between redundant pairs
     question = find_question(setting, setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
         return ()
-    known = _acting(question.loads, _rubbing(setting))
+    known = _acting(question.loads, _bearing_friction(setting))
     return idle_pairs(generic_balance(build_balance(setting, known, question.requested.links)))
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """Return the loads and the links of unknown torque, or a verdict if nothing acts or no torque can be requested."""
+    """Return the loads and the links with unknown torques; a verdict if no load is declared or no torque can be
+    requested.
+    """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
@@ -328,7 +344,9 @@ def torques_unknown(state: str | None) -> Torques:
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Compute torques while a unit of power leaves at `load`, driven from `source`. Bearings are neglected."""
+    """Compute the torques while a unit of power leaves at `load` and the link `source` drives; bearing friction is
+    neglected.
+    """
     if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
@@ -340,7 +358,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
-    """Choose the links of unknown torque: as many as inputs, or fewer if only those are certain."""
+    """Return the links with unknown torques: as many as inputs, or fewer if only these are certain."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -373,9 +391,9 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
-    """Return the links at which power may enter: the inputs, and the crank if it is another link.
+    """Return the links at which power may enter: the inputs, or the crank, if it is another link.
 
-    A crank replaces a single input, which then only prescribes the speed.
+    A crank replaces a single input, which then only prescribes the speed; several inputs remain besides the crank.
     """
     inputs, crank = tuple(setting.case.inputs), setting.train.crank
     if crank is None or crank in inputs:
@@ -384,9 +402,9 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
 
 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """Return a verdict on links with moving axes, or None.
+    """Return a verdict if the speed of one of the links is a sum of joint speeds about non-parallel axes; else None.
 
-    Their speed is a sum of joint speeds, which is not a rotation, so a torque has no unique power.
+    Such a sum is not a rotation, so a torque on the link has no unique power.
     """
     sums = setting.axes.joint_sums
     for link in links:
@@ -397,7 +415,7 @@ def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | No
 
 
 def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
-    """Return a verdict on a requested link at rest, unless the whole train is at rest."""
+    """Return a verdict if the only requested link is at rest while the train moves; else None."""
     speeds = setting.speeds
     if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
         return TorqueVerdict("still", f"'{requested[0]}' does not turn, so no torque on it does any work")
@@ -411,8 +429,8 @@ def _balanced(
     bearings: bool = True,
     flows_only: bool = False,
 ) -> Torques:
-    rubbing = _rubbing(setting) if bearings else {}
-    known = _acting(loads, rubbing)
+    bearing_friction = _bearing_friction(setting) if bearings else {}
+    known = _acting(loads, bearing_friction)
     state = setting.case.state
     if not requested.enough and (lacking := find_imbalance(setting, known, requested.links)) is not None:
         return Torques(state, _with_reason(requested, lacking), requested.links)
@@ -422,28 +440,28 @@ def _balanced(
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
     balance, neither = apply_mean_efficiencies(build_balance(setting, known, requested.links, means), means, driving)
     found, complete = find_flow_patterns(balance)
-    question = LoadedBalance(balance, setting.speeds, loads, rubbing, requested.enough, setting.open)
+    question = LoadedBalance(balance, setting.speeds, loads, bearing_friction, requested.enough, setting.open)
     # the known powers are the same in all flows, so the power of the unknown torques orders the losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
     loose = flows[0].solved.loose if flows else ()
-    left_out: tuple[NeglectedEffect, ...] = ()
+    neglected: tuple[NeglectedEffect, ...] = ()
     if not flows_only:
         from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 
         missed = [name for name in idle if name not in loose]
-        left_out = find_neglected_effects(setting, means, neither, missed, bearings)
-    verdict = find_torque_verdict(question, flows, complete, left_out)
+        neglected = find_neglected_effects(setting, means, neither, missed, bearings)
+    verdict = find_torque_verdict(question, flows, complete, neglected)
     if not flows:
         verdict = _with_reason(requested, verdict)
-        return Torques(state, verdict, requested.links, left_out=left_out)
-    return _torques(setting, balance, flows[0], rubbing, verdict, left_out)
+        return Torques(state, verdict, requested.links, neglected=neglected)
+    return _torques(setting, balance, flows[0], bearing_friction, verdict, neglected)
 
 
 def _with_reason(requested: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Combine two verdicts: which torque could be requested, and what fails without it.
+    """Return one verdict from two: which torque could be requested, and what fails without it.
 
-    The first is omitted if no further torque could help.
+    The first part is omitted if no further torque could help.
     """
     if requested.undecided is None:
         return lacking
@@ -460,13 +478,14 @@ def build_balance(
     requested: tuple[str, ...],
     means: Mapping[str, MeanEfficiencies] | None = None,
 ) -> TorqueBalance:
-    """Build the balance of a train with known and unknown torques, without losses if `means` is None."""
+    """Build the torque balance of a train with known and unknown torques, without losses if `means` is None."""
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
     locks = _locks(setting)
     held = {*requested, *case.fixed, *(link for lock in locks for link in lock)}
     shares = find_shares(train, setting.circuits, {*held, *known})
     shared = {name for _, parts in shares for name in parts}
+    # planets with declared shares need not be loaded equally
     planets = {link for mesh in meshes if mesh.id in shared for link in mesh.links[:2]}
     return TorqueBalance(
         tuple(link for link in train.links if link != train.frame),
@@ -489,7 +508,7 @@ def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """Return a circuit as a power path with its losses, or without loss if its rolling direction is undetermined."""
+    """Return a circuit as a loaded pair with its losses; without losses if its relative speed is undetermined."""
     i, j, k = circuit.i, circuit.j, circuit.carrier
     senses = (setting.sense(i), setting.sense(j), setting.sense(k))
     relative = setting.relative(i, k) or Fraction(0)
@@ -502,13 +521,16 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
     return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
 
 
-def _acting(loads: Mapping[str, Fraction], rubbing: Mapping[str, Fraction]) -> dict[str, Fraction]:
-    """Return the known torque on each link."""
-    return {link: loads.get(link, Fraction(0)) + rubbing.get(link, Fraction(0)) for link in {**loads, **rubbing}}
+def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """Return the known torque on each link: load plus bearing friction."""
+    return {
+        link: loads.get(link, Fraction(0)) + bearing_friction.get(link, Fraction(0))
+        for link in {**loads, **bearing_friction}
+    }
 
 
-def _rubbing(setting: LoadCase) -> dict[str, Fraction]:
-    """Return the total friction torque of bearings on each link, whether it turns in a bearing or carries one."""
+def _bearing_friction(setting: LoadCase) -> dict[str, Fraction]:
+    """Return the friction torque of all bearings on each link, as the link in a bearing or as its carrier."""
     found: dict[str, Fraction] = {}
     for bearing in setting.bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -521,9 +543,9 @@ def _torques(
     setting: LoadCase,
     balance: TorqueBalance,
     flow: FlowPattern,
-    rubbing: Mapping[str, Fraction],
+    bearing_friction: Mapping[str, Fraction],
     verdict: TorqueVerdict,
-    left_out: tuple[NeglectedEffect, ...],
+    neglected: tuple[NeglectedEffect, ...],
 ) -> Torques:
     solved = flow.solved
     external = dict(balance.known)
@@ -531,7 +553,7 @@ def _torques(
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
     # bearing friction is internal, not external power; its loss depends only on the speeds in the joints
-    for link, torque in rubbing.items():
+    for link, torque in bearing_friction.items():
         external[link] -= torque
     return Torques(
         setting.case.state,
@@ -543,15 +565,16 @@ def _torques(
             mesh.id: _pair(setting, mesh, circuit, flow)
             for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
         },
-        setting.bearings if rubbing else (),
+        setting.bearings if bearing_friction else (),
         _held(setting, flow),
-        left_out,
+        neglected,
     )
 
 
 def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPattern) -> PairTorque:
     x = flow.solved.multipliers[mesh.id]
     first, second, carrier = (x * each for each in mesh.torques(flow.pattern.get(mesh.id, 0)))
+    # power flows from the first link to the second if the multiplier is opposite to the rolling speed
     ahead = ((x < 0) - (x > 0)) * mesh.turn
     return PairTorque(
         mesh.id,
@@ -567,9 +590,9 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 
 
 def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Return brakes and locks with their torques, each about the link's own axis.
+    """Return brakes and locks with their torques, each about the axis of its link.
 
-    A lock exerts the reaction on its second link.
+    The torque of a lock on its second link is the reaction to the torque on the first.
     """
     solved = flow.solved
     found = []

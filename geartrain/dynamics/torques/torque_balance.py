@@ -1,9 +1,9 @@
 """Torque balance of every link, A^T x + T = 0: the transpose of the Willis system, exact, with losses.
 
-Equations (1) to (7) of docs/torques.md. A mesh of links i and j with carrier k and the row a (w_i - w_k) +
-b (w_j - w_k) = 0 has one multiplier x. Without loss its torques are a x on i, b x on j, and minus their sum on k. If i
-drives in the carrier's frame, the torque on j is reduced by the efficiency eta; if j drives, the torque on i is. The
-loss is the driver's power in that frame times 1 - eta, which is never negative.
+The equations are (1) to (7) of docs/torques.md. A mesh of links i and j with carrier k and the equation a (w_i - w_k)
++ b (w_j - w_k) = 0 has one multiplier x. Without loss its torques are a x on i, b x on j, and minus their sum on k. If
+i drives in the carrier's frame, the torque on j is reduced by the efficiency eta; if j drives, the torque on i is
+reduced. The loss is the driver's power in this frame times 1 - eta, which is never negative.
 """
 
 from __future__ import annotations
@@ -18,30 +18,32 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Driving side by mesh: 1 if its first link drives in the carrier's frame, -1 if the second does, 0 without loss."""
+"""Mesh -> driving side: 1 if its first link drives in the carrier's frame, -1 if the second does, 0 without loss."""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
-"""Link, and the meshes on one of its wheels with their fractions of its torque."""
+"""Link, and the meshes on one of its wheels, each with its fraction of the wheel's torque."""
 _SCALES = 1_000_003, 1_414_213  # factors of the coefficients of a row, so that nothing cancels by chance
 
 
 @dataclass(frozen=True)
 class LoadedPair:
-    """Gear pair or coupling as a power path: equations (1), (2), (4) and (5) of docs/torques.md."""
+    """Gear pair or coupling that transmits torque: equations (1), (2), (4) and (5) of docs/torques.md."""
 
     id: str
     links: tuple[str, str, str]
-    """Links i, j and k: first link, second link, carrier."""
+    """Links i, j and k: first link, second link, and carrier."""
     senses: tuple[int, int, int]
     """Senses of the axes of these links, 1 or -1."""
     a: int
-    """Coefficient of the first link in the pair's row."""
+    """Coefficient of the first link in the pair's Willis equation."""
     b: int
-    """Coefficient of the second link in the pair's row."""
+    """Coefficient of the second link in the pair's Willis equation."""
     rolling: Fraction
-    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), 0 without relative motion."""
+    """Rolling speed a (w_i - w_k) = -b (w_j - w_k); 0 without relative motion."""
     forward: Fraction = Fraction(1)
-    """Efficiency with i driving; `backward` is that with j driving. It is at most 1; 0 or less locks."""
+    """Efficiency with link i driving, at most 1; 0 or less is self-locking. `backward` is the efficiency with j
+    driving.
+    """
     backward: Fraction = Fraction(1)
 
     def __post_init__(self) -> None:
@@ -52,7 +54,7 @@ class LoadedPair:
 
     @property
     def loses(self) -> bool:
-        """True if the losses depend on which side drives."""
+        """True if the pair has losses, so that its torques depend on the driving side."""
         return bool(self.rolling) and (self.forward != 1 or self.backward != 1)
 
     @property
@@ -62,48 +64,50 @@ class LoadedPair:
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Driving sides to be tried. A side that locks is covered by the other side without torque."""
+        """Driving sides to be tried. A self-locking side is omitted: it has no torque, as has the other side at zero
+        power.
+        """
         if not self.loses:
             return (0,)
         return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
 
     def efficiency(self, side: int) -> Fraction:
-        """Return the efficiency with i driving (1) or j driving (-1)."""
+        """Return the efficiency with i driving (`side` 1) or j driving (-1); 1 for side 0."""
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, Fraction, Fraction]:
-        """Return the torques on i, j, k per unit of the multiplier: equation (5)."""
+        """Return the torques on links i, j and k for a multiplier of 1: equation (5)."""
         left = self.a * (self.backward if side < 0 else Fraction(1))
         right = self.b * (self.forward if side > 0 else Fraction(1))
         return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
 
     def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
-        """Return the signs of the torques on both links relative to those of a tied pair with the same unknown.
+        """Return the signs of the torques on both links relative to `other`, an equal pair with the same unknown.
 
-        alike   True if both name their links in the same order; a planet with reversed axis changes the sign
+        alike   True if both pairs have their links in the same order; a planet with reversed axis changes the sign
         """
         coefficients = (other.a, other.b) if alike else (other.b, other.a)
         first, second = (-1 if a * b < 0 else 1 for a, b in zip((self.a, self.b), coefficients, strict=True))
         return first, second
 
     def power(self, multiplier: Fraction) -> Fraction:
-        """Return the power p from i to j in the carrier's frame, before losses if i drives: equation (4)."""
+        """Return the power from i to j in the carrier's frame, before losses if i drives: equation (4)."""
         return -multiplier * self.rolling
 
 
 @dataclass(frozen=True)
 class TorqueUnknown:
-    """Unknown torque, common to all its meshes, with its coefficients in each row."""
+    """Unknown torque that one or more meshes have in common, with its coefficient in each row of the balance."""
 
     pieces: Mapping[int, LinearForm]
-    """Coefficients by row, for each side of the first lossy mesh; side 0 is without loss."""
+    """Driving side -> row -> coefficient. The side is that of the first lossy mesh; side 0 is without loss."""
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
-    """Sides to be tried."""
+    """Driving sides to be tried."""
     turn: int = 0
-    """Sign of the rolling speed of that mesh."""
+    """Sign of the rolling speed of the first lossy mesh."""
     barred: bool = False
-    """True if no power can pass, so that the torque must vanish."""
+    """True if no power can flow, so that the torque must be 0."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
         """Return whether a torque transmits power in the direction of `side`, or no power."""
@@ -112,20 +116,21 @@ class TorqueUnknown:
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the side of one of its meshes, which may name their wheels in different orders."""
+        """Return the driving side of one of its meshes, whose links may have another order."""
         return side * mesh.turn * self.turn if mesh.loses else 0
 
 
 @dataclass(frozen=True)
 class TorqueBalance:
-    """Known and unknown torques in one case.
+    """Known and unknown torques in one load case.
 
-    links     all links but the frame
-    known     external torque by link: loads and friction of bearings; 0 for other links
-    unknown   links of unknown external torque
-    reactions by such a link, the link that takes the reaction if it is not the frame, and the reaction to a unit torque
+    links     all links except the frame
+    known     link -> external torque: loads and friction of bearings; 0 for other links
+    unknown   links with unknown external torque
+    reactions link with unknown torque -> link on which the reaction acts if it is not the frame, and the reaction to a
+              unit torque
     held      links braked to the frame; `locks` are pairs of links locked together, with the senses of both axes
-    ties      groups of meshes with equal multipliers, as of equal planets
+    ties      groups of meshes with equal multipliers, such as meshes of equal planets
     shares    declared fractions of the torque on a wheel
     """
 
@@ -159,9 +164,9 @@ class TorqueBalance:
 
     @cached_property
     def rows(self) -> Mapping[int, Fraction]:
-        """Known torque of each row that must vanish: one row per link and one per share.
+        """Row -> known torque; there is one row for each link and for each declared share.
 
-        Rows of equal planets are proportional, and only one of them is kept.
+        Rows of equal planets are proportional, so only one of them is kept.
         """
         links, shared = len(self.links), sum(len(parts) - 1 for _, parts in self.shares)
         known = {row: self.known.get(link, Fraction(0)) for row, link in enumerate(self.links)}
@@ -183,7 +188,7 @@ class TorqueBalance:
 
     @cached_property
     def parts(self) -> Sequence[Block]:
-        """Blocks of rows and columns in an order of solution that is the same for every pattern."""
+        """Blocks of rows and columns in an order of solution that is valid for every pattern of power flow."""
         held: dict[int, set[int]] = {row: set() for row in self.rows}
         for at, column in enumerate(self.columns):
             for piece in column.pieces.values():
@@ -193,7 +198,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block, used if a block leaves open what a later one needs."""
+        """Whole balance as one block; it is used if a block leaves open an unknown of a later block."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -202,7 +207,10 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """Rows of shares by mesh. Its torque on a link, over its share, equals that of the first mesh."""
+        """Mesh -> rows of declared shares that contain its torque.
+
+        Such a row means: torque of the mesh on the link, over its share, equals the same quotient of the first mesh.
+        """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
         for link, shares in self.shares:
@@ -217,6 +225,7 @@ class TorqueBalance:
         lossy = [mesh for mesh in meshes if mesh.loses]
         turn = lossy[0].turn if lossy else 0
         sides = lossy[0].sides if lossy else (0,)
+        # sides of the other meshes refer to the first lossy one
         blank = TorqueUnknown({}, meshes, sides, turn, bool(lossy) and lossy[0].efficiency(sides[0]) <= 0)
         pieces = {
             side: _row(entry for mesh in meshes for entry in self._entries(mesh, blank.side_of(mesh, side)))
@@ -225,7 +234,7 @@ class TorqueBalance:
         return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
-        """Yield the entries of a mesh's torques: row, index of its link (0 to 2), and factor."""
+        """Yield the entries of a mesh's torques in the balance: row, index of its link (0 to 2), and factor."""
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
 
@@ -235,13 +244,13 @@ class TorqueBalance:
 
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
-    """Return a row normalised by its first entry."""
+    """Return a row divided by its first entry, to recognise proportional rows."""
     scale = entries[0][2] if entries else known
     return (known / scale, *((at, side, value / scale) for at, side, value in entries))
 
 
 def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
-    """Sum the entries of one row, and omit zeros."""
+    """Return the sum of the entries of one row by column, without zeros."""
     row: LinearForm = {}
     for at, value in entries:
         row[at] = row.get(at, Fraction(0)) + value
@@ -250,21 +259,23 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques under one pattern: multipliers by mesh, unknown external torques, and torques on brakes and locks."""
+    """Torques for one pattern of power flow: multipliers of meshes, unknown external torques, torques of brakes and
+    locks.
+    """
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
     brakes: Mapping[str, Fraction]
     locks: tuple[Fraction | None, ...]
-    """Torque of each lock on its first link, about the direction of the parallels; None if undetermined."""
+    """Torque of each lock on its first link, about the reference direction of parallel axes; None if undetermined."""
     loose: tuple[str, ...]
-    """Meshes whose torque is undetermined, as between planets; their multiplier is 0 here."""
+    """Meshes with undetermined torque, such as those of several planets; their multiplier is set to 0 here."""
     open: tuple[str, ...]
-    """Requested or braked links whose external torque is therefore undetermined and omitted."""
+    """Requested or braked links whose external torque is undetermined for this reason, and therefore omitted."""
 
 
 def idle_pairs(balance: TorqueBalance) -> set[str]:
-    """Return the pairs without torque at any position, because nothing beyond them needs one."""
+    """Return the pairs without torque at any position, because no link that they drive has a torque."""
     rows = {row for row, torque in balance.rows.items() if torque}
     idle: set[str] = set()
     for block in balance.parts:
@@ -277,7 +288,7 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
 
 
 def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
-    """Return the balance without some pairs."""
+    """Return the balance without the pairs `names`."""
     return replace(
         balance,
         meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),
@@ -286,11 +297,14 @@ def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """Return the balance with generic coefficients, which do not cancel by chance. It gives the order of solution."""
+    """Return the balance with generic coefficients, which do not cancel by coincidence; it determines the order of
+    solution.
+    """
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(
             mesh,
+            # equal planets get equal coefficients, other meshes different ones
             a=_SCALES[0] * mesh.a + group.get(mesh.id, len(balance.ties) + at),
             b=_SCALES[1] * (mesh.b or -1),
             forward=Fraction(1),

@@ -1,4 +1,4 @@
-"""Torques of a train in one case: torques on each link and pair, power flow, and losses."""
+"""Torques of a train in one state: torques on each link and pair, power flow, and losses."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Literal, NamedTuple
 
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, picture_maker
+from geartrain.numerics.results import Key, Result, Tabular, TrainResult, brief, imported_function
 
 
 @dataclass(frozen=True)
@@ -20,64 +20,66 @@ class LinkTorque(Result):
     KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "requested")
 
     torque: Fraction
-    """External torque on the link."""
+    """External torque on the link [N m, or plain number]."""
     power: Fraction | None
-    """Power that it puts into the train; None if the speed is undetermined."""
+    """Power that the torque puts into the train [torque times the train's unit of speed]; None if the speed is
+    undetermined.
+    """
     requested: bool
-    """True if the torque was requested, False if it was given."""
+    """True if the torque was computed, False if it was declared."""
 
 
 @dataclass(frozen=True)
 class HoldingTorque(Result):
-    """Brake on one link, or lock of two links, with the torques it exerts.
+    """Brake on one link, or lock of two links, with the torques that it exerts.
 
     See Also
     --------
-    Torques.held : All brakes and locks.
+    Torques.held : all brakes and locks
     """
 
     KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
 
     links: tuple[str, ...]
-    """Link that is braked, or the two links that turn together."""
+    """Braked link, or the two links that are locked together."""
     torques: tuple[Fraction, ...] | None
-    """Torque on each of the links about its own axis [N m, or plain]; None if undetermined."""
+    """Torque on each of the links about its own axis [N m, or plain number]; None if undetermined."""
     clutch: str | None = None
-    """Name of the brake or clutch, if it has one."""
+    """Name of the brake or clutch; empty if it has no name."""
     cause: tuple[str, ...] = ()
-    """Links declared to be held, if this brake or lock is a consequence.
+    """Links of the declared lock that causes this brake or lock; empty if it is declared itself.
 
-    A rigid connection across several axes closes every joint along its path.
+    A lock across several axes closes every joint on the path between its links.
     """
 
     @property
     def declared_cause(self) -> tuple[str, ...] | None:
-        """Declared links that cause this brake or lock; None if it is declared itself."""
+        """Links of the declared lock that causes this brake or lock; None if it is declared itself."""
         return self.cause or None
 
     @property
     def by_link(self) -> Mapping[str, Fraction] | None:
-        """Torques by link; None if undetermined."""
+        """Link -> torque [N m, or plain number]; None if undetermined."""
         return None if self.torques is None else dict(zip(self.links, self.torques, strict=True))
 
 
 class MemberTorques(NamedTuple):
-    """Torques on the members of a gear pair or coupling."""
+    """Torques on the members of a gear pair or coupling [N m, or plain number]."""
 
     first: Fraction
-    """Torque on the first wheel."""
+    """Torque on the first link of the pair."""
     second: Fraction
-    """Torque on the second wheel."""
+    """Torque on the second link of the pair."""
     carrier: Fraction
     """Torque on the carrier."""
 
 
 class BearingTorque(NamedTuple):
-    """Friction of one bearing: equation (10) of docs/torques.md.
+    """Friction torques of one bearing: equation (10) of docs/torques.md.
 
     See Also
     --------
-    Torques.bearings : All bearings with friction.
+    Torques.bearings : all bearings with friction
     """
 
     link: str
@@ -85,11 +87,13 @@ class BearingTorque(NamedTuple):
     carrier: str
     """Link that carries the bearing."""
     torque: Fraction
-    """Torque on the link about its own axis [N m, or plain]; 0 if the bearing is at rest or its speed undetermined."""
+    """Torque on the link about its own axis [N m, or plain number]; 0 if the bearing is at rest or its speed is
+    undetermined.
+    """
     reaction: Fraction
-    """Torque on the carrier about its own axis [N m, or plain]; also 0 if the carrier is the frame."""
+    """Torque on the carrier about its own axis [N m, or plain number]; 0 if the carrier is the frame."""
     loss: Fraction
-    """Power loss, 0 or more [torque times the train's unit of speed]."""
+    """Lost power, 0 or more [unit of torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +102,7 @@ class PairTorque(Result):
 
     See Also
     --------
-    Torques.pairs : All pairs and couplings.
+    Torques.pairs : all pairs and couplings
     """
 
     KEYS = (
@@ -110,42 +114,42 @@ class PairTorque(Result):
     )
 
     id: str
-    """Name of the pair."""
+    """Name of the pair or coupling."""
     driver: str
-    """Wheel (or link) that drives in the carrier's frame; "" if no power flows."""
+    """Wheel or link that drives relative to the carrier; "" if no power flows."""
     links: tuple[str, str, str]
     """First link, second link, carrier."""
     torques: tuple[Fraction, Fraction, Fraction]
-    """Torques on these three links, each about its own axis [N m, or plain]."""
+    """Torques on the three links, each about its own axis [N m, or plain number]."""
     multiplier: Fraction
-    """Unknown x of the pair's row."""
+    """Multiplier x of the pair's Willis equation."""
     rolling: Fraction | None
     """Rolling speed a (w_i - w_k); None if undetermined.
 
-    Minus x times it is the power from the first link to the second.
+    The power from the first link to the second is -x times this speed.
     """
     share: Fraction
-    """Efficiency of the pair with the carrier at rest; 1 without loss."""
+    """Efficiency of the pair with the carrier at rest, for the given driver; 1 without loss."""
     loose: bool = False
-    """True if the balance does not determine the torque."""
+    """True if the balance does not determine the torque of the pair."""
     exact: bool = True
-    """False if `share` is a mean over teeth, a float to 15 digits."""
+    """False if `share` is a mean over teeth, a float with 15 digits."""
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Efficiency of the pair with the carrier at rest; a float if it follows from a mean over teeth."""
+        """Basic efficiency (with the carrier at rest) for the given driver; a float if it is a mean over teeth."""
         return self.share if self.exact else float(self.share)
 
     @property
     def on_members(self) -> MemberTorques:
-        """Torques by member."""
+        """Torques on first link, second link and carrier [N m, or plain number]."""
         return MemberTorques(*self.torques)
 
     @cached_property
     def power(self) -> Fraction | None:
-        """Power input of the driver in the carrier's frame; None if undetermined.
+        """Power input of the driver relative to the carrier; None if undetermined.
 
-        It is a torque times the train's unit of speed.
+        Its unit is the unit of torque times the train's unit of speed.
         """
         # computed on demand, because both factors have many digits in a long train
         if self.rolling is None:
@@ -154,7 +158,7 @@ class PairTorque(Result):
 
     @property
     def loss(self) -> Fraction:
-        """Power lost; 0 if the speed is undetermined."""
+        """Lost power [unit of torque times the train's unit of speed]; 0 if the speed is undetermined."""
         return (self.power or Fraction(0)) * (1 - self.share)
 
 
@@ -175,17 +179,17 @@ TorqueVerdictKind = Literal[
 
 @dataclass(frozen=True)
 class TorqueVerdict(Result):
-    """Verdict on whether torques follow from the loads: see sections 5, 8, 11 and 13 of docs/torques.md.
+    """Verdict on the torques under the loads: sections 5, 8, 11 and 13 of docs/torques.md.
 
-    It is true if torques are given: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
+    It is true if torques are returned: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
 
     Kinds:
 
-    - `determined`: torques follow, and no declared effect is neglected.
-    - `incomplete`: torques follow, but `Torques.left_out` lists neglected effects.
+    - `determined`: all torques follow from the loads, and no declared effect is neglected.
+    - `incomplete`: all torques follow from the loads, but `Torques.neglected` lists neglected effects.
     - `self-locking`: no torques balance the load, however large, while the train turns this way.
     - `stalled`: no torques balance this load, which is too small to overcome the friction of bearings.
-    - `ambiguous`: several patterns of power flow balance; the one with minimum loss is given.
+    - `ambiguous`: several patterns of power flow balance the load; the one with minimum loss is returned.
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
     - `contradictory`: declared shares of pairs contradict the balance.
     - `unbalanced`: the loads set the train in motion, and no torques on the requested links can balance them.
@@ -201,11 +205,12 @@ class TorqueVerdict(Result):
     """
 
     kind: TorqueVerdictKind
-    """Kind of the verdict, one of the above."""
+    """Kind of the verdict, one of the kinds above."""
     text: str
-    """The verdict as a sentence."""
+    """Verdict as a sentence."""
     candidates: tuple[str, ...] = ()
-    """Links whose torque may be requested (`solve_for`) or would balance the loads, or pairs of undetermined torque."""
+    """Links whose torque may be requested (`solve_for`) or would balance the loads, or pairs with undetermined torques.
+    """
 
     def _summary(self) -> str:
         return f"{self.kind}: {self.text}"
@@ -220,19 +225,21 @@ class NeglectedEffect(Result):
 
     See Also
     --------
-    Torques.left_out : All neglected effects.
+    Torques.neglected : all neglected effects
     """
 
     what: str
     """Neglected effect, such as `friction of bearings` or `variation within a turn`."""
     where: tuple[str, ...]
-    """Pairs or links concerned."""
+    """Names of the pairs or links concerned."""
     why: str
-    """Reason, as text."""
+    """Reason why the effect is neglected."""
 
     @property
     def counts(self) -> bool:
-        """False for effects that change no mean: variation within a turn, and the choice between two means."""
+        """False for effects that change no mean value: variation within a revolution, and the choice between two
+        means.
+        """
         return self.what not in ("variation within a turn", "mean efficiency")
 
     def __str__(self) -> str:
@@ -240,15 +247,15 @@ class NeglectedEffect(Result):
 
 
 class DrivenWay(NamedTuple):
-    """Torques of a train driven at `source` while a unit of power leaves at `load`.
+    """Torques of a train while link `source` drives and a unit of power leaves at `load`.
 
     See Also
     --------
-    geartrain.GearTrain.driven : Computes the torques of one direction.
+    geartrain.GearTrain.driven : computes the torques for one direction
     """
 
     torques: Torques
-    """Torques of the driven train; their `efficiency` is that in this direction."""
+    """Torques of the driven train, with the `efficiency` in this direction."""
     source: str
     """Link at which power enters."""
     load: str
@@ -257,7 +264,7 @@ class DrivenWay(NamedTuple):
 
 @dataclass(frozen=True)
 class Torques(FrozenFields, Tabular, TrainResult):
-    """Torques and powers of a train in one state, all exact: A^T x + T = 0, equation (3) of docs/torques.md.
+    """Torques and powers of a train in one state, exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
     Torques are in N m if loads have units, else in the plain unit of the loads. Powers are torques times the train's
     unit of speed, positive into the train.
@@ -298,27 +305,27 @@ class Torques(FrozenFields, Tabular, TrainResult):
         "pairs",
         Key("power_in", "known_power_in", as_float),
         Key("loss", "known_loss", as_float),
-        "left_out",
+        "neglected",
     )
 
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on whether the torques follow from the loads. If they do not, only this and `left_out` are given."""
+    """Verdict on the torques. If it is not true, only `verdict` and `neglected` have values."""
     requested: tuple[str, ...] = ()
-    """Links whose torque was computed."""
+    """Links whose torque was computed from the balance."""
     external: Mapping[str, Fraction] = field(default_factory=dict)
-    """External torque on every link that has one: loads, requested torques, brakes."""
+    """Link -> external torque [N m, or plain number]: loads, requested torques, brakes."""
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
-    """Speeds of the links whose speed is determined."""
+    """Link -> speed, for links whose speed is determined [unit of the train]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
     """Gear pairs and couplings by name."""
     bearings: tuple[BearingTorque, ...] = ()
-    """Friction of bearings; empty if it was not requested."""
+    """Friction torques of bearings; empty if no bearing declares friction."""
     held: tuple[HoldingTorque, ...] = ()
-    """Brakes and locks with the torques they exert."""
-    left_out: tuple[NeglectedEffect, ...] = ()
-    """Neglected effects."""
+    """Brakes and locks with the torques that they exert."""
+    neglected: tuple[NeglectedEffect, ...] = ()
+    """Declared effects that the torques do not include."""
 
     def _meaning(self, column: str) -> str:
         text = self.MEANINGS[column]
@@ -326,7 +333,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def _units(self) -> Mapping[str, str]:
-        """Units of torque, speed and power, as the declaration has them."""
+        """Units of torque, speed and power, as declared."""
         declared = self._declaration
         torque, speed = "N m, or the plain unit of the loads", "unit of the train"
         if declared is not None:
@@ -342,12 +349,12 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def powers(self) -> Mapping[str, Fraction]:
-        """External power by link, positive into the train, for links whose speed is determined."""
+        """Link -> external power, positive into the train, for links whose speed is determined."""
         return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
 
     @property
     def link_torques(self) -> Mapping[str, LinkTorque]:
-        """External torques by link."""
+        """Link -> external torque and power."""
         powers = self.powers
         return {
             link: LinkTorque(torque, powers.get(link), link in self.requested) for link, torque in self.external.items()
@@ -365,32 +372,34 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """Return the power flow under these torques as a figure for notebooks: `geartrain.drawing.power_figure`."""
-        return picture_maker("drawing", "power_figure")(self, self.state or "")
+        """Return a figure of the power flow under these torques: `geartrain.drawing.power_figure`."""
+        return imported_function("drawing", "power_figure")(self, self.state or "")
 
     @property
     def open_speeds(self) -> tuple[str, ...]:
-        """Links with an external torque whose speed, and therefore power, is undetermined."""
+        """Links with an external torque whose speed, and so also power, is undetermined."""
         return tuple(link for link, torque in self.external.items() if torque and link not in self.speeds)
 
     @property
     def uncounted(self) -> tuple[NeglectedEffect, ...]:
-        """Neglected effects that change powers and efficiency. Variation within a turn does not change their means."""
-        return tuple(each for each in self.left_out if each.counts)
+        """Neglected effects that change powers and efficiency; variation within a revolution does not change mean
+        values.
+        """
+        return tuple(each for each in self.neglected if each.counts)
 
     @property
     def power_in(self) -> Fraction:
-        """Power that enters the train."""
+        """Power that enters the train [unit of torque times the train's unit of speed]."""
         return sum((power for power in self.powers.values() if power > 0), Fraction(0))
 
     @property
     def bearing_loss(self) -> Fraction:
-        """Power lost in bearings."""
+        """Power lost in bearings [unit of torque times the train's unit of speed]."""
         return sum((bearing.loss for bearing in self.bearings), Fraction(0))
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in pairs and bearings. If some pairs are undetermined, it is the net external power."""
+        """Power lost in pairs and bearings; if torques of pairs are undetermined, the net external power."""
         if any(pair.loose for pair in self.pairs.values()):
             return self._missing
         return sum((pair.loss for pair in self.pairs.values()), self.bearing_loss)
@@ -402,12 +411,12 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def known_loss(self) -> Fraction | None:
-        """Power lost; None if the speed of a loaded link is undetermined."""
+        """Lost power; None if the speed of a loaded link is undetermined."""
         return None if self.open_speeds else self.loss
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output over power input; a float if pairs have means over teeth.
+        """Power output over power input; a float if pairs have mean efficiencies over teeth.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """
@@ -424,7 +433,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     def circulating(self) -> Fraction | None:
         """Maximum power through a pair over the power input; None if a power is undetermined.
 
-        Power recirculates if it exceeds 1.
+        Power recirculates if the quotient exceeds 1.
         """
         powers = [None if pair.loose else pair.power for pair in self.pairs.values()]
         known = [power for power in powers if power is not None]

@@ -1,4 +1,4 @@
-"""Torques of a train at mean speeds, under the declared loads or with one link driven from another."""
+"""Torques of a train at mean speeds, under the declared loads or with one link driven by another."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 def solve(train: TrainMechanics, state: str | None) -> Torques:
-    """Compute torques on links and pairs under the loads of one state. Equal planets share loads."""
+    """Compute the torques on links and pairs under the loads of one state; equal planets share loads equally."""
     found = train.unfolded.load_case(state)
     return torques_unknown(state) if found is None else find_torques(found)
 
 
 def solve_driven(train: TrainMechanics, load: str, source: str, state: str | None) -> Torques:
-    """Compute torques while a unit of power leaves at `load`, driven from `source`."""
+    """Compute the torques while link `source` drives and a unit of power leaves at `load`."""
     train = train.unfolded
     for link in (load, source):
         check_choice("link", link, tuple(train.declaration.links))
@@ -30,9 +30,10 @@ def solve_driven(train: TrainMechanics, load: str, source: str, state: str | Non
 
 
 def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]:
-    """Compute torques driven from the input, and driven from the output, with a unit of power leaving at the other.
+    """Compute the torques with the input driving, and with the output driving; a unit of power leaves at the other
+    link.
 
-    The default is the first state. The list is empty if the output link is not unique.
+    The default state is the first one. The list is empty if the output link is not unique.
     """
     train = train.unfolded
     declared = train.declaration

@@ -1,1 +1,3 @@
-"""Torque over a turn: balance at every position with its actual ratio and friction (docs/torques.md, section 16)."""
+"""Torque over a revolution: balance at every position with its actual ratio and friction (docs/torques.md, section
+16).
+"""

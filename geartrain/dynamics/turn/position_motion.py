@@ -1,7 +1,7 @@
-"""Motion of all links at each position: speeds of the links and driver angles of the pairs.
+"""Motion of all links at positions of the input: speeds of the links, and driver angles of the pairs.
 
-Where torque presses a pair on its coast flanks, their transmission function gives its error. Every pair may therefore
-have another flank in contact at each position.
+If the torque of a pair presses on the coast flanks, its error follows from their transmission function. The flank in
+contact may change from position to position.
 """
 
 from __future__ import annotations
@@ -30,9 +30,10 @@ if TYPE_CHECKING:
 
 
 class FlankChoice(DerivedTransmission):
-    """Transmission function of the touching flanks, by angle. Its means over a period are those of the drive flanks.
+    """Transmission function of the flanks in contact, by angle. Its mean values over a period are those of the drive
+    flanks.
 
-    coasting   for each angle, whether the coast flanks touch
+    coasting   True for angles at which the coast flanks are in contact
     """
 
     def __init__(self, transmission: TransmissionFunction, coasting: Bools) -> None:
@@ -44,7 +45,9 @@ class FlankChoice(DerivedTransmission):
         return FlankChoice(self.transmission, self.coasting[columns])
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return error and speed of the touching flanks, including the backlash between them."""
+        """Return error [rad] and speed ratio [1] of the flanks in contact; the error includes the backlash between the
+        flanks.
+        """
         S = np.asarray(S, dtype=float)
         error, speed = np.empty_like(S), np.empty_like(S)
         for transmission, where in (
@@ -56,15 +59,15 @@ class FlankChoice(DerivedTransmission):
         return error, speed
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the error of the touching flanks."""
+        """Return the error of the flanks in contact [rad]."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed of the touching flanks."""
+        """Return the speed ratio of the flanks in contact [1]."""
         return self.error_and_speed(S)[1]
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency of the drive flanks."""
+        """Return the efficiency of the drive flanks at driver angles S [rad]."""
         return self.transmission.efficiency(S)
 
     def efficiency_mean(self) -> float:
@@ -72,7 +75,7 @@ class FlankChoice(DerivedTransmission):
         return self.transmission.efficiency_mean()
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the efficiency of the drive flanks at constant load."""
+        """Return the mean efficiency of the drive flanks at constant load torque."""
         return self.transmission.efficiency_at_constant_load()
 
     def efficiency_minimum(self) -> float:
@@ -84,18 +87,20 @@ class LinkMotion(NamedTuple):
     """Motion of the links at some positions of the input."""
 
     turns: Floats
-    """Turns of the input, (n,)."""
+    """Positions of the input [revolutions], shape (n,)."""
     speeds: Floats
-    """Speeds of links about the direction of their parallels, over the magnitude of the input's, (links, n)."""
+    """Speeds of links about the reference direction of parallel axes, over the magnitude of the input speed, shape
+    (links, n).
+    """
     angles: Mapping[str, Floats]
-    """Forward angle of the driver of each evaluated pair [rad], by name, (n,)."""
+    """Pair -> forward angle of its driver [rad], shape (n,), for each pair that is evaluated at positions."""
 
 
 class PositionMotion:
-    """Motion of the links of a train that transmit torque.
+    """Motion of the links that transmit torque.
 
-    motion     of links, each relative to the frame
-    pairs      names of the pairs whose position is needed if their ratio or losses depend on it
+    motion     motion of these links relative to the frame
+    pairs      names of pairs whose ratio or losses depend on their position
     """
 
     def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
@@ -108,39 +113,39 @@ class PositionMotion:
 
     @cached_property
     def links(self) -> Mapping[str, int]:
-        """Row of each link."""
+        """Link -> row in the arrays of speeds."""
         return {link: row for row, link in enumerate(self.motion.outputs)}
 
     @cached_property
     def _columns(self) -> list[int]:
-        """Index of each link in the order of solution."""
+        """Indices of the links in the order of solution."""
         at = {link: number for number, link in enumerate(self.motion._propagation.links)}
         return [at[link] for link in self.links]
 
     @property
     def period(self) -> Fraction | None:
-        """Turns of the input after which every evaluated pair repeats its position; None without such pairs."""
+        """Revolutions of the input after which every evaluated pair repeats its position; None without such pairs."""
         return common_period(self.composition.used)
 
     @property
     def way(self) -> int:
-        """Sign of the input's speed about its own axis. Motion counts in the input's sense."""
+        """Sign of the input's speed about its own axis; motion is positive in the input's sense."""
         return self.motion._problem.way
 
     @cached_property
     def senses(self) -> Floats:
-        """Sense of each link's axis relative to the input's motion, 1 or -1."""
+        """Sense of each link's axis relative to the motion of the input, 1 or -1."""
         return np.array([float(self.way * self.motion._problem.signs.get(link, 1)) for link in self.links])
 
     @cached_property
     def means(self) -> Floats:
-        """Mean speed of each link over the input speed."""
+        """Mean speed of each link over the speed of the input."""
         return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
-        """Return speeds and angles at some positions, at most one chunk.
+        """Return speeds and angles at no more than one chunk of positions of the input [revolutions].
 
-        coasting   by pair, the positions at which its coast flanks touch
+        coasting   pair -> mask of the positions at which its coast flanks are in contact
         """
         composition = self._with_transmissions(
             {name: FlankChoice(self.sources[name].transmission, where) for name, where in coasting.items()}
@@ -154,9 +159,10 @@ class PositionMotion:
         return LinkMotion(turns, self.senses[:, None] * (self.means[:, None] + found.rate), angles)
 
     def kinks(self, coasting: frozenset[str], span: float) -> Floats:
-        """Return the turns of the input, from 0 to `span`, at which a transmission function has a kink.
+        """Return the positions of the input from 0 to `span` [revolutions] at which a transmission function has a
+        kink.
 
-        coasting   pairs whose coast flanks touch throughout
+        coasting   pairs whose coast flanks are in contact at all positions
         """
         if (coasting, span) not in self._kinks:
             composition = self.coasting_all_along(coasting)
@@ -164,7 +170,7 @@ class PositionMotion:
         return self._kinks[coasting, span]
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the composition with the coast flanks of some pairs touching everywhere."""
+        """Return the composition in which the coast flanks of the given pairs are in contact at all positions."""
         return self._with_transmissions({name: self.sources[name].transmission.reversed_motion() for name in pairs})
 
     def _with_transmissions(self, transmissions: Mapping[str, TransmissionFunction]) -> ErrorComposition:

@@ -1,4 +1,4 @@
-"""Results of torque over a turn: torque at every position, energies over the run, extremes and their positions."""
+"""Results of torque over a run: torque at every position, energies, and extremes with their positions."""
 
 from __future__ import annotations
 
@@ -20,25 +20,26 @@ class TorqueExtreme(NamedTuple):
 
     See Also
     --------
-    TorqueCycle.maximum, TorqueCycle.minimum, TorqueCycle.starting : Fields that have one.
+    TorqueCycle.maximum, TorqueCycle.minimum, TorqueCycle.starting : fields of this type
     """
 
     torque: float
-    """Torque at the requested link, positive where it drives in the link's mean sense of rotation [N m, or plain]."""
+    """Torque at the requested link [N m, or plain number], positive if it drives in the link's mean sense of rotation.
+    """
     turns: float
-    """Turns of the input from the start of the run."""
+    """Revolutions of the input from the start of the run."""
     days: float | None = None
     """Time from the start of the run [days]; None if the train's speeds have no unit of time."""
 
 
 class CycleFigures(NamedTuple):
-    """Figures of a run for tolerance trials: mean, maximum and starting torque, and efficiency.
+    """Figures of a run for tolerance analysis: mean, maximum and starting torque, and efficiency.
 
-    Figures that do not exist are None.
+    A figure is None if it is not defined, as for a train that locks.
 
     See Also
     --------
-    TorqueCycle : The complete result of a run.
+    TorqueCycle : complete result of a run
     """
 
     mean: float | None
@@ -52,24 +53,24 @@ class PlaceInRun(NamedTuple):
 
     See Also
     --------
-    TorqueCycle.locked : Field with such positions.
+    TorqueCycle.locked : field with such positions
     """
 
     turns: float
-    """Turns of the input from the start of the run."""
+    """Revolutions of the input from the start of the run."""
     days: float | None = None
     """Time from the start of the run [days]; None if the train's speeds have no unit of time."""
 
 
 @dataclass(frozen=True)
 class CycleEnergy(Result):
-    """Energies over a run [J, or plain torque times radians].
+    """Energies over a run [J, or plain torque times rad].
 
     Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
 
     See Also
     --------
-    TorqueCycle.energy : Field that has these.
+    TorqueCycle.energy : field of this type
     """
 
     KEYS = (
@@ -78,13 +79,13 @@ class CycleEnergy(Result):
     )
 
     put_in: float
-    """Energy put in by the unknown torques (such as the crank's), where their power is positive."""
+    """Energy that the unknown torques (such as the torque at the crank) put in while their power is positive."""
     returned: float
-    """Energy taken back by the unknown torques, where the loads drive them."""
+    """Energy that the unknown torques take out while their power is negative, because the loads drive them."""
     taken_out: float
-    """Energy taken out by loads, where their power is negative."""
+    """Energy that loads take out while their power is negative."""
     loads_put_in: float
-    """Energy put in by loads."""
+    """Energy that loads put in while their power is positive."""
     mesh: float
     """Energy lost in gear pairs, 0 or more."""
     pin: float
@@ -94,12 +95,12 @@ class CycleEnergy(Result):
 
     @property
     def net_in(self) -> float:
-        """Net energy input of the unknown torques."""
+        """Energy that the unknown torques put in minus the energy that they take out."""
         return self.put_in - self.returned
 
     @property
     def net_out(self) -> float:
-        """Net energy output to the loads."""
+        """Energy that the loads take out minus the energy that they put in."""
         return self.taken_out - self.loads_put_in
 
     @property
@@ -117,38 +118,37 @@ class CycleEnergy(Result):
 
 @dataclass(frozen=True)
 class PairCycle(Result):
-    """Figures of one gear pair, coupling or bearing over a run.
+    """Loss, transmitted energy and torque of one gear pair, coupling or bearing over a run.
 
     See Also
     --------
-    TorqueCycle.parts : Field that has these.
+    TorqueCycle.parts : field with all of them
     """
 
     KEYS = ("kind", "loss", "passed", "flank_changes", "maximum")
 
     kind: str
-    """Kind of part: `mesh`, `pin` or `bearing`."""
+    """Kind of the part: `mesh`, `pin` or `bearing`."""
     loss: float
-    """Energy lost [J, or plain torque times radians]."""
+    """Lost energy [J, or plain torque times rad]."""
     passed: float
-    """Energy input of its driving side, in the frame of its carrier. For a bearing it equals the loss."""
+    """Energy input of the driving side relative to the carrier, in the same unit. For a bearing it equals the loss."""
     flank_changes: int = 0
-    """Number of sign changes of the torque through the pair. Real teeth cross their backlash at each.
+    """Number of sign changes of the torque through the pair; at each of them real teeth cross their backlash.
 
-    In a run of whole periods, a change from its end to its start counts too.
+    If the run is an integer number of periods, a change between its end and its start is included.
     """
     maximum: float = 0.0
-    """Maximum magnitude of the torque on its driven side [N m, or plain]; 0 for a bearing."""
+    """Maximum magnitude of the torque on the driven side [N m, or plain number]; 0 for a bearing."""
 
 
 @dataclass(frozen=True)
 class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
-    """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 16 to 18.
+    """Torques of a train over some revolutions of its input, position by position: docs/torques.md, sections 16 to 18.
 
-    The run has about `samples` even positions. More are added at both sides of every kink and jump of the transmission
-    functions, where a motion reverses or the touching flank changes, and where integrals need them. Arrays over
-    positions are read-only. Where nothing balances the train is locked, and the torque is NaN. A torque of 1 N m over
-    one turn of its own link does 2 pi J of work.
+    The run has about `samples` equally spaced positions. Positions are added at both sides of every kink and jump of
+    the transmission functions, where a motion reverses or the flank in contact changes, and where integrals need them.
+    Arrays over positions are read-only. Where no torque balances the loads, the train is locked and the torque is NaN.
 
     Examples
     --------
@@ -184,7 +184,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         Key("starting_at", "starting_place"),
         *("efficiency", "energy", "parts", "flank_changes", "loses_most", "recirculating"),
         *("locked_share", "locked", "held_share", "ambiguous_share"),
-        *(Key("turns", "span"), "period", "complete", "left_out"),
+        *(Key("turns", "span"), "period", "complete", "neglected"),
     )
 
     state: str | None
@@ -192,63 +192,63 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     verdict: TorqueVerdict
     """Verdict on the torques.
 
-    `determined`: all torques follow. `incomplete`: some effects are neglected. `ambiguous`: several patterns of power
-    flow balance at some position. `self-locking`: nothing balances at some position. `indeterminate`: redundant pairs
-    share a load in an undetermined way, and the minimum-norm torques are given. If the question itself has no answer,
-    this is the verdict of `Torques`, and the result has nothing else.
+    `determined`: all torques follow from the loads. `incomplete`: some effects are neglected. `ambiguous`: several
+    patterns of power flow balance the loads at some position. `self-locking`: no torque balances them at some position.
+    `indeterminate`: redundant pairs share a load in an undetermined way, and the minimum-norm torques are returned. If
+    no torque can be requested, this is the verdict of `Torques`, and the other fields are empty.
     """
     link: str = ""
-    """Link whose torque is requested."""
+    """Link whose torque is computed."""
     newton_metres: bool = True
-    """True if torques are in N m, False if they are in the plain unit of the loads."""
+    """True if torques are in N m, False if they are plain numbers."""
     span: float = 0.0
-    """Turns of the input in the run."""
+    """Length of the run [revolutions of the input]."""
     period: float | None = None
-    """Turns of the input after which all positions repeat; None if nothing varies."""
+    """Revolutions of the input after which all positions repeat; None if the torque is constant."""
     turns: Floats | None = None
-    """Positions of the input [turns], ascending, shape (n,). The two sides of a jump have the same position."""
+    """Positions of the input [revolutions], ascending, shape (n,). The two sides of a jump have the same position."""
     torque: Floats | None = None
-    """Torque at the link in the solution with minimum loss [N m, or plain], shape (n,).
+    """Torque at the link in the solution with minimum loss [N m, or plain number], shape (n,).
 
-    It is positive where it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed
-    is 0.
+    It is positive if it drives in the link's mean sense of rotation, or about the link's own axis if its mean speed is
+    0.
     """
     highest: Floats | None = None
-    """Torque at the link in the solution with maximum loss [N m, or plain], shape (n,)."""
+    """Torque at the link in the solution with maximum loss [N m, or plain number], shape (n,)."""
     standing: Floats | None = None
-    """Breakaway torque of the train at each position, with static friction in every contact [N m, or plain], shape
-    (n,).
-    """
+    """Breakaway torque at each position, with static friction in every contact [N m, or plain number], shape (n,)."""
     speeds: LabelledArray | None = None
-    """Speeds of links over the input speed, (link, position)."""
+    """Speeds of links over the speed of the input, axes (link, position)."""
     powers: LabelledArray | None = None
-    """Power input of each external torque, over the speed of the input, (link, position) [N m, or plain]."""
+    """Power of each external torque over the speed of the input, positive into the train, axes (link, position) [N m,
+    or plain number].
+    """
     losses: LabelledArray | None = None
-    """Power lost over the speed of the input, (part, position) [N m, or plain]."""
+    """Lost power over the speed of the input, axes (part, position) [N m, or plain number]."""
     mean: float | None = None
-    """Mean torque over the run; None if the train locks."""
+    """Mean torque over the run [N m, or plain number]; None if the train locks."""
     maximum: TorqueExtreme | None = None
-    """Maximum torque over all solutions that balance; None if the train locks."""
+    """Maximum torque over all solutions at all positions; None if the train locks."""
     minimum: TorqueExtreme | None = None
-    """Minimum torque over all solutions that balance."""
+    """Minimum torque over all solutions at all positions; None if the train locks."""
     starting: TorqueExtreme | None = None
-    """Torque that starts the train at the worst position; None if it locks there."""
+    """Torque that starts the train at the position with maximum breakaway torque; None if the train locks there."""
     energy: CycleEnergy | None = None
     """Energies over the run; None if the train locks."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
-    """Figures of gear pairs and couplings by name, and of bearings by `bearing LINK`."""
+    """Loss and torque of gear pairs and couplings by name, and of bearings by `bearing LINK`."""
     locked_share: float = 0.0
-    """Fraction of the run in which nothing balances."""
+    """Fraction of the run in which no torque balances the loads."""
     held_share: float = 0.0
-    """Fraction of the run in which loads and the requested link both put power in, and all of it is lost."""
+    """Fraction of the run in which loads and the requested link both put power in, which is lost completely."""
     ambiguous_share: float = 0.0
-    """Fraction of the run in which several patterns of power flow balance."""
+    """Fraction of the run in which several patterns of power flow balance the loads."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()
-    """Start and end of each stretch in which nothing balances."""
+    """Start and end of each part of the run in which no torque balances the loads."""
     complete: bool = True
-    """False if there were too many patterns of power flow to try them all."""
-    left_out: tuple[NeglectedEffect, ...] = ()
-    """Neglected effects."""
+    """False if there were too many patterns of power flow to try all of them."""
+    neglected: tuple[NeglectedEffect, ...] = ()
+    """Declared effects that the torques do not include."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -285,7 +285,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def maximum_torque(self) -> float | None:
-        """Maximum torque; None if the train locks."""
+        """Maximum torque [N m, or plain number]; None if the train locks."""
         return None if self.maximum is None else self.maximum.torque
 
     @property
@@ -295,7 +295,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def minimum_torque(self) -> float | None:
-        """Minimum torque. The loads drive where it is negative."""
+        """Minimum torque [N m, or plain number], negative if the loads drive; None if the train locks."""
         return None if self.minimum is None else self.minimum.torque
 
     @property
@@ -305,50 +305,51 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def starting_torque(self) -> float | None:
-        """Torque that starts the train at the worst position; None if it locks."""
+        """Torque that starts the train at the position with maximum breakaway torque; None if the train locks there."""
         return None if self.starting is None else self.starting.torque
 
     @property
     def starting_place(self) -> PlaceInRun | None:
-        """Worst position to start from."""
+        """Position of the run with the maximum breakaway torque."""
         return _place(self.starting)
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output over energy input in the run; None if the train locks or has no net energy input."""
+        """Energy output over energy input of the run; None if the train locks or has no net energy input."""
         return None if self.energy is None else self.energy.efficiency
 
     @property
     def flank_changes(self) -> Mapping[str, int]:
-        """Number of backlash crossings, by pair and coupling."""
+        """Pair or coupling -> number of times that its teeth cross their backlash."""
         return {name: part.flank_changes for name, part in self.parts.items() if part.kind != "bearing"}
 
     @property
     def loses_most(self) -> str | None:
-        """Pair, coupling or bearing with the largest energy loss; None if nothing is lost."""
+        """Name of the pair, coupling or bearing with the largest energy loss; None if no energy is lost."""
         name = max(self.parts, key=lambda each: self.parts[each].loss, default=None)
         return None if name is None or not self.parts[name].loss else name
 
     @property
     def recirculating(self) -> Mapping[str, float]:
-        """Pairs through which more energy passes than is put into the train, with the ratio of the two."""
+        """Pair -> transmitted energy over the energy put into the train, for pairs with a quotient above 1."""
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}
         shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}
+        # a pair that transmits the whole power has 1 to rounding
         return {name: share for name, share in shares.items() if share > 1 + 1e-9}
 
     def at(self, turns: float) -> float:
-        """Interpolate the torque linearly at a position between those of the run.
+        """Return the torque at a position between those of the run, by linear interpolation.
 
         Parameters
         ----------
         turns : float
-            Turns of the input, from 0 to `span`.
+            Position of the input [revolutions], from 0 to `span`.
 
         Returns
         -------
         float
-            Torque at the requested link [N m, or plain]; NaN where the train is locked.
+            Torque at the requested link [N m, or plain number]; NaN where the train is locked.
         """
         import numpy as np
 

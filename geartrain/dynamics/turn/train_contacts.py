@@ -1,11 +1,12 @@
 """Contacts of all pairs of a train in one load case: transmission function, friction and driving side.
 
-They follow section 17 of docs/torques.md.
+The theory is in section 17 of docs/torques.md.
 
-The multiplier x of a pair is the torque that presses its driven side forward. At x >= 0 the drive flanks touch, at
-x <= 0 the coast flanks. Let tau be the ratio of the touching flank at this position. The driven side then gets x n and
-the driver gives x tau d, where n and d are 1 without friction. Friction reverses with the sliding velocity, so a flank
-that is driven from the other side has the efficiency eta'(f) = 1/eta(-f) (23).
+The multiplier x of a pair is the torque on its driven side in the forward sense. For x >= 0 the drive flanks are in
+contact, for x <= 0 the coast flanks. Let tau be the speed ratio of the flank in contact at this position. The torque on
+the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without friction. Friction
+reverses with the sliding velocity, so a flank that is driven from the other side has the efficiency
+eta'(f) = 1/eta(-f) (23).
 """
 
 from __future__ import annotations
@@ -36,37 +37,39 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques per unit of the multiplier, (n,) each: on the driven side, and from the driver, in forward senses."""
+    """Torques for a multiplier of 1, shape (n,) each: on the driven side, and from the driver, in forward senses."""
 
     driven: Floats
     driver: Floats
     barred: Bools | None = None
-    """Positions at which no power can pass; None if there are none."""
+    """Mask of positions at which no power can flow; None if there are none."""
 
 
 class PairForce(NamedTuple):
-    """Torques on both links of a circuit per unit of the multiplier, about the parallels' direction, (n,)."""
+    """Torques on both links of a circuit for a multiplier of 1, about the reference direction of parallel axes, shape
+    (n,).
+    """
 
     first: Floats
     second: Floats
     barred: Bools | None
-    """Positions at which no power can pass; None if there are none."""
+    """Mask of positions at which no power can flow; None if there are none."""
 
 
 class DriverState(NamedTuple):
     """Position and speed of the driver of a pair, shape (n,) each."""
 
     S: Floats
-    """Forward angle of the driver [rad]. Empty if nothing in the pair depends on it."""
+    """Forward angle of the driver [rad]; empty if no property of the pair depends on it."""
     turning: Floats
-    """Forward speed of the driver relative to the carrier, over the speed of the input."""
+    """Forward speed of the driver relative to the carrier, over the speed of the input [1]."""
 
 
 class ContactLosses(ABC):
     """Effect of friction on the torques of a contact."""
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if the contact has losses."""
         return True
 
@@ -79,14 +82,16 @@ class ContactLosses(ABC):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques per unit of the multiplier.
+        """Return the torques for a multiplier of 1.
 
-        tau   ratio of the touching flank, given by `transmission`
+        tau   speed ratio of the flank in contact, from `transmission`
         way   1 if the driver of the transmission function drives, -1 if the other side does, 0 without relative motion
         """
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values whose sign changes at kinks of torques that are not kinks of the ratio; None by default."""
+        """Return values whose signs change where the torques have kinks but the speed ratio has none; None by
+        default.
+        """
         del at
         return None
 
@@ -95,21 +100,21 @@ class NoLosses(ContactLosses):
     """Contact without losses."""
 
     @property
-    def rubs(self) -> bool:
-        """Always False."""
+    def has_friction(self) -> bool:
+        """False, because the contact has no losses."""
         return False
 
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques given by the ratio."""
+        """Return the torques without friction: 1 on the driven side, `tau` from the driver."""
         del transmission, at, way, static
         return ContactTorques(np.ones_like(tau), tau)
 
 
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
-    """Declared efficiencies, for either driving side. A value of 0 or less locks the pair in that direction."""
+    """Declared efficiencies for both driving sides. A value of 0 or less locks the pair in this direction."""
 
     driver: float
     driven: float
@@ -117,7 +122,7 @@ class BasicEfficiency(ContactLosses):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques scaled by the efficiency of the driving side."""
+        """Return the torques, reduced by the efficiency for the side that drives."""
         del transmission, at, static
         ahead, back = way > 0, way < 0
         barred = (ahead & (self.driver <= 0)) | (back & (self.driven <= 0))
@@ -128,12 +133,14 @@ class BasicEfficiency(ContactLosses):
 
 @dataclass(frozen=True)
 class ToothFriction(ContactLosses):
-    """Friction of real teeth: each contact transmits (1 + f out)/(1 + f into), f < 0 where flanks slide back."""
+    """Friction of real teeth: each tooth pair in contact transmits (1 + f out)/(1 + f into), with f < 0 if flanks slide
+    back.
+    """
 
     sliding: float | Callable[[Floats, Floats], Floats]
     """Coefficient of sliding friction: a number, or a function of two speeds.
 
-    Its arguments are the sliding speed over the pitch-line speed, and the driver's speed over the input speed.
+    Its arguments are the sliding speed over the pitch-line speed, and the driver's speed over the speed of the input.
     """
     static: float
     """Coefficient of static friction."""
@@ -146,7 +153,7 @@ class ToothFriction(ContactLosses):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques; simultaneous contacts share the torque of the driving side equally."""
+        """Return the torques; tooth pairs in contact share the torque of the driving side equally."""
         assert transmission is not None
         sliding, into, out = transmission.rubbing(at.S)
         touching = ~np.isnan(out)  # NaN marks pairs of teeth that do not touch at this position
@@ -169,14 +176,16 @@ class ToothFriction(ContactLosses):
 
 @dataclass(frozen=True)
 class PinFriction(ContactLosses):
-    """Friction of a pin along its slot: T_p = (r/rho)(T_s cos d + f |T_s sin d| sgn S'), equation (25)."""
+    """Friction of a pin along its slot: T_p = (r/rho)(T_s cos d + f |T_s sin d| sgn S'), equation (25) of
+    docs/torques.md.
+    """
 
     transmission: PinTransmission
     sliding: float
     static: float
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """True if either coefficient of friction is not 0."""
         return bool(self.sliding or self.static)
 
@@ -188,7 +197,7 @@ class PinFriction(ContactLosses):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques from lever arms, which are finite at dead points too."""
+        """Return the torques from lever arms, which are finite also at dead points."""
         del transmission
         r, e = self.transmission.r, self.transmission.e
         half = np.sin(at.S / 2)
@@ -198,32 +207,32 @@ class PinFriction(ContactLosses):
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return sin S: it is 0 with the pin on the line through both axes, where the sliding velocity reverses."""
-        return np.sin(at.S) if self.rubs else None
+        """Return sin S. It is 0 if the pin is on the line through both axes, where the sliding velocity reverses."""
+        return np.sin(at.S) if self.has_friction else None
 
 
 @dataclass(frozen=True)
 class PairContact:
-    """Torque transmission of one gear pair or coupling."""
+    """Torque transmission of one gear pair or coupling at any position."""
 
     circuit: Circuit
     first: bool
     """True if the driver of the transmission function is the circuit's first link."""
     way: int
-    """Sense of the driver's mean motion relative to the carrier, about the parallels' direction.
+    """Sense of the driver's mean motion relative to the carrier, about the reference direction of parallel axes.
 
-    `sense` is the sense of the driven side.
+    `sense` is the same for the driven side.
     """
     sense: int
     ratio: float
-    """Magnitude of the constant ratio, driven over driver. It is used if `source` is None."""
+    """Magnitude of the constant speed ratio, driven over driver; used if `source` is None."""
     losses: ContactLosses
     source: PairErrorSource | None = None
-    """Source of the transmission error. None for a pair of constant ratio, whose position does not matter."""
+    """Source of the transmission error; None for a pair with constant ratio, whose position has no effect."""
 
     @property
     def name(self) -> str:
-        """Name of the pair."""
+        """Name of the pair or coupling."""
         return self.circuit.id
 
     @property
@@ -233,22 +242,22 @@ class PairContact:
 
     @property
     def ends(self) -> tuple[str, str]:
-        """Driver of the transmission function, and the driven side."""
+        """Names of the driver of the transmission function, and of the driven side."""
         i, j = self.circuit.i, self.circuit.j
         return (i, j) if self.first else (j, i)
 
     @property
     def two_sided(self) -> bool:
-        """True if its flanks differ, or if friction depends on the driving side."""
-        return self.losses.rubs or self.has_flanks
+        """True if the two flanks differ, or if friction depends on the driving side."""
+        return self.losses.has_friction or self.has_flanks
 
     @property
     def has_flanks(self) -> bool:
-        """True for teeth with backlash. Pins have none."""
+        """True for teeth, which have a drive and a coast flank with backlash; False for pins."""
         return self.source is not None and self.source.transmission.reversed_motion() is not self.source.transmission
 
     def torques(self, side: int, at: DriverState, static: bool = False) -> PairForce:
-        """Return the torques on both links per unit of the multiplier.
+        """Return the torques on both links for a multiplier of 1, about the reference direction of parallel axes.
 
         side   1 for the drive flanks, -1 for the coast flanks
         """
@@ -260,13 +269,14 @@ class PairContact:
             else self.source.transmission.reversed_motion()
         )
         tau = np.full(len(at.turning), self.ratio) if transmission is None else transmission.speed(at.S)
+        # the driving side follows from the flank and from the sense of motion
         found = self.losses.torques(tau, transmission, at, side * np.sign(at.turning), static)
         driven, driver = self.sense * found.driven, -self.way * found.driver
         return PairForce(driver, driven, found.barred) if self.first else PairForce(driven, driver, found.barred)
 
 
 def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> set[str]:
-    """Return the names of the pairs whose ratio or losses depend on their position."""
+    """Return the names of the pairs whose speed ratio or losses depend on their position."""
     names = {circuit.id for circuit in setting.circuits}
     uneven = {name for name, mesh in teeth.items() if not mesh.rigid or _by_friction(setting, mesh)}
     return names & {*uneven, *setting.joints}
@@ -277,8 +287,8 @@ def find_contacts(
 ) -> dict[str, PairContact]:
     """Return the contact of every pair and coupling, by name.
 
-    positions   motion of the pairs that are evaluated at every position; other pairs have a constant ratio
-    teeth       real teeth, with the driver of the transmission function that is used
+    positions   motion with the pairs that are evaluated at every position; other pairs have a constant ratio
+    teeth       meshes with real teeth; their driver is the driver of the transmission function
     """
     found = {}
     for circuit in setting.circuits:
@@ -293,14 +303,16 @@ def find_contacts(
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """Yield the pairs with mean friction: redundant pairs, whose position does not follow from the motion."""
+    """Yield the redundant pairs with friction of teeth; they have mean friction, because the motion does not determine
+    their position.
+    """
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
     return (name for name in teeth if name in names and _by_friction(setting, teeth[name]))
 
 
 def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:
     gear = setting.gears[mesh.name]
-    return gear.efficiency is None and setting.rubs(gear)
+    return gear.efficiency is None and setting.has_friction(gear)
 
 
 def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None, mesh: GearMesh | None) -> PairContact:
@@ -316,7 +328,7 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
 
 def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     joint, friction = setting.joints.get(circuit.id), setting.train.friction_of(setting.couplings[circuit.id])
-    if joint is None or friction is None or not friction.rubs:
+    if joint is None or friction is None or not friction.has_friction:
         return NoLosses()
     return PinFriction(joint.transmission, joint.transmission.friction, friction.static)
 
@@ -324,7 +336,7 @@ def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair: friction at each position, or a constant efficiency."""
+    """Return the losses of a gear pair: friction of teeth at each position, or a constant efficiency."""
     if source is not None and mesh is not None and _by_friction(setting, mesh):
         return _tooth_friction(setting, circuit, source, mesh)
     means = find_mean_efficiencies(setting, circuit).load
@@ -343,7 +355,7 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
 
 
 class BearingTorques(NamedTuple):
-    """Friction torque of a bearing in motion and at rest, and viscous drag per unit of the input's speed."""
+    """Friction torque of a bearing in motion and at rest, and viscous drag torque per unit of the input's speed."""
 
     sliding: float
     static: float
@@ -351,7 +363,9 @@ class BearingTorques(NamedTuple):
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """Return the friction of every link with bearing friction, or with drag if its absolute speed is known."""
+    """Return the friction of every link with bearing friction; viscous drag is included if its absolute speed is
+    known.
+    """
     train, unit = setting.train, _radians_per_second(setting)
     found = {}
     for link, part in train.links.items():
@@ -365,13 +379,13 @@ def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
 
 
 def dragging_links(setting: LoadCase) -> tuple[str, ...]:
-    """Return the links whose viscous drag is neglected, because speeds or torques have no units."""
+    """Return the links whose viscous drag is neglected because speeds or torques have no units."""
     links = tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.si)
     return () if _radians_per_second(setting) else links
 
 
 def _radians_per_second(setting: LoadCase) -> float | None:
-    """Return the magnitude of the input speed [rad/s], or None if speeds or torques are plain numbers."""
+    """Return the magnitude of the input speed [rad/s]; None if speeds or torques are plain numbers."""
     unit = radians_per_second(setting.train, setting.case)
     driving_speed = next((speed for speed in setting.case.inputs.values() if speed), None)
     if unit is None or driving_speed is None or not has_torque_units(setting.train, setting.case.state):

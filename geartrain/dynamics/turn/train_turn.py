@@ -1,9 +1,9 @@
-"""Torque of a train over turns of its input, with the ratio and the friction of every position.
+"""Torque of a train over revolutions of its input, with the speed ratio and the friction at every position.
 
 A friction study repeats one run with other coefficients of friction. Motion, kinks, tables and the order of solution
-are computed once, because friction does not change the motion for given flanks. It changes which flanks touch and the
-power that is transmitted. Where torques of opposite senses meet, friction may also change the driver of a pair; then
-nothing can be reused.
+are computed once, because friction does not change the motion for given flanks in contact. Friction changes only the
+flanks in contact and the transmitted power. If torques of opposite senses are combined, friction may also change the
+driver of a pair, and then the run is computed anew.
 """
 
 from __future__ import annotations
@@ -37,15 +37,15 @@ if TYPE_CHECKING:
 
 @dataclass
 class FrictionStudy:
-    """Run whose figures can be recomputed with other coefficients of friction."""
+    """Run that can be repeated with other coefficients of friction without a new analysis of the motion."""
 
     run: TurnRun
     of: str | None = None
     certain: bool = False
-    """True if the driver of each pair is the same for any friction that does not lock the train."""
+    """True if the driver of each pair is the same for any friction at which the train does not lock."""
 
     def figures(self, friction: Mapping[str, FrictionInForce]) -> CycleFigures:
-        """Return the figures of the run with other friction in some pairs and couplings."""
+        """Return the figures of the run with other coefficients of friction in some pairs and couplings."""
         own = self.run.train
         contacts = {name: _rubbed(each, friction.get(name)) for name, each in own.contacts.items()}
         train = replace(own, contacts=contacts, complete=True)
@@ -55,7 +55,7 @@ class FrictionStudy:
 def find_friction_study(
     setting: LoadCase, problem: MotionProblem, turns: float, samples: int, of: str | None
 ) -> FrictionStudy | None:
-    """Return the study of one run, or None if some friction is a mean value or depends on speed."""
+    """Return the study of one run; None if some friction is a mean value or depends on speed."""
     train = find_turn_balance(setting, problem, of)
     if isinstance(train, TorqueVerdict):
         return None
@@ -70,7 +70,7 @@ def find_friction_study(
 
 
 def _rubbed(contact: PairContact, friction: FrictionInForce | None) -> PairContact:
-    """Return a contact with other coefficients of friction."""
+    """Return the contact with other coefficients of friction; unchanged if it has no friction of teeth or pins."""
     losses = contact.losses
     if friction is None or friction.sliding is None or not isinstance(losses, ToothFriction | PinFriction):
         return contact
@@ -78,10 +78,12 @@ def _rubbed(contact: PairContact, friction: FrictionInForce | None) -> PairConta
 
 
 def drivers_are_certain(train: TurnBalance) -> bool:
-    """Return whether the direction of power through every pair is the same for any friction that does not lock.
+    """Return whether the direction of power through every pair is the same for any friction at which the train does
+    not lock.
 
-    This is certain if each torque follows from one row in which all known torques have the same sense. The sense of the
-    result then does not depend on their magnitudes. Moving carriers take a difference of torques and are not certain.
+    This is certain if each torque follows from one equation in which all known torques have the same sense: the sense
+    of the result then does not depend on their magnitudes. The torque on a moving carrier is a difference, so it is not
+    certain.
     """
     setting, balance = train.setting, train.balance
     frame, rows = setting.train.frame, {link: row for row, link in enumerate(balance.links)}
@@ -95,10 +97,12 @@ def drivers_are_certain(train: TurnBalance) -> bool:
         add(rows[link], torque)
     for link in train.bearings:
         carrier = setting.tree.parent[link][0]
+        # friction in a moving bearing acts on two links
         if carrier != frame:
             return False
         add(rows[link], -float(setting.speeds[link]))
     for block in balance.parts:
+        # in coupled pairs a torque may be a difference of known ones
         if len(block.rows) != 1 or len(block.columns) != 1:
             return False
         known, column = senses.get(block.rows[0], set()), train.columns[block.columns[0]]
@@ -115,7 +119,7 @@ def drivers_are_certain(train: TurnBalance) -> bool:
 
 
 def _senses(mesh: LoadedPair) -> tuple[int, int, int]:
-    """Return the senses of the torques on the links of a pair in the frame, for a positive multiplier."""
+    """Return the senses of the torques on the three links of a pair for a positive multiplier."""
     return int(np.sign(mesh.a)) * mesh.senses[0], int(np.sign(mesh.b or -1)) * mesh.senses[1], 0
 
 
@@ -131,7 +135,7 @@ def solve(
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
-    """Compute the torque at every position of some turns. See `GearTrain.torques`."""
+    """Compute the torque at every position over some revolutions of the input. See `GearTrain.torques`."""
     check_numbers(turns=turns)
     check_whole_numbers(samples=samples)
     train = train.unfolded
@@ -146,9 +150,10 @@ def solve(
 def study_friction(
     train: TrainMechanics, turns: float, samples: int = SAMPLES, state: str | None = None, of: str | None = None
 ) -> FrictionStudy | None:
-    """Return a run that can be repeated with other coefficients of friction, much faster than a new train.
+    """Return a run that can be repeated quickly with other coefficients of friction.
 
-    It is None if some friction is a mean value or depends on speed. Each set of coefficients then needs a new train.
+    The result is None if some friction is a mean value or depends on speed: each set of coefficients then needs a new
+    train.
     """
     train = train.unfolded
     found = train.load_case(state)
@@ -156,7 +161,7 @@ def study_friction(
 
 
 def find_torque_period(train: TrainMechanics, state: str | None = None, of: str | None = None) -> Fraction | None:
-    """Return the turns of the input after which the torque over a turn repeats, exactly.
+    """Return the exact number of revolutions of the input after which the torque repeats.
 
     Parameters
     ----------
@@ -170,13 +175,14 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
     Returns
     -------
     Fraction or None
-        Period [turns of the input]. None if no pair that carries torque has a variable ratio or friction, so that the
-        torque is constant, or if torques are unknown.
+        Period [revolutions of the input]. None if torques are unknown, or if the torque is constant because no pair
+        that
+        transmits it has a variable ratio or friction.
 
     Examples
     --------
-    A clock with identical teeth, whose friction depends on the position of the contact, repeats after a quarter of an
-    hour:
+    Friction of teeth depends on the position of the contact. The torque in this clock repeats after a quarter of a
+    revolution of the input, a quarter of an hour:
 
     >>> import geartrain
     >>> train = geartrain.load('''

@@ -1,4 +1,4 @@
-"""Torque over a turn, from a load case to its results: docs/torques.md, sections 16 to 18."""
+"""Torque over a run, from a load case to its results: docs/torques.md, sections 16 to 18."""
 
 from __future__ import annotations
 
@@ -48,16 +48,17 @@ _CELLS = 12  # candidate cells in which an extreme is refined
 _PARTS = 16  # subdivisions per round of refinement
 _ROUNDS = 6  # rounds of refinement: each narrows the interval by 8
 DEFAULT_SAMPLES = 20_000
-MOST_TURNS = 1e9
+MOST_TURNS = 1e9  # positions in float64 then resolve 1e-7 of a revolution
 _ODD = Fraction(1_414_213, 1_000_003)  # factor of friction that cancels no declared load
 
 
 def find_extreme(
     value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
 ) -> tuple[float, float] | None:
-    """Return the position and value of a maximum (`way` 1) or minimum (-1), or None if no value is finite.
+    """Return position [revolutions] and value of the maximum (`way` 1) or minimum (-1); None if no value is finite.
 
-    value_at   function from positions to values; `values` are those of the run, NaN where the train is locked
+    value_at   function that returns the values at positions
+    values     values at the positions of the run, NaN where the train is locked
     """
     signed = np.where(np.isfinite(values), way * values, -np.inf)
     if not np.isfinite(signed).any():
@@ -89,11 +90,11 @@ def find_torque_cycle(
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
-    """Compute torques over some turns of the input.
+    """Compute the torques over some revolutions of the input.
 
-    problem   data for the motion of the same case
+    problem   data for the motion in the same state
     of        link whose torque is unknown, instead of the link that follows from the declaration
-    on_done   callback, called with the number of positions computed since the last call
+    on_done   progress function, called with the number of positions computed since the last call
     """
     if not 0 < turns <= MOST_TURNS:
         what, why = f"turns = {turns:g}", "a run has a positive number of turns"
@@ -114,14 +115,14 @@ def find_torque_cycle(
 
 
 def report_run(run: TurnRun, of: str | None) -> TorqueCycle:
-    """Return the results of a run. `of` is the link to report, by default the first with an unknown torque."""
+    """Return the results of a run for link `of`, by default the first link with an unknown torque."""
     return _RunResults(run).cycle(of)
 
 
 def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
-    """Return the balance of a train for any positions, or the verdict if it has none.
+    """Return the torque balance of a train for any position; a verdict if the torques cannot be determined.
 
-    of   link of unknown torque, by default that of the declaration
+    of   link with unknown torque, by default as declared
     """
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
@@ -133,7 +134,7 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
 
 
 def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: TorqueQuestion) -> TurnBalance:
-    """Build the balance of a train at any positions. Only the parts that transmit torque are evaluated."""
+    """Return the torque balance of a train for any position; only the pairs that transmit torque are evaluated."""
     bearings, frame = find_bearings(setting), setting.train.frame
     known = dict(question.loads)
     for link, friction in bearings.items():
@@ -162,13 +163,13 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
 
 
 def find_figures(run: TurnRun, of: str | None) -> CycleFigures:
-    """Return only the figures of a run; see `report_run`."""
+    """Return only the main figures of a run; see `report_run`."""
     return _RunResults(run).figures(of)
 
 
 @dataclass
 class _RunResults:
-    """Results of a run."""
+    """Results of a run, computed from its positions."""
 
     run: TurnRun
 
@@ -201,19 +202,20 @@ class _RunResults:
         return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
 
     def cycle(self, of: str | None) -> TorqueCycle:
-        """Return all results of the run."""
+        """Return all results of the run for link `of`."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)
         link = train.requested[own.row]
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         maximum = None if locked else self._extreme(own, 1, False)
-        torque, left_out, period = own.torque(found), self._left_out(), train.motion.period
+        torque, neglected, period = own.torque(found), self._neglected(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
+        # repr: the label of a position has all digits
         labels = [repr(each) for each in self.run.cells.turns.tolist()]
         return TorqueCycle(
             train.setting.case.state,
-            self._verdict(locked, ambiguous, left_out),
+            self._verdict(locked, ambiguous, neglected),
             link,
             has_torque_units(train.setting.train, train.setting.case.state),
             self.run.span,
@@ -236,10 +238,10 @@ class _RunResults:
             ambiguous,
             self._stretches(),
             train.complete,
-            left_out,
+            neglected,
         )
 
-    def _left_out(self) -> tuple[NeglectedEffect, ...]:
+    def _neglected(self) -> tuple[NeglectedEffect, ...]:
         train = self.run.train
         teeth = {mesh.name: mesh for mesh in train.motion.motion._problem.teeth}
         found = neglected_over_turn(
@@ -260,7 +262,7 @@ class _RunResults:
             found += (NeglectedEffect("rest within the backlash", train.flanked, why),)
         return found
 
-    def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
+    def _verdict(self, locked: float, ambiguous: float, neglected: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
         requested = ", ".join(self.run.train.requested)
         if locked:
             text = f"no torque on {requested} balances the loads over {locked:.4%} of the run: the train locks there"
@@ -274,8 +276,8 @@ class _RunResults:
         if ambiguous:
             text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
             return TorqueVerdict("ambiguous", f"{text}; the one with minimum loss is given")
-        if left_out:
-            what = ", ".join(map(str, left_out))
+        if neglected:
+            what = ", ".join(map(str, neglected))
             return TorqueVerdict("incomplete", f"the torque at every position is determined; not included: {what}")
         return TorqueVerdict("determined", "the torque at every position is determined")
 
@@ -287,7 +289,9 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, own: _Request, way: int, static: bool) -> TorqueExtreme | None:
-        """Find the maximum torque (the minimum with -1), refined between positions."""
+        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if no value is
+        finite.
+        """
 
         def torque(found: PositionTorques) -> Floats:
             return own.highest(found) if way > 0 else own.torque(found)
@@ -301,19 +305,20 @@ class _RunResults:
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
     def _starting(self, own: _Request, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
-        """Return the maximum torque with static friction, or None if the train does not start everywhere."""
+        """Return the maximum torque with static friction; None if the train does not start at every position."""
         if not self.run.standing.valid.all():
             return None
         return self._extreme(own, 1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
-        """Return energies over the run. Powers are over the input's speed, so angles are in radians."""
+        """Return the energies over the run [J, or plain torque times rad]."""
         found, requested = self.run.found, len(self.run.train.requested)
+        # powers are over the speed of the input, so the integral is over its angle in radians
         weights = self.run.cells.weights * 2 * np.pi
         driving, loading = found.powers[:requested], found.powers[requested:]
 
         def summed(powers: Floats) -> float:
-            """Integrate the positive part of powers."""
+            """Return the integral of the positive part of powers over the run."""
             return float(weights @ np.maximum(powers, 0).sum(axis=0))
 
         lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)
@@ -334,6 +339,7 @@ class _RunResults:
             np.where(found.valid, found.losses, 0) @ weights,
             np.where(found.valid, found.passed, 0) @ weights,
         )
+        # noise around a torque of 0 is not a change of flanks
         changes = [_changes(row, self._closes) for row in sign_beyond(found.pressed, RunScales.of(found).pressed)]
         bearings = len(self.run.train.bearings)
         changes += [0] * bearings
@@ -346,19 +352,19 @@ class _RunResults:
 
     @property
     def _closes(self) -> bool:
-        """True if the run has a whole number of periods."""
+        """True if the run is an integer number of periods."""
         period = self.run.train.motion.period
         return period is None or (self.run.span / float(period)) % 1 == 0
 
     def _held(self) -> float:
-        """Return the fraction of the run in which both loads and unknown torques put power in."""
+        """Return the fraction of the run in which loads and unknown torques both put power in."""
         found, requested = self.run.found, len(self.run.train.requested)
         driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
         minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
         return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
-        """Return start and end of each stretch in which nothing balances."""
+        """Return start and end of each part of the run in which no torque balances the loads."""
         turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
         starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
         return tuple(
@@ -367,24 +373,26 @@ class _RunResults:
 
 
 class _Request(NamedTuple):
-    """Row of the reported link, and the sense of its mean motion."""
+    """Row of the reported link, and the sign of its mean speed."""
 
     row: int
     way: int
 
     def torque(self, found: PositionTorques) -> Floats:
-        """Return its torque in that sense, in the solution with minimum loss."""
+        """Return the torque of the link, positive in its mean sense, in the solution with minimum loss."""
         torque: Floats = self.way * found.torque[self.row]
         return torque
 
     def highest(self, found: PositionTorques) -> Floats:
-        """Return its torque in that sense, in the solution with maximum loss."""
+        """Return the torque of the link, positive in its mean sense, in the solution with maximum loss."""
         torque: Floats = self.way * found.highest[self.row]
         return torque
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """Count the sign changes of a sequence, ignoring zeros."""
+    """Return the number of sign changes of a sequence, without zeros; `closes` includes the change from its end to its
+    start.
+    """
     own = signs[signs != 0]
     if not len(own):
         return 0

@@ -1,7 +1,7 @@
-"""Torque balance of a train over its turn: torques, powers and losses at any positions of the input.
+"""Torque balance of a train at any position of the input: torques, powers and losses.
 
-The order of solution is that of the balance of mean torques (8), and so is the consistency test of a pattern (7). Only
-the coefficients change from position to position. A block of one pair takes a division. For a block of several coupled
+The order of solution (8) and the consistency test of a pattern (7) are the same as in the balance of mean torques. Only
+the coefficients depend on the position. A block of one pair is solved by a division. For a block of several coupled
 pairs, all patterns of power flow are enumerated, each at all positions in one array operation.
 """
 
@@ -39,28 +39,28 @@ ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 
 @dataclass(frozen=True)
 class ColumnPieces:
-    """Contribution of a unit of one unknown torque to each row, by the sign of the torque."""
+    """Coefficients of one unknown torque in each row, for each sign of the torque."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
-    """Coefficients by side (1 and -1, or 0 if it does not matter) and row, (n,) each."""
+    """Side (1 and -1, or 0 if the sign has no effect) -> row -> coefficient, shape (n,)."""
     barred: Mapping[int, Bools]
-    """Positions at which the torque must vanish, by side."""
+    """Side -> mask of positions at which the torque must be 0."""
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Signs to be tried."""
+        """Signs of the torque to be tried."""
         return tuple(self.pieces)
 
 
 @dataclass
 class BalanceLayer:
-    """One solution of the balance at each position that has one."""
+    """One solution of the balance at each position where a solution exists."""
 
     values: Floats
-    """Torques by column, (columns, n). `rows` is the remaining torque of each row, (rows, n)."""
+    """Torques by column, shape (columns, n). `rows` is the sum of torques in each row, shape (rows, n)."""
     rows: Floats
     valid: Bools
-    """True where everything balances."""
+    """True at positions where all rows are balanced."""
 
     def copy(self) -> BalanceLayer:
         """Return a copy with its own arrays."""
@@ -69,7 +69,9 @@ class BalanceLayer:
 
 @dataclass(frozen=True)
 class _Trial:
-    """Torques of one block under one pattern, (columns, n), and where they are consistent with a layer."""
+    """Torques of one block for one pattern, shape (columns, n), and a mask of positions where they are consistent with
+    a layer.
+    """
 
     layer: BalanceLayer
     sides: Sequence[int]
@@ -82,7 +84,7 @@ def solve_positions(
 ) -> tuple[list[BalanceLayer], bool]:
     """Return every solution of the balance at every position, and whether all patterns were tried.
 
-    known   known torques by row, (rows, n)
+    known   known torques of each row, shape (rows, n)
     """
     size = known.shape[1]
     layers = [BalanceLayer(np.zeros((len(columns), size)), known.copy(), np.ones(size, bool))]
@@ -109,6 +111,7 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
     for sides in product(*(each.sides for each in own)):
         values, valid = _solve(own, block, layer, sides)
         for other in found:
+            # patterns that differ only in torques of 0 give the same solution
             if (both := valid & other.valid).any():
                 near = np.abs(values - other.values) <= SAME * np.max(np.abs(values), axis=0, initial=0.0)
                 valid &= ~(both & near.all(axis=0))
@@ -120,12 +123,15 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
 def _solve(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques of a block under one pattern, (columns, n), and where they balance and agree with it."""
+    """Return the torques of a block for one pattern, shape (columns, n), and a mask of positions where they are
+    consistent with it.
+    """
     known = layer.rows[list(block.rows)]
     if len(block.rows) == len(block.columns) == 1:
         values, valid = _divided(own[0].pieces[sides[0]].get(block.rows[0]), known)
     else:
         values, valid = _eliminated(own, block, layer, sides)
+    # signs must agree with the pattern, and barred torques must be 0
     valid = valid & layer.valid & ~contradicts(values, np.array(sides)[:, None])
     scale = np.max(np.abs(values), axis=0, initial=0.0)
     for each, side, value in zip(own, sides, values, strict=True):
@@ -135,7 +141,7 @@ def _solve(
 
 
 def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
-    """Solve one row for one unknown."""
+    """Return the solution of one equation with one unknown, and a mask of positions where it is regular."""
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
     # a coefficient may be 0 at dead points; without a load the torque is 0 there too
@@ -148,7 +154,7 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
 def _eliminated(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Solve several rows with LAPACK. If rows are missing, return the minimum-norm torques that balance."""
+    """Return the torques of several rows by LAPACK; minimum-norm torques if there are more unknowns than rows."""
     known = layer.rows[list(block.rows)]
     scale = np.max(np.abs(layer.values), axis=0, initial=0.0)
     size = known.shape[1]
@@ -174,7 +180,9 @@ def _eliminated(
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Find a consistent pattern by fixed-point iteration: reverse every torque whose sign contradicts the pattern."""
+    """Return consistent solutions found by fixed-point iteration: every torque that contradicts the pattern is
+    reversed.
+    """
     patterns = {tuple(each.sides[0] for each in own): None}
     found: list[_Trial] = []
     left = layer.valid.copy()
@@ -186,6 +194,7 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
             if valid.any():
                 found.append(_Trial(layer, sides, values, valid))
                 left = left & ~valid
+            # signs of the computed torques are the next patterns; one-sided torques keep side 0
             wanted = np.where(values >= 0, 1, -1) * np.array([[len(each.sides) > 1] for each in own])
             fresh |= dict.fromkeys(map(tuple, np.unique(wanted[:, left].T, axis=0).tolist()))
         patterns = {sides: None for sides in fresh if sides not in patterns}
@@ -197,7 +206,9 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """Add the solutions of one block to the layers, with as many layers as there are solutions at any position."""
+    """Return the layers extended by the solutions of one block; there are as many layers as solutions at any
+    position.
+    """
     # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
@@ -223,7 +234,7 @@ def _joined(
 
 
 def _write(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
-    """Write a trial into a layer at some positions."""
+    """Write the torques of a trial into a layer at some positions, in place."""
     layer.valid |= where
     for column, side, value in zip(block.columns, trial.sides, trial.values, strict=True):
         layer.values[column, where] = value[where]
@@ -238,64 +249,68 @@ class PositionTorques(NamedTuple):
     """Torques at some positions; the last axis has length n. Powers and losses are over the speed of the input."""
 
     turns: Floats
-    """Turns of the input."""
+    """Positions of the input [revolutions], shape (n,)."""
     valid: Bools
-    """True where a solution balances. `layers` is the number of solutions."""
+    """True at positions where a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """True where no choice of flanks agrees with the torques that press on them."""
+    """True at positions where no choice of flanks agrees with the signs of the torques."""
     layers: Floats
     torque: Floats
-    """Unknown torque on each requested link about its own axis, in the solution with minimum loss, (requested, n)."""
+    """Unknown torque on each requested link about its own axis, in the solution with minimum loss, shape (requested,
+    n).
+    """
     highest: Floats
-    """The same torque in the solution with maximum loss."""
+    """Unknown torque on each requested link in the solution with maximum loss, shape (requested, n)."""
     speeds: Floats
-    """Speeds of the links with external torques, about their own axes, over the input speed, (outside, n)."""
+    """Speeds of the links with external torques, about their own axes, over the speed of the input, shape (outside, n).
+    """
     powers: Floats
-    """Power input of each of these torques, (outside, n)."""
+    """Power of each external torque, positive into the train, shape (outside, n)."""
     losses: Floats
-    """Power losses of pairs, then bearings, (parts, n). `passed` is the power input of the driving side of each."""
+    """Lost power of pairs, then of bearings, shape (parts, n). `passed` is the power input of the driving side of each.
+    """
     passed: Floats
     pressed: Floats
-    """Multiplier of each pair, (pairs, n). It is positive on drive flanks."""
+    """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
     turning: Floats
-    """Forward speed of each pair's driver, over the input speed, (pairs, n)."""
+    """Forward speed of each pair's driver over the speed of the input, shape (pairs, n)."""
     slipping: Floats
-    """Speed of each bearing over the input speed, (bearings, n)."""
+    """Speed of each bearing over the speed of the input, shape (bearings, n)."""
     kinks: Floats
-    """Values whose sign changes at kinks that no transmission function has, (kinks, n)."""
+    """Values whose signs change where the torques have kinks but no transmission function has one, shape (kinks, n)."""
 
 
 class _State(NamedTuple):
     """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
 
-    Among equal planets, only the first has torques here.
+    Of several equal planets only the first has torques here.
     """
 
     motion: LinkMotion
     contacts: Mapping[str, DriverState]
     forces: Mapping[str, Mapping[int, PairForce]]
     resting: Mapping[str, Bools]
-    """Positions at which the link of a bearing rests within the backlash, by link."""
+    """Link -> mask of positions at which it is at rest within the backlash of its pairs."""
     static: bool
 
 
 @dataclass
 class TurnBalance:
-    """Train under load whose balance can be evaluated at any positions."""
+    """Train under load whose torques can be evaluated at any position."""
 
     setting: LoadCase
     motion: PositionMotion
     balance: TorqueBalance
-    """Balance of mean torques. Its order of solution is valid at every position."""
+    """Balance of mean torques; its order of solution is valid at every position."""
     contacts: Mapping[str, PairContact]
-    """Contacts by pair, in the order of the circuits."""
+    """Contact of each pair, in the order of the circuits."""
     loads: Mapping[str, float]
-    """Loads by link, about its own axis. `bearings` is friction and drag by link."""
+    """Link -> load about its own axis. `bearings` has friction and drag by link."""
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
     """False if not all patterns of power flow were tried."""
     on_done: Callable[[int], object] | None = None
-    """Callback, called with the number of positions computed since the last call."""
+    """Progress function, called with the number of positions computed since the last call."""
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -309,12 +324,12 @@ class TurnBalance:
 
     @cached_property
     def outside(self) -> tuple[str, ...]:
-        """Links with an external torque that may do work."""
+        """Links with an external torque, which may do work."""
         return tuple(dict.fromkeys((*self.requested, *self.loads)))
 
     @cached_property
     def shared(self) -> tuple[str, ...]:
-        """Pairs whose torque the balance leaves undetermined."""
+        """Pairs whose torque the balance does not determine."""
         open_ = [block for block in self.balance.parts if len(block.columns) > len(block.rows)]
         return tuple(mesh.id for block in open_ for at in block.columns for mesh in self.columns[at].meshes)
 
@@ -325,12 +340,12 @@ class TurnBalance:
 
     @cached_property
     def of_pair(self) -> Mapping[str, int]:
-        """Column of each pair."""
+        """Pair -> column of its unknown torque."""
         return {mesh.id: at for at, column in enumerate(self.columns) for mesh in column.meshes}
 
     @cached_property
     def starts_harder(self) -> bool:
-        """True if the friction of any part at rest differs from that in motion."""
+        """True if friction at rest differs from friction in motion in at least one pair or bearing."""
         return any(each.losses.starts_harder for each in self.contacts.values()) or any(
             each.sliding != each.static or each.drag for each in self.bearings.values()
         )
@@ -338,9 +353,9 @@ class TurnBalance:
     # ----------------------------------------------------------------------------------------------------- positions
 
     def at(self, turns: Floats, static: bool = False) -> PositionTorques:
-        """Return torques and powers at some positions of the input.
+        """Return torques and powers at positions of the input [revolutions].
 
-        static   use static friction instead of sliding friction
+        static   True to use static friction instead of sliding friction
         """
         size = min(_CHUNK, self.motion.composition.chunk)
         parts = []
@@ -352,15 +367,16 @@ class TurnBalance:
 
     @cached_property
     def flanked(self) -> tuple[str, ...]:
-        """Names of the pairs whose coast flanks may touch."""
+        """Names of the pairs whose coast flanks may be in contact."""
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Solve with the drive flanks touching, then repeat the positions where other flanks touch.
+        """Return the torques at some positions; the flanks in contact are determined iteratively, starting with the
+        drive flanks.
 
-        If a link would turn backwards on its drive flanks and forwards on its coast flanks, it rests in the backlash
-        between them, and its bearing needs no torque. If no choice of flanks agrees even then, the result with drive
-        flanks is kept.
+        If a link would turn backwards on its drive flanks and forwards on its coast flanks, it is at rest in the
+        backlash between them, and its bearing has no torque. If no choice of flanks is consistent, the result with
+        drive flanks is returned.
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
@@ -388,7 +404,7 @@ class TurnBalance:
         return some(joined([part for _, part in converged]), order)
 
     def _coasting(self, best: BalanceLayer) -> Bools:
-        """Return where pairs press on their coast flanks, (pairs, n)."""
+        """Return a mask of positions at which the torque of each pair presses on its coast flanks, shape (pairs, n)."""
         pressed = best.values[[self.of_pair[name] for name in self.flanked]]
         faint = FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
         found: Bools = best.valid & (pressed < -faint)
@@ -409,16 +425,19 @@ class TurnBalance:
         return DriverState(motion.angles.get(contact.name, np.zeros(0)), turning)
 
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
-        """Return the speed of a link relative to another, about the parallels' direction. It is exactly 0 at rest."""
+        """Return the speed of a link relative to `carrier`, about the reference direction of parallel axes; exactly 0
+        at rest.
+        """
         rows = self.motion.links
         found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
         scale = np.max(np.abs(motion.speeds), axis=0, initial=0.0)
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def outside_speeds(self, speeds: Floats) -> Floats:
-        """Return speeds of the links with external torques relative to the reacting links, (outside, n).
+        """Return the speeds of the links with external torques relative to the links with the reaction, shape
+        (outside, n).
 
-        They are about the links' own axes.
+        They are measured about the links' own axes.
         """
         setting, row = self.setting, self.motion.links
         bases = [setting.reacts_on(link) if link in self.requested else setting.train.frame for link in self.outside]
@@ -443,7 +462,7 @@ class TurnBalance:
         return layers
 
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
-        """Return the friction torques of a bearing on its link and on its carrier, each about its own axis."""
+        """Return the friction torques of a bearing on its link and on its carrier, each about the link's own axis."""
         carrier, setting = self.setting.tree.parent[link][0], self.setting
         speed = self._speed(state.motion, link, carrier)
         torque = np.sign(speed) * self._rubbing(state, link, speed)
@@ -453,14 +472,18 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Return the magnitude of the friction torque of a bearing. A link that is about to move has no drag."""
+        """Return the magnitude of the friction torque of a bearing; drag is 0 for static friction and for a link at
+        rest.
+        """
         own = self.bearings[link]
         if state.static:
             return np.full(len(speed), own.static)
         return np.where(state.resting[link], 0.0, own.sliding + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """Return the coefficients of one unknown by row. Equal planets have the coefficients of the first of them."""
+        """Return the coefficients of one unknown torque in each row; equal planets have the coefficients of the first
+        one.
+        """
         if not column.meshes:
             size = len(state.motion.turns)
             rows = {row: np.full(size, float(value)) for row, value in column.pieces[0].items()}
@@ -483,10 +506,10 @@ class TurnBalance:
 
     @cached_property
     def relation_to_first(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
-        """Relation of each pair to the first pair of its column.
+        """Relation of each pair to the first pair with the same unknown torque.
 
-        It is True if both name their links in the same order, and has the signs of its two torques relative to those of
-        the first pair.
+        The relation is a flag, True if both pairs have their links in the same order, and the signs of the two torques
+        relative to the first pair.
         """
         found = {}
         for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
@@ -495,17 +518,20 @@ class TurnBalance:
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the torques on both links of an equal planet, from those of the first, whose axes may be reversed."""
+        """Return the torques on both links of an equal planet from the torques of the first planet; its axis may be
+        reversed.
+        """
         alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
-        """Pick the solution with minimum power input (`way` 1) or maximum power input (-1) at each position."""
+        """Return the solution with minimum (`way` 1) or maximum power input (-1) at each position."""
         if len(layers) == 1:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]
         power = [way * (each.values[self.requested_columns] * speeds).sum(axis=0) for each in layers]
+        # minimum power input means minimum loss, because loads are given
         which = np.argmin([np.where(each.valid, p, np.inf) for each, p in zip(layers, power, strict=True)], axis=0)
         found = layers[0].copy()
         for at, layer in enumerate(layers[1:], 1):
@@ -515,7 +541,7 @@ class TurnBalance:
 
     @cached_property
     def requested_columns(self) -> list[int]:
-        """Columns of the unknown torques on links."""
+        """Columns of the unknown external torques."""
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.requested)))
 
@@ -531,6 +557,7 @@ class TurnBalance:
         for link, load in self.loads.items():
             acting[self.outside.index(link)] += load
         slipping = [self._speed(motion, link, self.setting.tree.parent[link][0]) for link in self.bearings]
+        # power lost in a bearing: friction torque times speed
         rubbed = [
             self._rubbing(state, link, each) * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)
         ]
@@ -554,7 +581,7 @@ class TurnBalance:
         )
 
     def _flow(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """Return the power loss of a pair, and the power input of its driving side, in the frame of its carrier."""
+        """Return the lost power of a pair, and the power input of its driving side, relative to the carrier."""
         column = self.columns[self.of_pair[name]]
         pressed = best.values[self.of_pair[name]]
         forces = state.forces[column.meshes[0].id]

@@ -1,9 +1,9 @@
-"""Run over several turns: positions at which torques are computed, chosen so that integrals are accurate.
+"""Run over several revolutions: positions at which torques are computed, chosen so that integrals are accurate.
 
 The run is divided into cells at even steps and at both sides of every kink. Each cell has three more positions inside.
 Torques are smooth within a cell, and Boole's rule integrates them. A cell ends where a transmission function has a
-kink, a motion reverses or the touching flank changes; the two one-sided limits there are two positions. A cell is
-bisected while halving it changes the result of Simpson's rule.
+kink, a motion reverses or the flank in contact changes; both one-sided limits are computed there. A cell is bisected
+until this no longer changes the result of Simpson's rule.
 """
 
 from __future__ import annotations
@@ -42,21 +42,21 @@ _DEPTH = 13  # maximum depth of bisection
 _MOST_TIMES = 12  # refinement stops when this multiple of the initial positions is exceeded
 _NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cell indices and places
 FAINT = 1e-9
-"""Fraction of the maximum torque or power of a run below which a value has no sign."""
+"""Fraction of the maximum torque or power of a run below which the sign of a value is set to 0."""
 
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run of the input, shape (cells,). Torques are smooth within each."""
+    """Cells of a run of the input, shape (cells,). Torques are smooth within each cell."""
 
     low: Floats
     high: Floats
     aside: float
-    """Distance from the ends of a cell at which its one-sided limits are taken [turns]."""
+    """Distance from the ends of a cell at which its one-sided limits are taken [revolutions]."""
 
     @property
     def turns(self) -> Floats:
-        """Reported positions, shape (cells times `NODES`,)."""
+        """Reported positions [revolutions], shape (cells times `NODES`,)."""
         share = np.arange(NODES) / (NODES - 1)
         found = self.low[:, None] + (self.high - self.low)[:, None] * share
         found[:, -1] = self.high
@@ -64,19 +64,19 @@ class RunCells:
 
     @property
     def requested(self) -> Floats:
-        """Positions at which torques are computed: a small distance inside the ends of cells."""
+        """Positions at which torques are computed [revolutions]: the ends are moved a small distance into the cell."""
         return (self.turns.reshape(-1, NODES) + self.aside * np.array([1.0, 0.0, 0.0, 0.0, -1.0])).ravel()
 
     @property
     def weights(self) -> Floats:
-        """Weights of an integral over the input's turns."""
+        """Weights of an integral over the revolutions of the input, shape (cells times `NODES`,)."""
         found: Floats = ((self.high - self.low)[:, None] * _BOOLE).ravel()
         return found
 
     def roughness(self, values: Floats) -> Floats:
-        """Return the estimated error of Simpson's rule on the halves of each cell, (cells,).
+        """Return the estimated error of Simpson's rule on the halves of each cell, shape (cells,).
 
-        values   at the positions of the cells
+        values   integrand at the positions of the cells
         """
         found: Floats = np.abs(values.reshape(-1, NODES) @ _HALVED) * (self.high - self.low)
         return found
@@ -87,9 +87,9 @@ class RunCells:
         return np.asarray((self.low + self.high) / 2)
 
     def divided(self, cell: Indices, at: Floats) -> RunCells:
-        """Return the parts of some cells, divided at given places.
+        """Return the parts of the cells that are divided at the given positions.
 
-        cell   index of the cell of each place
+        cell   index of the cell that contains each position
         """
         cut = np.unique(cell)
         low, number = np.concatenate([self.low[cut], at]), np.concatenate([cut, cell])
@@ -104,9 +104,9 @@ class RunCells:
 
 
 def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunCells:
-    """Return cells between even steps from 0 to `span` and breaks.
+    """Return cells whose ends are equally spaced positions from 0 to `span` [revolutions] and the positions `breaks`.
 
-    narrowest   period of the fastest transmission function (turns of the input)
+    narrowest   period of the fastest transmission function [revolutions of the input]
     """
     aside = max(_ASIDE * narrowest, _LAST_PLACES * float(np.spacing(span)))
     inner = np.unique(breaks[(breaks > 2 * aside) & (breaks < span - 2 * aside)])
@@ -121,9 +121,10 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
 
 
 def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> tuple[Indices, Floats]:
-    """Locate all sign changes within cells simultaneously. Return the cell index and the place of each.
+    """Return cell index and position of all sign changes within cells, located simultaneously by repeated subdivision.
 
-    signs_at   function from positions to signs, (signs, n); `signs` are those at the positions of the cells
+    signs_at   function that returns the signs at positions, shape (signs, n)
+    signs      signs at the positions of the cells
     """
     turns = cells.requested
     changed = (signs[:, 1:] != signs[:, :-1]).any(axis=0) & (np.diff(turns) > 0)
@@ -151,7 +152,7 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
 
 @dataclass
 class TurnRun:
-    """Run over some turns of the input, at `samples` positions or more."""
+    """Run over some revolutions of the input, at `samples` positions or more."""
 
     train: TurnBalance
     span: float
@@ -159,8 +160,11 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks of transmission functions, for the most frequent sets of touching coast flanks."""
+        """Positions of kinks of transmission functions [revolutions], for the most frequent sets of coast flanks in
+        contact.
+        """
         train = self.train
+        # flanks in contact at a few positions: their functions' kinks are searched exactly
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
         sets = {frozenset[str](): 0}
         rows = [train.pairs.index(name) for name in train.flanked]
@@ -173,13 +177,13 @@ class TurnRun:
 
     @cached_property
     def narrowest(self) -> float:
-        """Period of the fastest transmission function [turns of the input]."""
+        """Period of the fastest transmission function [revolutions of the input]."""
         fastest = max((float(each.cycles) for each in self.train.motion.sources.values()), default=0.0)
         return 1 / max(fastest, 1 / self.span)
 
     @cached_property
     def _refined(self) -> tuple[RunCells, PositionTorques]:
-        """Refined cells in order, with kinks among their ends, and all torques at their positions."""
+        """Refined cells in order, with kinks at their ends, and the torques at all their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
         # signs and tolerances refer to the scales of the initial cells, so that refinement does not change them
@@ -204,7 +208,9 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return where to divide cells, as cell indices and places: at kinks, and in the middle if too wide."""
+        """Return the positions at which cells are to be divided, with cell indices: kinks, and middles of cells that
+        are too wide.
+        """
         if depth == _DEPTH:
             return _NONE
         kinks, places = _NONE
@@ -212,12 +218,13 @@ class TurnRun:
             signs = self.signs(found, scales)
             kinks, places = find_kinks(lambda turns: self.signs(self.train.at(turns), scales), cells, signs)
         coarse = self._coarse(cells, found, total)
+        # a cell with a kink is divided there first
         coarse[kinks] = False
         wide = np.flatnonzero(coarse)
         return np.concatenate([kinks, wide]), np.concatenate([places, cells.middles[wide]])
 
     def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
-        """Return which cells are too wide for the integrals of input power or of losses."""
+        """Return a mask of the cells that are too wide for accurate integrals of input power or losses."""
         integrands = found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)
         rough = np.max([cells.roughness(np.nan_to_num(each)) for each in integrands], axis=0)
         found_coarse: Bools = rough > total * (_ACCURACY * (cells.high - cells.low) / self.span + _ROUNDING)
@@ -225,16 +232,16 @@ class TurnRun:
 
     @property
     def cells(self) -> RunCells:
-        """Cells of the run."""
+        """Refined cells of the run."""
         return self._refined[0]
 
     @property
     def found(self) -> PositionTorques:
-        """Torques and powers at the positions of the run."""
+        """Torques and powers at the positions of the refined cells."""
         return self._refined[1]
 
     def signs(self, found: PositionTorques, scales: RunScales) -> Ints:
-        """Return the signs of all quantities that have a kink where their sign changes, (signs, n)."""
+        """Return the signs of all quantities that have a kink where their sign changes, shape (signs, n)."""
         outside = found.powers.shape[0]
         requested = len(self.train.requested)
         return np.concatenate(
@@ -243,6 +250,7 @@ class TurnRun:
                 np.sign(found.turning),
                 np.sign(found.slipping),
                 np.sign(found.kinks),
+                # a change of the number of solutions is a kink too
                 found.layers[None],
                 sign_beyond(found.powers[:requested], scales.power),
                 sign_beyond(found.powers[requested:outside], scales.power),
@@ -250,7 +258,7 @@ class TurnRun:
         ).astype(np.int64)
 
     def share(self, where: Bools) -> float:
-        """Return the fraction of the run covered by selected positions."""
+        """Return the fraction of the run that the selected positions represent."""
         return float(self.cells.weights @ where) / self.span
 
     @cached_property
@@ -261,19 +269,19 @@ class TurnRun:
 
 @dataclass(frozen=True)
 class RunScales:
-    """Maximum torque through any pair, and maximum power. Small fractions of them have no sign."""
+    """Maximum torque through any pair, and maximum power, as scales below which signs are set to 0."""
 
     pressed: float
     power: float
 
     @classmethod
     def of(cls, found: PositionTorques) -> RunScales:
-        """Return the scales at some positions."""
+        """Return the scales of the torques and powers at some positions."""
         pressed = np.where(found.valid, np.abs(found.pressed), 0.0)
         return cls(float(np.max(pressed, initial=0.0)), float(np.nanmax(np.abs(found.powers), initial=0.0)))
 
 
 def sign_beyond(values: Floats, scale: float) -> Floats:
-    """Return the signs of values, with 0 for small fractions of a scale."""
+    """Return the signs of values, 0 for values below `FAINT` times the scale."""
     with np.errstate(invalid="ignore"):
         return np.where(np.abs(values) > FAINT * scale, np.sign(values), 0.0)

@@ -1,8 +1,8 @@
-"""Buildability checks of a declaration.
+"""Rules of buildability that need only a few lines each (docs/buildability.md).
 
-This module has the short rules: wheels without a gear pair, incompatible kinds of wheels, three axes whose distances
-violate the triangle inequality, brakes and clutches between links on different axes, wheels with two coaxial mates at
-different centre distances, and skew axes at a wrong distance. The other modules of the folder have the longer rules.
+They find wheels without a gear pair, incompatible kinds of wheels, three axes whose distances violate the triangle
+inequality, brakes and clutches between links on different axes, wheels with two coaxial mates at different centre
+distances, and skew axes at a wrong distance. The other modules of this folder hold the longer rules.
 """
 
 from __future__ import annotations
@@ -49,7 +49,9 @@ _NEEDS = {
 def check_kinds(
     train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rules K1, K2 and K5: kinds against axes, kinds against mates, sides of bevel wheels."""
+    """Yield findings of rules K1, K2 and K5: kinds of wheels that do not suit their axes, their mates, or their
+    sides.
+    """
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
         yield BuildFinding("K5", "error", _on_one_side(train, one, other, shared))
@@ -58,6 +60,7 @@ def check_kinds(
         if set(pair.kinds) not in _MATES:
             yield BuildFinding("K2", "error", _incompatible_kinds(pair))
         elif pair.parallel and shape != "spur":
+            # undeclared directions may only be missing, so the finding is then a note
             declared = all(label in train.axes for label in pair.axes)
             yield BuildFinding("K1", "error" if declared else "note", _parallel_axes_problem(pair, shape, declared))
         elif not pair.parallel:
@@ -100,7 +103,7 @@ def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Probl
 
 
 def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """Return the problem of a pair on non-parallel axes at distance `offset` (m); None if the pair is valid."""
+    """Return the problem of a pair on non-parallel axes with distance `offset` [m]; None if the pair is valid."""
     first, second = pair.axes
     if shape == "spur":
         return Problem(
@@ -109,6 +112,7 @@ def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) ->
             "declare both `kind: bevel`, one `contrate` or `worm`, or a `helix_angle`; or make the axes parallel",
             pair.place,
         )
+    # worms and crossed helical wheels need skew axes, bevel and crown wheels intersecting axes
     if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
     far = f"pass each other at {offset * 1000:.6g} mm" if offset else "intersect"
@@ -125,7 +129,12 @@ _EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because t
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule P3, for three axes whose distances are multiples of one length, known or unknown."""
+    """Yield findings of rule P3: three axes whose distances violate the triangle inequality.
+
+    The distances are multiples of one length, which may be unknown.
+
+    The distances are multiples of one length, which may be unknown.
+    """
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
     for (first, second), pair in sides.items():
@@ -176,7 +185,9 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (locks) and G2 (brakes), each once for all states."""
+    """Yield findings of rules G1 (clutches) and G2 (brakes) between links on different axes, each once for all
+    states.
+    """
     reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
@@ -204,9 +215,9 @@ def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool
 
 
 def check_mates(train: Train) -> Iterator[BuildFinding]:
-    """Yield findings of rule W1 for idle wheels.
+    """Yield findings of rule W1: wheels without a gear pair.
 
-    A wheel must be in a gear pair, be on a link with a pin or slot, be an escape wheel, or have a note.
+    Wheels are exempt on a link with a pin or slot, as escape wheel, or with a note.
     """
     meshing = {wheel for gear in train.gears for wheel in gear.pair}
     coupled = {link for coupling in train.couplings for link in (coupling.pin, coupling.slot)}
@@ -218,7 +229,7 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
             continue
         problem = Problem(
             f"wheel '{name}' {wheel.count or ''}".rstrip() + " is not in mesh",
-            "no pair under `gears` names it",
+            "no pair in `gears` contains it",
             "add its gear pair, give its purpose in its `note`, or remove it",
             train.place("links", link, "wheels", name),
         )
@@ -234,8 +245,8 @@ _SAME = 1e-6  # relative tolerance of distances: declared lengths and radii have
 def check_shared_wheels(
     pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rule P2 for non-conjugate teeth, such as triangular ones: a shared wheel has one size in both
-    pairs.
+    """Yield findings of rule P2 for non-conjugate teeth, such as triangular ones: a wheel needs the same size in both
+    of its pairs.
     """
     free = [
         pair for pair in pairs if pair.parallel and pair.form and pair.form.any_distance and not pair.form.conjugate
@@ -243,6 +254,7 @@ def check_shared_wheels(
     for one, other in combinations(free, 2):
         if one.axis_pair != other.axis_pair or not set(one.wheels) & set(other.wheels):
             continue
+        # outlines build teeth, so they are requested only for pairs that share a wheel
         found = outlines()
         if one.name not in found or other.name not in found:
             continue
@@ -270,12 +282,15 @@ _EQUAL_SKEW = 1e-6  # relative tolerance of distances: written positions are rou
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: the distance of skew axes is the sum of the pitch radii m z/(2 cos(helix))."""
+    """Yield findings of rule K4: the distance of skew axes differs from the sum of the pitch radii m z/(2
+    cos(helix)).
+    """
     axes = Axes(train, tree)
     for pair in pairs:
         if pair.parallel or any(wheel.helix_angle is None for wheel in pair.declared):
             continue
         module, offset = sizes.module(pair.wheels[0]), passing_distance(axes, pair.axes)
+        # intersecting axes are reported by rule K1
         if module is None or not offset:
             continue
         radii = [float(module) * (wheel.count or 0) / 2 / cos(wheel.helix) for wheel in pair.declared]
@@ -300,13 +315,15 @@ def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Frac
 
 
 Outlines = Callable[[], Mapping[str, PairOutline]]
-"""Function that returns the pairs with declared teeth as they are cut, by name; called only if planets are compared."""
+"""Function that returns the outlines of the pairs with declared teeth, by name; it is called only if planets are
+compared.
+"""
 
 
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """Yield all findings that follow from the declaration, rule by rule (docs/buildability.md)."""
+    """Yield the findings of all rules that need only the declaration (docs/buildability.md), ordered by rule."""
     yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)
@@ -323,7 +340,7 @@ def check_build(
 def _planets(
     train: Train, tree: Tree, circuits: Sequence[Circuit], sizes: PitchDistances, outlines: Outlines
 ) -> Iterator[BuildFinding]:
-    """Yield findings on planets, with declared copies expanded."""
+    """Yield findings on equal planets; planets declared by `copies` are expanded to separate links first."""
     if has_copies(train):
         train = with_copies(train, tree)
         tree = find_tree(train)

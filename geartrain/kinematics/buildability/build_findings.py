@@ -15,9 +15,9 @@ BuildLevel = Literal["error", "note"]
 
 @dataclass(frozen=True, slots=True)
 class BuildFinding(Result):
-    """One rule of buildability that a train violates.
+    """Violation of one rule of buildability by a train.
 
-    `check`, reports, drawings and exports all print the text of its problem.
+    `geartrain check`, reports, drawings and exports print the text of its problem.
 
     Examples
     --------
@@ -60,5 +60,5 @@ class BuildFinding(Result):
 
 
 def build_errors(findings: Iterable[BuildFinding]) -> tuple[BuildFinding, ...]:
-    """Return only the findings that are errors."""
+    """Return the findings whose level is "error"."""
     return tuple(found for found in findings if found.is_error)

@@ -23,30 +23,30 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count in a rule: the id of a free wheel, or a fixed number."""
+"""Tooth count as a term of a rule: the id of a wheel with a free count, or a fixed count."""
 
 Measure = Literal["", "plain", "m"]
-"""Unit of a declared module: none declared, a plain number, or metres."""
+"""Unit of a declared module: "" if no module is declared, "plain" for a number without unit, "m" for a length."""
 
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMesh:
-    """A gear pair relative to its carrier. Two-element fields refer to the first and second wheel."""
+    """Gear pair relative to its carrier. Fields with two elements refer to the first and the second wheel."""
 
     name: str
     """Name of the pair."""
     carrier: str
-    """Carrier: the link that keeps the centre distance of the pair."""
+    """Link that carries both axes of the pair, and so keeps their centre distance."""
     wheels: tuple[str, str]
     """Ids of the wheels."""
     links: tuple[str, str]
     """Names of the links of the wheels."""
     axes: tuple[str, str]
-    """Labels of the axes about which they turn relative to the carrier."""
+    """Labels of the axes about which the two links turn relative to the carrier."""
     parts: tuple[CountRef, CountRef]
-    """Tooth counts: ids of free wheels, or fixed numbers."""
+    """Tooth counts of the wheels: the id of a wheel with a free count, or a fixed count."""
     sense: int
-    """1 if they turn in opposite senses relative to the carrier, else -1."""
+    """1 if the wheels turn in opposite senses relative to the carrier, else -1."""
     ring: int | None
     """Index of the wheel that is a ring; None for an external pair."""
     spur: bool
@@ -54,9 +54,9 @@ class AssemblyMesh:
     worm: bool
     """True if one wheel is a worm."""
     measure: Measure
-    """Unit of the common module; empty if none is declared."""
+    """Unit of the common module; empty if no module is declared."""
     module: Fraction | None
-    """Common module; 1 if none is declared, None if several are declared."""
+    """Common module in the unit `measure`; 1 if none is declared, None if different ones are declared."""
 
     @property
     def is_free(self) -> bool:
@@ -65,22 +65,22 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Sign and count of each term of twice the centre distance [modules]: z1 + z2, or ring minus mate."""
+        """Terms (sign, tooth count) of twice the centre distance [modules]: z1 + z2, or z_ring - z_mate."""
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
 
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """A planet of a set with its meshes. Planets that mesh with each other form a tree with the first as its root."""
+    """Planet with its meshes. Planets that mesh with each other form a tree; the first one is its root."""
 
     link: str
     inward: AssemblyMesh | None
-    """Mesh with the parent planet in the tree; None for the root."""
+    """Mesh with the parent planet in the tree of planets; None for the root."""
     central: tuple[AssemblyMesh, ...]
-    """Meshes with wheels on the axis of the carrier, sorted by the names of those wheels."""
+    """Meshes with wheels on the carrier's axis, sorted by the names of those wheels."""
     outward: tuple[tuple[AssemblyMesh, Planet], ...]
-    """Meshes with the child planets in the tree, in the same order for isomorphic sets."""
+    """Meshes with the child planets in the tree; isomorphic sets have the same order."""
 
     def walk(self) -> Iterator[Planet]:
         """Yield this planet and all its descendants in the tree."""
@@ -93,23 +93,25 @@ class Planet:
         return mesh.links.index(self.link)
 
     def own(self, mesh: AssemblyMesh) -> str:
-        """Return this planet's wheel in one of its meshes."""
+        """Return the id of this planet's wheel in one of its meshes."""
         return mesh.wheels[self.side(mesh)]
 
     def mate(self, mesh: AssemblyMesh) -> str:
-        """Return the mate of this planet's wheel in one of its meshes."""
+        """Return the id of the wheel that meshes with this planet in one of its meshes."""
         return mesh.wheels[1 - self.side(mesh)]
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Wheels that mesh in the set, in the same order for isomorphic sets."""
+        """Ids of the planet's wheels that mesh in the set; isomorphic sets have the same order."""
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
         return tuple(dict.fromkeys(self.own(mesh) for mesh in meshes))
 
     @property
     def form(self) -> object:
-        """Canonical form, equal for planets that mesh with the same central wheels in the same way."""
+        """Canonical form of the meshes; it is equal for planets that mesh with the same central wheels in the same
+        way.
+        """
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -118,15 +120,17 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; usually a single planet."""
+    """Planets of one carrier that mesh with each other; usually one planet."""
 
     carrier: str
     planets: Planet | None
     """Root of the tree of planets; None if they mesh in a loop."""
     links: tuple[str, ...]
-    """Links of all planets of the set."""
+    """Names of the links of all planets in the set."""
     copies: tuple[PlanetSet, ...] = ()
-    """Further sets that mesh with the same central wheels in the same way (equal planets declared one by one)."""
+    """Other sets of the carrier that mesh with the same central wheels in the same way: equal planets declared one by
+    one.
+    """
 
     @property
     def title(self) -> str:
@@ -136,7 +140,9 @@ class PlanetSet:
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """A train for the study of planet assembly, with its fixed and free tooth counts."""
+    """Train with the data that the assembly rules of planets need: fixed and free tooth counts, meshes, sets of
+    planets.
+    """
 
     train: Train
     free: frozenset[str]
@@ -147,18 +153,18 @@ class TrainAssembly:
 
     @classmethod
     def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
-        """Return the assembly of a train, with its tree and circuits computed here."""
+        """Return the assembly data of a train whose wheels `free` have free tooth counts."""
         tree = find_tree(train)
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the count of a wheel in a rule: its id if it is free, else its number."""
+        """Return the tooth count of a wheel as a term of a rule: its id if the count is free, else the count."""
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
     @cached_property
     def meshes(self) -> tuple[AssemblyMesh, ...]:
-        """All gear pairs in the order of the declaration."""
+        """All gear pairs relative to their carriers, in the order of the declaration."""
         return tuple(self._mesh(circuit) for circuit in self.circuits if circuit.kind == "gear")
 
     def _mesh(self, circuit: Circuit) -> AssemblyMesh:
@@ -174,6 +180,7 @@ class TrainAssembly:
                 self.tree.axis_seen_from(circuit.carrier, circuit.j),
             ),
             (self.part(circuit.wheels[0]), self.part(circuit.wheels[1])),
+            # coefficients of one sign: external pair, whose wheels turn in opposite senses
             1 if circuit.a * circuit.b > 0 else -1,
             0 if first.internal else 1 if second.internal else None,
             first.kind == second.kind == "spur",
@@ -183,9 +190,10 @@ class TrainAssembly:
         )
 
     def module(self, *wheels: str) -> tuple[Measure, Fraction | None]:
-        """Return the common module of wheels, declared for them or for any wheel that must share it.
+        """Return the unit and value of the common module of wheels, declared for them or for wheels that must share
+        it.
 
-        If none is declared, the module is 1 without unit. It is None if several are declared.
+        Without a declared module the value is 1. If different ones are declared it is None.
         """
         found = {one for wheel in wheels for one in self._modules.get(self.kin[wheel], ())}
         if len(found) > 1:
@@ -197,7 +205,7 @@ class TrainAssembly:
 
     @cached_property
     def _modules(self) -> Mapping[int, frozenset[tuple[Measure, Fraction]]]:
-        """Modules declared in each group of wheels that must share one."""
+        """Declared modules (unit, value) of each group of wheels that must share a module, by group number."""
         found: dict[int, frozenset[tuple[Measure, Fraction]]] = {}
         for wheel, number in self.kin.items():
             found[number] = found.get(number, frozenset()) | self._declared(wheel)
@@ -211,8 +219,8 @@ class TrainAssembly:
 
     @cached_property
     def kin(self) -> Mapping[str, int]:
-        """Group number of each wheel. Wheels that are connected by meshes, except those of worms, must share a
-        module.
+        """Group number of each wheel. Wheels that are connected by meshes, except meshes of worms, are in one group and
+        must share a module.
         """
         worms = {wheel for wheel, (_, kind) in self.train.wheels.items() if kind.kind == "worm"}
         pairs = [circuit.wheels for circuit in self.circuits if circuit.kind == "gear"]
@@ -221,19 +229,20 @@ class TrainAssembly:
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
-        """Sets of planets on carriers other than the frame; isomorphic ones are copies of the first."""
+        """Sets of planets on carriers other than the frame; isomorphic sets are `copies` of the first."""
         found: list[PlanetSet] = []
         for carrier in dict.fromkeys(mesh.carrier for mesh in self.meshes if mesh.carrier != self.train.frame):
             alike: dict[object, list[PlanetSet]] = {}
             for links in self._groups(carrier):
                 one = self._set(carrier, links)
+                # planets that mesh in a loop have no canonical form, so such a set has no copies
                 alike.setdefault(one.planets.form if one.planets else one.links, []).append(one)
             for first, *others in alike.values():
                 found.append(PlanetSet(carrier, first.planets, first.links, tuple(others)))
         return tuple(found)
 
     def _groups(self, carrier: str) -> list[list[str]]:
-        """Return the planets of a carrier, grouped by meshes between planets."""
+        """Return the planets of a carrier in groups that mesh with each other."""
         meshing = [mesh.links for mesh in self._meshes_of(carrier)]
         planets = [[link for link in links if self.tree.bears(carrier, link)] for links in meshing]
         return joined_groups(chain(*planets), planets)
@@ -258,11 +267,9 @@ class TrainAssembly:
         return PlanetSet(carrier, self._planet(carrier, start, None, among), tuple(links))
 
     def _mates(self, carrier: str, link: str) -> list[str]:
-        """Return the central wheels with which a planet meshes."""
         return [mesh.wheels[1 - mesh.links.index(link)] for mesh in self._central(carrier, link)]
 
     def _central(self, carrier: str, link: str) -> list[AssemblyMesh]:
-        """Return the meshes of a planet with central wheels, sorted by the names of those wheels."""
         found = [mesh for mesh in self._meshes_of(carrier) if link in mesh.links]
         sides = [(mesh, 1 - mesh.links.index(link)) for mesh in found]
         sides = [(mesh, side) for mesh, side in sides if not self.tree.bears(carrier, mesh.links[side])]
@@ -279,7 +286,7 @@ class TrainAssembly:
 
 
 def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
-    """Return the mapping from the wheels of a set to the corresponding wheels of its copy."""
+    """Return the wheel of a copied set for each wheel of the original set."""
     assert first.planets is not None
     assert other.planets is not None
     found: dict[str, str] = {}
@@ -290,8 +297,8 @@ def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class PlanetContact:
-    """A mesh of a planet: its own count, the count of its mate, and the sense of the pair (1 external, -1 with a
-    ring).
+    """Mesh of a planet in the assembly rule: its tooth count, the mate's tooth count, and the sense (1 external, -1
+    with a ring).
     """
 
     own: CountRef
@@ -301,13 +308,13 @@ class PlanetContact:
 
 @dataclass(frozen=True, slots=True)
 class PlanetArm:
-    """Tooth counts of a planet's contacts with central wheels, and with its child planets."""
+    """Meshes of a planet in the assembly rule: with central wheels, and with its child planets."""
 
     central: tuple[PlanetContact, ...]
     outward: tuple[tuple[PlanetContact, PlanetArm], ...]
 
     def contacts(self) -> Iterator[PlanetContact]:
-        """Yield all contacts, including those of descendants."""
+        """Yield the contacts of this planet and of its descendants."""
         yield from self.central
         for contact, arm in self.outward:
             yield contact
@@ -315,15 +322,16 @@ class PlanetArm:
 
 
 def planet_arm(planet: Planet) -> PlanetArm:
-    """Return the contacts of a planet and of its descendants."""
+    """Return the meshes of a planet and of its descendants in the form of the assembly rule."""
     outward = tuple((planet_contact(planet, mesh, other), planet_arm(other)) for mesh, other in planet.outward)
     return PlanetArm(tuple(planet_contact(planet, mesh) for mesh in planet.central), outward)
 
 
 def planet_contact(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None) -> PlanetContact:
-    """Return a mesh of a planet as a contact.
+    """Return one mesh of a planet in the form of the assembly rule.
 
-    Only z phi of a planet with a single wheel matters, whatever its tooth count z, so that its count is replaced by 1.
+    The assembly rule contains only the product z phi for a planet with one wheel, so its tooth count z is replaced by
+    1.
     """
     side = planet.side(mesh)
     own = mesh.parts[side] if len(planet.wheels) > 1 else 1
@@ -332,22 +340,26 @@ def planet_contact(planet: Planet, mesh: AssemblyMesh, other: Planet | None = No
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Arithmetic of integers, or of integer arrays with one element for each candidate."""
+    """Integer arithmetic of the assembly rule, for numbers, or for integer arrays with one element for each
+    candidate.
+    """
 
     count: Callable[[CountRef], Any]
-    """Function that returns the number or array of a tooth count."""
+    """Function that returns the value of a tooth count: a number or an array."""
     gcd: Callable[[Any, Any], Any]
-    """Greatest common divisor of two numbers."""
+    """Function gcd(a, b)."""
     bezout: Callable[[Any, Any], tuple[Any, Any, Any]]
-    """Extended Euclidean algorithm: g, u, v with u a + v b = g = gcd(a, b)."""
+    """Extended Euclidean algorithm: returns g, u, v with u a + v b = g = gcd(a, b)."""
     reduced: Callable[[Any], Any]
-    """Reduction of a number that matters only modulo the number of planets."""
+    """Function that reduces a number modulo the number of planets, or returns it unchanged."""
 
 
 def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
-    """Return integers E: a set of planets rotated by t about the carrier's axis also meshes if every E t is an integer.
+    """Return integers E of the assembly rule: a set of planets, rotated by t turns, also meshes if every E t is an
+    integer.
 
-    The angle t is in turns. A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo a pitch (angles in
+    The rotation is about the carrier's axis. A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo a
+    pitch (angles in
     turns, relative to the carrier; minus with a ring). Rotation of a meshing set by t gives the position of another
     set, and rotates the central wheels by t too; they must return to their positions, because they are shared. So the
     planets must have angles phi with
@@ -373,7 +385,9 @@ def phase_numbers(arm: PlanetArm, kind: PhaseArithmetic) -> list[Any]:
 
 
 def _angle_conditions(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
-    """Return D and b of the conditions on the angle of a planet; append the numbers of its descendants to `found`."""
+    """Return D and b of the conditions D phi = b t on a planet's angle; append the integers E of its descendants to
+    `found`.
+    """
     left = []
     for contact in arm.central:
         own, mate = kind.count(contact.own), kind.count(contact.mate)
@@ -391,7 +405,7 @@ def _angle_conditions(arm: PlanetArm, kind: PhaseArithmetic, found: list[Any]) -
 
 
 def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
-    """Combine all conditions on an angle into one; append the numbers of their compatibility to `found`."""
+    """Combine all conditions D phi = b t into one; append the integers E of their compatibility to `found`."""
     (D, b), *others = left
     for D2, b2 in others:
         common, u, v = kind.bezout(D, D2)
@@ -422,16 +436,16 @@ def bezout(a: int, b: int) -> tuple[int, int, int]:
 def assembly_number(planet: Planet) -> int:
     """Return G: equal sets of planets mesh with the same central wheels at angles that are multiples of 1/G turn.
 
-    0 if they mesh at any angle.
+    G is 0 if they mesh at any angle.
     """
     exact = PhaseArithmetic(int, gcd, bezout, lambda number: number)
     return gcd(*phase_numbers(planet_arm(planet), exact))
 
 
 def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
-    """Return the terms of the clearance between neighbouring equal planets: 2 a sin(pi/n) minus `tips`.
+    """Return the terms of the clearance between neighbouring equal planets, 2 a sin(pi/n) - `tips` [unit of `reach`].
 
-    reach   2 a, with the distance a from the central axis to a planet's: m (z_s + z_p), or m (z_r - z_p)
+    reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p)
     tips    m (z_p + 2 h) plus the required clearance
     chord   sin(pi/n)
     """
@@ -439,7 +453,7 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
 
 
 def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    """Return the terms of the clearance between a planet and the mate of its neighbour: (2 distance)^2 - tips^2.
+    """Return the terms of (2 distance)^2 - tips^2, which is positive if a planet clears the mate of its neighbour.
 
     A, B   twice the distances of the two planets' axes from the central axis
     D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
@@ -454,7 +468,7 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
 
 _MISS, _NEGLIGIBLE = 0.1, 0.01  # phase errors (pitches): more than any backlash absorbs; less than any backlash
 ON_ECCENTRIC = 0.25
-"""Maximum distance of a wheel's axis from that of its carrier [radius of the wheel] for a wheel on an eccentric."""
+"""Maximum distance between the axes of a wheel and its carrier for a wheel on an eccentric [radius of the wheel]."""
 _CLEAR = 0.2  # recommended clearance of neighbours (modules)
 _FULL = 1.0  # addendum (modules) of undeclared teeth
 _STUB = _FULL - float(SHIFT)  # smallest addendum of undeclared teeth
@@ -467,7 +481,7 @@ def check_planets(
     sizes: PitchDistances,
     outlines: Callable[[], Mapping[str, PairOutline]],
 ) -> Iterator[BuildFinding]:
-    """Yield findings of rules A1 to A3, for two or more equal sets of planets with the same central wheels."""
+    """Yield findings of rules A1 to A3 on two or more equal sets of planets that mesh with the same central wheels."""
     if len(train.gears) < 2:
         return
     for one in TrainAssembly(train, frozenset(), tree, tuple(circuits)).sets:
@@ -485,7 +499,9 @@ def _is_equal(train: Train, one: PlanetSet, copy: PlanetSet) -> bool:
 
 
 class _EqualPlanets:
-    """Equal sets of planets of one carrier, evenly spaced unless positions of all their axes are declared."""
+    """Equal sets of planets on one carrier. They are evenly spaced unless the positions of all their axes are
+    declared.
+    """
 
     def __init__(
         self,
@@ -512,7 +528,9 @@ class _EqualPlanets:
     # -------------------------------------------------------------------------------------------------------- assembly
 
     def assembly(self) -> Iterator[BuildFinding]:
-        """Yield findings of rule A1 for planets with one wheel, and of A2 for others."""
+        """Yield findings of the assembly rules: A1 for planets with one wheel that mesh only with central wheels, A2
+        for others.
+        """
         if not self.step:
             return
         rule = "A1" if len(self.planet.wheels) == 1 and not self.planet.outward else "A2"
@@ -523,6 +541,7 @@ class _EqualPlanets:
 
     def _check_placed(self, rule: str, points: Sequence[tuple[float, float]]) -> Iterator[BuildFinding]:
         turns = [atan2(y, x) / tau for x, y in points]
+        # planets mesh at multiples of 1/step turn from the first one: the distance to the nearest is in pitches
         misses = [self.step * (turn - turns[0]) for turn in turns]
         off = [abs(miss - round(miss)) for miss in misses]
         worst = max(off)
@@ -546,8 +565,11 @@ class _EqualPlanets:
         yield BuildFinding(rule, "error" if worst > _MISS and rule == "A1" else "note", problem)
 
     def _uneven_spacing(self, rule: str) -> BuildFinding:
-        """Return the finding on planets that cannot be evenly spaced; an error if other spacings have no clearance."""
+        """Return the finding on planets that cannot be evenly spaced: an error if no uneven spacing avoids collisions,
+        else a note.
+        """
         minimum = max((self._minimum_angle(planet, _STUB) for planet in self.planet.walk()), default=0.0)
+        # 1e-9: an angle that is an integer number of steps to rounding needs no further step
         steps = max(1, ceil(minimum * self.step - 1e-9))
         fits = self.number * steps <= self.step
         whole, rest = divmod(self.step, self.number)
@@ -575,7 +597,7 @@ class _EqualPlanets:
     # ------------------------------------------------------------------------------------------------------------ room
 
     def clearance(self) -> Iterator[BuildFinding]:
-        """Yield findings of rule A3, the clearance between neighbours."""
+        """Yield findings of rule A3: neighbouring planets whose tips overlap or nearly touch."""
         for planet in self.planet.walk():
             for mesh in _one_mesh_per_wheel(planet):
                 if self._is_on_eccentric(planet, mesh):
@@ -609,8 +631,8 @@ class _EqualPlanets:
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
     def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
-        """Return a finding on tip clearance: an error if tips overlap even with the shortest undeclared teeth, else a
-        note.
+        """Return a finding on tip clearance `gap` [modules]: an error if tips overlap even with the shortest undeclared
+        teeth, else a note.
         """
         free = sum(wheel not in self.tips for wheel in wheels)
         fits = _FULL + gap / free if free else 0.0
@@ -621,12 +643,14 @@ class _EqualPlanets:
         return BuildFinding("A3", level, Problem(what, why, fix, self.place))
 
     def _module(self, wheel: str) -> float | None:
-        """Return the transverse module (mm) of a wheel."""
+        """Return the transverse module of a wheel [mm]; None if it is undetermined."""
         module = self.sizes.module(wheel)
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the clearance (modules) between the tips of equal wheels of neighbouring planets."""
+        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if it is
+        unknown.
+        """
         tips = self._tip_diameter(planet, mesh)
         if self.points is not None and planet is self.planet and number == self.number:
             module = self._module(planet.own(mesh))
@@ -640,24 +664,24 @@ class _EqualPlanets:
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """Return True for a wheel that is much larger than its distance from the axis of the carrier."""
+        """Return whether a wheel is much larger than the distance of its axis from the carrier's axis."""
         wheel = planet.own(mesh)
         reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
 
     def _tip_diameter(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
-        """Return the tip diameter (modules) of a planet's wheel, with `addendum` for undeclared teeth."""
+        """Return the tip diameter of a planet's wheel [modules], with `addendum` [modules] for undeclared teeth."""
         wheel = planet.own(mesh)
         declared = self.tips.get(wheel)
         return (self.train.wheels[wheel][1].count or 0) + 2 * addendum if declared is None else 2 * declared
 
     def _mesh_distance(self, mesh: AssemblyMesh) -> float:
-        """Return twice the centre distance (modules) of a pair."""
+        """Return twice the centre distance of a pair [modules]."""
         outline = self.outlines.get(mesh.name)
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis (modules of the wheel); None if
+        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if it is
         unknown.
         """
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
@@ -670,11 +694,14 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the clearance (modules) between a planet and the mates of its neighbours; None if unknown."""
+        """Return the tip clearance between a planet and the mates of its neighbours [modules]; None if it is
+        unknown.
+        """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
             return None
         D = self._mesh_distance(mesh)
+        # the triangle of the three axes does not exist
         if not abs(A - B) <= D <= A + B:
             return None
         tips = self._tip_diameter(planet, mesh) + self._tip_diameter(other, mesh)
@@ -686,7 +713,9 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle (turns) between neighbours with separate tips; see `_tip_diameter`."""
+        """Return the smallest angle between neighbouring planets whose tips do not overlap [turn]; see
+        `_tip_diameter`.
+        """
         found = 0.0
         for mesh in _one_mesh_per_wheel(planet):
             reach = self._axis_distance(planet, planet.own(mesh))
@@ -695,20 +724,20 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets without overlapping tips."""
+        """Return the maximum number of evenly spaced planets whose tips do not overlap."""
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
+        # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number
 
 
 def _one_mesh_per_wheel(planet: Planet) -> list[AssemblyMesh]:
-    """Return one mesh for each wheel of a planet."""
     inward = [planet.inward] if planet.inward else []
     meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
 
 
 def _planet_positions(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
-    """Return the positions of planets relative to their carrier's axis (mm); None unless all are declared."""
+    """Return the positions of planets relative to their carrier's axis [mm], x and y; None unless all are declared."""
     places = [train.axes[label].point if label in train.axes else None for label in (centre or "", *map(str, axes))]
     spots = [place for place in places if place is not None]
     if len(spots) < len(places):

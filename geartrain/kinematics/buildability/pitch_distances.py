@@ -1,4 +1,4 @@
-"""Checks that wheels in mesh have one pitch, and that axes have the distances that their wheels require.
+"""Checks of modules and centre distances: wheels in mesh need one module, and axes the distances of their wheels.
 
 Modules and distances are known as multiples of each other. Wheels in mesh share a module (1). The distance of two axes
 is k times the module of each pair between them, k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared modules, positions and
@@ -28,18 +28,18 @@ if TYPE_CHECKING:
     from geartrain.train import Train, Wheel
 
 PRESSURE = radians(20)
-"""Pressure angle (rad) of standard teeth, used if none is declared."""
+"""Pressure angle of standard teeth [rad], used if none is declared."""
 
 
 @lru_cache(maxsize=4096)
-def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
-    """Return the angle by which a planet's tooth tip clears a ring's (rad, about the ring's axis).
+def tip_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+    """Return the angle about the ring's axis between the tip corners of a planet's tooth and a ring's tooth [rad].
 
     z1, z2     teeth of the planet and the ring; z2 > z1
-    pressure   pressure angle (rad)
-    h1, h2     addenda (modules)
+    pressure   pressure angle [rad]
+    h1, h2     addenda [modules]
 
-    Teeth without backlash; the angle is negative if the corners collide. Known as trochoid interference (Elements of
+    Teeth have no backlash. The angle is negative if the corners collide: trochoid interference (Elements of
     Metric Gear Technology, SDP/SI, equations 5-6 and 5-7). When the planet's corner is on the ring's tip circle, at
     theta1 about its own axis and theta2 about the ring's (both from the line of centres), the planet has turned from
     the position in which its flank met the pitch point by phi = theta1 + inv(alpha_a1) - inv(alpha), because the tooth
@@ -65,10 +65,11 @@ def tip_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
 
 
 @lru_cache(maxsize=4096)
-def radial_room(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
-    """Return the angle by which a planet's teeth clear the ring's in radial assembly (rad, about the planet's axis).
+def radial_margin(z1: int, z2: int, pressure: float, h1: float, h2: float) -> float:
+    """Return the angle about the planet's axis by which its teeth clear the ring's teeth during radial assembly [rad].
 
-    Arguments as for `tip_room`. Negative if tips collide during assembly (trimming interference, SDP/SI equations 5-9
+    Parameters are those of `tip_margin`. The angle is negative if tips collide during assembly (trimming interference,
+    SDP/SI equations 5-9
     to 5-11). At 20 degrees and full depth a ring needs 17 teeth more than the planet, one of 80 or 100 teeth 16.
     """
     tip1, tip2 = (acos(min(z * cos(pressure) / (z + 2 * h), 1.0)) for z, h in ((z1, h1), (z2, -h2)))
@@ -87,11 +88,11 @@ def minimum_ring(planet: int) -> int:
     """Return the tooth count of the smallest ring without trochoid interference with a planet of standard teeth."""
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
-    return next(z for z in count(first) if tip_room(planet, z, PRESSURE, 1.0, 1.0) > 0)
+    return next(z for z in count(first) if tip_margin(planet, z, PRESSURE, 1.0, 1.0) > 0)
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Yield findings of rules R1 to R3: ring smaller than its mate, trochoid interference, trimming interference."""
+    """Yield findings of rules R1 to R3: a ring smaller than its mate, trochoid interference, trimming interference."""
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
@@ -112,7 +113,7 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
                 f"{minimum_ring(planet)} teeth"
             )
             yield BuildFinding("R2", "note", Problem(what, why, fix, pair.place))
-        elif judged and ring > 33 and radial_room(planet, ring, PRESSURE, 1.0, 1.0) < 0:
+        elif judged and ring > 33 and radial_margin(planet, ring, PRESSURE, 1.0, 1.0) < 0:
             what = f"pair '{pair.name}': '{mate}' {planet} can only be inserted axially into the ring '{name}' {ring}"
             why = "in radial assembly the tips of standard teeth collide (trimming interference)"
             fix = f"leave space for axial assembly, or use a ring of at least {_radial_ring(planet)} teeth"
@@ -121,14 +122,16 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
 
 def _radial_ring(planet: int) -> int:
     """Return the tooth count of the smallest ring into which a planet with standard teeth can be inserted radially."""
-    return next(z for z in count(max(minimum_ring(planet), 34)) if radial_room(planet, z, PRESSURE, 1.0, 1.0) >= 0)
+    return next(z for z in count(max(minimum_ring(planet), 34)) if radial_margin(planet, z, PRESSURE, 1.0, 1.0) >= 0)
 
 
 SLACK = Fraction(1, 50)
-"""Maximum error of a centre distance in any mesh [modules]; less than the backlash of cut teeth."""
+"""Maximum difference between declared and required centre distance of any mesh [modules]; less than the backlash of cut
+teeth.
+"""
 
 SHIFT = Fraction(1, 2)
-"""Change of centre distance that profile shift of a pair of involute wheels can compensate [modules]."""
+"""Change of centre distance that profile shift of two involute wheels can compensate [modules]."""
 
 _FREE = Fraction(
     1, 40
@@ -137,7 +140,7 @@ _LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their 
 
 
 class PairOutline(NamedTuple):
-    """A pair with declared teeth as it is cut: centre distance, and tip radius by wheel [transverse modules]."""
+    """Pair with declared teeth as cut: centre distance, and tip radius of each wheel [transverse modules]."""
 
     distance: float
     tips: Mapping[str, float]
@@ -145,14 +148,14 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """A gear pair with its declared sizes. Two-element fields refer to the first and the second wheel."""
+    """Gear pair with its declared sizes. Fields with two elements refer to the first and the second wheel."""
 
     name: str
     place: str
     wheels: tuple[str, str]
     declared: tuple[Wheel, Wheel]
     axes: tuple[str, str]
-    """Labels of the axes relative to the carrier."""
+    """Labels of the axes of the two wheels relative to the carrier."""
     parallel: bool
     """True if the axes are parallel."""
     ring: int | None
@@ -177,7 +180,7 @@ class PitchPair:
 
     @property
     def modules(self) -> tuple[Fraction | None, Fraction | None]:
-        """Declared modules (mm)."""
+        """Declared modules of the two wheels [mm]; None if undeclared."""
         first, second = (None if wheel.module is None else millimetres(wheel.module) for wheel in self.declared)
         return first, second
 
@@ -193,7 +196,7 @@ class PitchPair:
 
     @property
     def touching(self) -> Fraction:
-        """Distance (modules) at which the pitch circles touch: (z1 + z2)/2, or (z_ring - z)/2.
+        """Centre distance at which the pitch circles touch [modules]: (z1 + z2)/2, or (z_ring - z)/2.
 
         It is divided by the cosine of the helix angle for helical teeth.
         """
@@ -206,7 +209,9 @@ class PitchPair:
 
     @property
     def distance(self) -> Fraction:
-        """Design centre distance (modules): the tooth form's, else the distance at which the pitch circles touch."""
+        """Design centre distance [modules]: declared by the tooth form, else the distance at which the pitch circles
+        touch.
+        """
         form = self.form
         own = getattr(form, "centre_distance", None) if form is not None and form.conjugate else None
         module = self.modules[0] or self.modules[1]
@@ -216,10 +221,11 @@ class PitchPair:
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum centre distance (modules) at which such teeth can run, though possibly less well.
+        """Minimum and maximum centre distance at which these teeth can run, possibly with more backlash [modules].
 
-        If no teeth are declared, profiles may be shifted. If no size is declared either, wheels of nearly one size may
-        have been cut with different pitches. Declared involutes can run at distances with more backlash.
+        Profiles may be shifted if no tooth form is declared. If no size is declared either, the two wheels may have
+        been cut
+        with slightly different pitches. Declared involutes can run at distances with more backlash.
         """
         wanted, form = self.distance, self.form
         low = high = SLACK
@@ -227,6 +233,7 @@ class PitchPair:
             sized = self.modules != (None, None)
             low = high = low + (SHIFT if sized else max(SHIFT, _FREE * wanted))
         elif form.any_distance and form.conjugate:
+            # involutes run with more backlash: closer together with a ring, farther apart otherwise
             low, high = (low + SHIFT, high) if self.ring is not None else (low, high + SHIFT)
         elif form.any_distance:
             low = high = _LOOSE * wanted
@@ -234,7 +241,7 @@ class PitchPair:
 
 
 def _distance_without_backlash(pair: PitchPair, form: ToothForm) -> Fraction:
-    """Return the distance (modules) without backlash: that of the pitch circles, except for profile-shifted
+    """Return the centre distance without backlash [modules]: the pitch circles touch, except for profile-shifted
     involutes.
     """
     from geartrain.teeth.involute import Involute
@@ -254,7 +261,7 @@ def _distance_without_backlash(pair: PitchPair, form: ToothForm) -> Fraction:
 
 
 def pitch_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> tuple[PitchPair, ...]:
-    """Return all gear pairs in the order of the declaration."""
+    """Return all gear pairs with their sizes, in the order of the declaration."""
     axes = Axes(train, tree)
     gears = {gear.name: (at, gear) for at, gear in enumerate(train.gears)}
     found = []
@@ -296,15 +303,17 @@ class PitchDistances:
         self.findings = [*self._modules(), *self._offsets(tree, circuits), *self._distances()]
 
     def module(self, wheel: str) -> Fraction | None:
-        """Return the module of a wheel (mm), declared or required by its mates and axes; None if it is undetermined."""
+        """Return the module of a wheel [mm], declared or required by its mates and axes; None if it is undetermined."""
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return the distance of two axes as a multiple of a root quantity, which comparable distances share."""
+        """Return the distance of two axes as a root quantity and a factor; distances with the same root are
+        comparable.
+        """
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats multiples of the root quantity of a pair's distance: in mm, else in
+        """Return a function that formats a multiple of the root quantity of a pair's distance, in mm if known, else in
         modules.
         """
         root, _ = self.distance(pair.axis_pair)
@@ -319,6 +328,7 @@ class PitchDistances:
                 self.sizes.join(_MM, ("wheel", name), millimetres(wheel.module))
         for pair in self.pairs:
             first, second = (("wheel", wheel) for wheel in pair.wheels)
+            # a contradiction is reported at the pair that would join different modules
             ratio = self.sizes.ratio(first, second)
             if ratio is not None and ratio != 1:
                 yield self._two_pitches(pair)
@@ -343,7 +353,9 @@ class PitchDistances:
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Record distances from positions, then those from offsets of pins in slots; yield contradictions."""
+        """Record axis distances from declared positions, then from offsets of pins in slots; yield findings on
+        contradictions.
+        """
         offsets = {coupling.name: coupling.offset for coupling in self.train.couplings if coupling.offset is not None}
         for pair in self.pairs:
             if pair.parallel:
@@ -362,12 +374,13 @@ class PitchDistances:
                 why = "the offset of a pin is the distance of the two axes"
                 place = self.train.place("couplings", at[circuit.id])
                 yield BuildFinding("P1", "error", Problem(what, why, "move an axis, or correct the offset", place))
+            # the offset determines the distance if no positions are declared
             elif apart is None:
                 self.sizes.join(_MM, node, offset)
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Record the distance of two parallel axes whose positions are declared."""
+        """Record the distance of two parallel axes if positions of both are declared."""
         declared = [self.train.axes[label] for label in axes if label in self.train.axes]
         node = ("axes", *axes)
         if node in self.placed or len(declared) < 2 or axes[0] == axes[1]:
@@ -380,6 +393,7 @@ class PitchDistances:
             (millimetres(there[0]), millimetres(there[1]), millimetres(there[2])),
             (millimetres(here[0]), millimetres(here[1]), millimetres(here[2])),
         )
+        # distance of parallel axes: component of their offset normal to the direction
         across = cross(apart, (x, y, z))
         far = sqrt(dot(across, across) / dot((x, y, z), (x, y, z)))
         if far:
@@ -391,6 +405,7 @@ class PitchDistances:
             if not pair.has_distance:
                 continue
             node, wheel = ("axes", *pair.axis_pair), ("wheel", pair.wheels[0])
+            # the first pair between two axes defines their distance, others are compared with it
             found = self.sizes.ratio(node, wheel)
             if found is None:
                 self.sizes.join(wheel, node, pair.distance)
@@ -401,12 +416,15 @@ class PitchDistances:
             self.between.setdefault(node, []).append(pair)
 
     def _misplaced(self, pair: PitchPair, found: Fraction, by: str) -> Iterator[BuildFinding]:
-        """Yield the finding on a pair whose required distance differs from the declared one (modules)."""
+        """Yield the finding on a pair whose required centre distance differs from the declared distance `found`
+        [modules].
+        """
         wanted, off = pair.distance, found - pair.distance
         if abs(off) <= _EQUAL * sum(pair.counts) / 2:
             return
         low, high = pair.bounds
         shifts = _needed_shifts(pair, found)
+        # if only one wheel declares a module, the distance may be right and the module wrong
         rule = "M2" if pair.modules.count(None) == 1 else "P1"
         module = self.module(pair.wheels[0]) or Fraction(1)
         first, second = (f"'{wheel}' {count}" for wheel, count in zip(pair.wheels, pair.counts, strict=True))
@@ -423,6 +441,7 @@ class PitchDistances:
         why = f"their pitch circles {'are' if off > 0 else 'overlap by'} {_mm(abs(off) * module)}" + (
             " apart" if off > 0 else ""
         )
+        # module with which the wheels have the given distance
         fits = found / wanted * module
         fix = f"{move}, " + (
             f"or remove the module: the distance requires {_mm(fits)}"
@@ -432,7 +451,7 @@ class PitchDistances:
         yield BuildFinding(rule, "error", Problem(what, why, fix + shift, pair.place))
 
     def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
-        """Yield the finding on a pair whose required distance differs from that of another pair on the same axes.
+        """Yield the finding on a pair whose required centre distance differs from another pair's on the same two axes.
 
         The other pair is the one whose required distance differs most.
         """
@@ -450,6 +469,7 @@ class PitchDistances:
         off, other, scale = best
         low, high = pair.bounds
         minimum, most = (bound * scale for bound in other.bounds)
+        # a distance at which both pairs run: the ranges overlap
         level: BuildLevel = "note" if max(low, minimum) <= min(high, most) else "error"
         yield BuildFinding("P2", level, self._two_distances(pair, other, scale, off, level == "error"))
 
@@ -467,6 +487,7 @@ class PitchDistances:
             why = f"two axes have only one distance, and the teeth must compensate for {self._length(off, module)}"
             return Problem(what, why, _COMPENSATE, pair.place)
         why = f"two axes have only one distance, and these differ by {self._length(off, module)}"
+        # the distance is half of the sum of the tooth counts
         teeth = 2 * off
         fix = "change tooth counts" + (f" by {teeth} in sum" if teeth.denominator == 1 else "")
         fix += ", or give each pair its own pinion and module" if shared else ", or give one pair another module"
@@ -483,7 +504,8 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """Return profile shifts with which involutes run at a distance (modules) without backlash, as a fix; "" if none do.
+    """Return a fix text with the profile shifts that give involutes no backlash at a distance [modules]; "" if none
+    do.
 
     inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
     cos(helix). With a ring, z and x of its mate are negative. The rack angle is the tooth form's, else 20 degrees.
@@ -494,10 +516,12 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     if normal is None:
         return ""
     slant = pair.declared[0].slant if pair.declared[0].is_helical else 1.0
+    # transverse pressure angle of helical teeth
     across = atan(tan(normal) * slant)
     cosine = cos(across) * float(pair.touching / distance)
     if cosine >= 1:
         return ""
+    # sum of the tooth counts, with a ring their difference
     teeth = float(2 * pair.touching) / slant
     total = (inv(acos(cosine)) - inv(across)) * teeth / (2 * tan(normal))
     if not _SHIFTS[0] <= total <= _SHIFTS[1]:
@@ -505,6 +529,7 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     first, second, what = total / 2, total / 2, "the sum of the shifts"
     if pair.ring is not None:
         ring, mate = pair.wheels[pair.ring], pair.wheels[1 - pair.ring]
+        # only the difference of the shifts matters in a pair with a ring
         first, second, what = 0.0, total, f"the shift of '{ring}' minus that of '{mate}', which `pair` names first,"
     key = f"shift: [{first:.4g}, {second:.4g}]"
     key = key if pair.form is not None else f"tooth_form: {{form: involute, {key}}}"
@@ -512,8 +537,8 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
 
 
 def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """Describe the effect of a small change of distance on backlash, 2 da tan(alpha) for involutes (20 degrees by
-    default).
+    """Describe how a deviation `off` of the centre distance [modules] changes the backlash: 2 da tan(alpha) for
+    involutes.
     """
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:

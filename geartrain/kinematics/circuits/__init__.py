@@ -1,4 +1,4 @@
-"""Turning pairs as a tree, and one fundamental circuit for each gear pair and coupling."""
+"""Tree of turning pairs, and one fundamental circuit for each gear pair and coupling."""
 
 from __future__ import annotations
 

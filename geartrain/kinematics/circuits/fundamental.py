@@ -23,7 +23,7 @@ from geartrain.train import Train, Wheel
 
 
 class Circuit(NamedTuple):
-    """A fundamental circuit and its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
+    """Fundamental circuit with its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
 
     For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j. For a coupling, i is the slot (or
     holes) with a = 1 and j the pin with b = -m, where m is the winding number, equations (13) to (15).
@@ -45,24 +45,24 @@ class Circuit(NamedTuple):
     j: str
     """Link of the second wheel, or of the pin."""
     carrier: str
-    """Carrier k, the link with both axes (transfer vertex; Freudenstein and Yang 1972)."""
+    """Carrier k: the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
-    """Coefficient of link i, above 0."""
+    """Coefficient of the speed of link i, above 0."""
     b: int
-    """Coefficient of link j."""
+    """Coefficient of the speed of link j."""
     wheels: tuple[str, str]
     """Ids of the two wheels; for a coupling, names of the slot and the pin."""
     note: str = ""
-    """Note if the sense of rotation is only a convention; usually empty."""
+    """Note if the sense of rotation is only a convention; otherwise empty."""
 
     @property
     def swings(self) -> bool:
-        """True for a pin in a slot, whose ratio is a mean value; the ratio of teeth may also vary, by their form."""
+        """True for a pin in a slot, whose instantaneous ratio varies about `ratio`, its mean value."""
         return self.kind in ("pin_and_slot", "pin_follower")
 
     @property
     def ratio(self) -> Fraction:
-        """Signed exact ratio tau = (w_i - w_k) / (w_j - w_k)."""
+        """Signed exact speed ratio tau = (w_i - w_k) / (w_j - w_k)."""
         return Fraction(-self.b, self.a)
 
     @property
@@ -72,9 +72,10 @@ class Circuit(NamedTuple):
 
     @property
     def terms(self) -> tuple[tuple[str, int], ...]:
-        """Row of the Willis system: links with their non-zero coefficients in a w_i + b w_j - (a + b) w_k.
+        """Links with non-zero coefficients of the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
-        Speeds are about the reference direction of parallel axes. The transpose of the row gives the torques of a pair
+        Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
+        pair
         without losses, and the row modulo 1 gives the phases of its teeth.
         """
         c = -self.a - self.b
@@ -156,7 +157,8 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
-    """Return the transfer vertex of the path i..j, or None unless the axis changes exactly once.
+    """Return the carrier of the pair i, j: the link of the tree path at which the axis changes, if it changes once;
+    else None.
 
     With every link attached to the top of its axis, the path changes axis once in three cases: both tops are the
     carrier, or the carrier is one link's top and shares the other's axis, or it is attached to the other link.
@@ -170,6 +172,7 @@ def _carrier(tree: Tree, i: str, j: str) -> str | None:
     if top_i is not None and top_i == top_j:
         return top_i
     for carrier, other, axis_other in ((top_i, j, axis_j), (top_j, i, axis_i)):
+        # the frame has no axis, and a link does not carry itself
         if carrier is None or carrier == other or carrier not in parent:
             continue
         if parent[carrier][1] == axis_other or top[carrier] == other:
@@ -214,7 +217,7 @@ _MEET = 1e-3  # relative to the distance of two declared points: closer axes int
 
 
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
-    """Return the shaft angle of a gear pair (rad, between 0 and pi); None if its axes are parallel.
+    """Return the shaft angle of a gear pair [rad], between 0 and pi; None if its axes are parallel.
 
     It is the sum of both cone angles, measured between the directions in which the wheels lie from the apex, which
     follow from the axes and `facing`. Raises `RangeError` if axes with positions do not intersect.
@@ -241,11 +244,11 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
 def bevels_on_one_side(
     train: Train, circuits: Iterable[Circuit], is_rotation: Callable[[str, str], bool]
 ) -> Iterator[tuple[str, str, str]]:
-    """Yield two bevels on parallel axes, and the bevel on another axis that both meet from the same side, by their
-    `facing`.
+    """Yield two bevel wheels on one axis that mesh with a third bevel wheel from the same side, as names (one, other,
+    third).
 
-    Both axes pass through the apex of the third, so the two bevels would be in the same place. The sides follow from
-    the senses of rotation of the two circuits.
+    Their pitch cones share the apex of the third, so the two bevels would be in the same place. The sides follow from
+    `facing` and from the senses of rotation of the two circuits.
 
     is_rotation   function that returns whether all axes between two links are parallel
     """
@@ -253,6 +256,7 @@ def bevels_on_one_side(
     for circuit in circuits:
         if circuit.kind != "gear" or any(train.wheels[wheel][1].kind != "bevel" for wheel in circuit.wheels):
             continue
+        # only pairs on axes that are not parallel have an apex
         if not is_rotation(circuit.i, circuit.j):
             first, second = circuit.wheels
             mates.setdefault(second, []).append((first, circuit.i, circuit.b > 0))
@@ -264,7 +268,7 @@ def bevels_on_one_side(
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
-    """Return the distance (m) of two axes of different directions, 0 if they intersect; None without positions."""
+    """Return the distance of two non-parallel axes [m], 0 if they intersect; None if a position is not declared."""
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:
         return None

@@ -33,20 +33,20 @@ class Tree(FrozenFields):
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
-    """Parent link (nearer the frame) and axis label by link, as declared."""
+    """Link -> parent link (its neighbour towards the frame) and label of the axis between them, as declared."""
     top: Mapping[str, str]
-    """Link that carries the axis of each link: the first on the path to the frame that is not on the same axis."""
+    """Link -> link that carries its axis: the first one on the path to the frame that is not on the same axis."""
 
     def axis(self, link: str) -> str | None:
-        """Return the axis label of the joint nearest the frame; None for the frame itself."""
+        """Return the axis label of the joint between a link and its parent; None for the frame."""
         return self.parent[link][1] if link in self.parent else None
 
     def above(self, link: str) -> str | None:
-        """Return the next link towards the frame, as declared; None for the frame itself."""
+        """Return the parent of a link, its neighbour towards the frame; None for the frame."""
         return self.parent[link][0] if link in self.parent else None
 
     def bears(self, carrier: str, link: str) -> bool:
-        """Return True if the carrier carries the axis of `link`."""
+        """Return whether `carrier` carries the axis of `link`."""
         return self.top.get(link) == carrier
 
     def axis_seen_from(self, carrier: str, link: str) -> str:
@@ -127,7 +127,7 @@ def _no_joints(train: Train) -> Problem:
     return Problem(
         "no turning pair is declared",
         f"every link but '{train.frame}' turns on an axis that another link carries",
-        f"add `revolutes:` with an entry for each axis, such as `{{A: [{train.frame}, {link}]}}`",
+        f"add for example `revolutes: {{A: [{train.frame}, {link}]}}`, with an entry for each axis",
         train.place("revolutes") if "revolutes" in train.model_fields_set else train.place("links"),
     )
 
@@ -136,7 +136,7 @@ def _unconnected(train: Train, link: str) -> Problem:
     return Problem(
         f"link '{link}' is not joined to the frame",
         f"no chain of turning pairs leads from it to '{train.frame}'",
-        f"add a turning pair for '{link}' to `revolutes`",
+        f"add it to an axis of `revolutes`, or an axis of its own: `{link}: [{train.frame}, {link}]`",
         train.place("links", link),
     )
 
@@ -167,7 +167,7 @@ def check_parallel(first: Wheel, second: Wheel) -> None:
 
 
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
-    """Return 1 if two helical wheels on skew axes turn in opposite senses like spur wheels, else -1; and a note.
+    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note.
 
     With the helix angles b of both (positive for right hands) and the angle S from the first axis to the second, about
     the direction from the second to the first, teeth are aligned if b1 + b2 = S, or S plus half a turn. Then z1 w1 =
@@ -176,8 +176,9 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     Parameters
     ----------
     wheels : tuple of Wheel
+        The two wheels.
     angle : float
-        Angle between the directions of the axes (rad), 0 to pi.
+        Angle between the directions of the axes [rad], 0 to pi.
     side : int
         1 if the angle is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown.
 
@@ -187,6 +188,7 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
         If the teeth are not aligned.
     """
     lean = wheels[0].helix + wheels[1].helix
+    # both sides are tried if the positions do not determine the sense of the angle
     fits = [
         (sense, way)
         for way in ((side,) if side else (1, -1))
@@ -195,6 +197,7 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
     ]
     if not fits:
         raise GearTrainError(_not_aligned(wheels, angle, side))
+    # both sides may give the same sense of rotation
     if len({sense for sense, _ in fits}) == 1:
         return fits[0][0], ""
     note = (
@@ -205,7 +208,7 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
 
 
 def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
-    """Return the helix angles (rad) of two wheels on skew axes, positive for right hands; None if none is declared.
+    """Return the helix angles of two wheels on skew axes [rad], positive for right hands; None if none is declared.
 
     The helix angle of a worm and the shaft angle determine that of its wheel by (12a); it may also be declared. A worm
     without helix angle leaves both unknown. `angle` and `side` as in `crossed_sense`.
@@ -222,8 +225,10 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
     worm, wheel = wheels[at], wheels[1 - at]
     if worm.helix_angle is None:
         return None
+    # b1 + b2 = S, or S plus half a turn: both sides if the positions do not determine the sign
     leans = [remainder(way * angle - worm.helix, pi) for way in ((side,) if side else (1, -1))]
     if wheel.helix_angle is not None:
+        # without a hand both signs of the declared angle are possible
         declared = {wheel.helix} if wheel.hand else {wheel.helix, -wheel.helix}
         leans = [lean for lean in leans if any(abs(lean - each) <= _SAME for each in declared)]
     if not leans:
@@ -249,7 +254,7 @@ _Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
 
 
 class Axes:
-    """Directions of the axes of a train, and the signs that follow from them.
+    """Directions of the axes of a train, and the signs of speeds and meshes that follow from them.
 
     Speeds of parallel axes are added with their signs. Over non-parallel joints the sum of joint speeds is used, as the
     scalar equation requires (Freudenstein, Longman and Chen 1984).
@@ -271,17 +276,17 @@ class Axes:
         }
 
     def direction(self, label: str | None) -> ExactVector:
-        """Return the direction of an axis; z if none is declared."""
+        """Return the direction of an axis as a vector of any length; z if none is declared."""
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
-        """Return -1 if the axis points against the first declared direction parallel to it, else 1."""
+        """Return 1, or -1 if the axis is opposite to the first declared direction that is parallel to it."""
         return self._senses.get(label or "", 1)
 
     @property
     def link_signs(self) -> Mapping[str, int]:
-        """-1 for links whose axis points against the reference direction of its parallel axes; their speeds change
-        sign.
+        """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes; other links have
+        1.
         """
         if self.plain:
             return {}
@@ -289,7 +294,7 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links separated from the frame by non-parallel joints, whose speed is a sum of joint speeds, not a
+        """Links separated from the frame by non-parallel joints. Their "speed" is a sum of joint speeds, not a
         rotation.
         """
         if self.plain:
@@ -302,18 +307,16 @@ class Axes:
         return frozenset(sums)
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return True if the axes of all joints between two links are parallel, so that their relative speed is a
-        rotation.
-        """
+        """Return whether all joint axes between two links are parallel, which makes their relative speed a rotation."""
         return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """Return True if all these axes have the same or opposite direction in the pose in which all angles are 0."""
+        """Return whether all these axes have the same or the opposite direction while all angles are 0."""
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """Return True if both axes have positions and are collinear; axes without positions count as different
-        lines.
+        """Return whether two axes with declared positions are collinear; axes without positions are treated as
+        different lines.
         """
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
@@ -321,7 +324,7 @@ class Axes:
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the screw of a rotation about an axis: direction, and velocity of the origin; None without a
+        """Return the non-zero components of the screw of an axis (direction, velocity of the origin); None without a
         position.
         """
         here = self.positions.get(label)
@@ -332,10 +335,9 @@ class Axes:
         return {at: part for at, part in enumerate(parts) if part}
 
     def _crossing(self, one: str, other: str) -> tuple[float, int]:
-        """Return the angle (rad) from one axis to another, 0 to pi, and its sense about the direction from the other to
-        the one.
+        """Return the angle between two axes [rad], 0 to pi, and its sign about the direction from `other` to `one`.
 
-        The sense is 0 if the positions do not determine it.
+        The sign is 0 if the positions do not determine it.
         """
         first, second = self.direction(one), self.direction(other)
         upright = cross(first, second)
@@ -345,11 +347,11 @@ class Axes:
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
-        """Return the helix angles (rad) of two wheels on skew axes; None for parallel axes, or if unknown."""
+        """Return the helix angles of two wheels on skew axes [rad]; None for parallel axes or undeclared angles."""
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self._crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return a and b of the circuit, and a note if a sign is a convention.
+        """Return a and b of the Willis equation, and a note if the sense of rotation is a convention.
 
         Raises `GearTrainError` for wheels that cannot mesh on their axes.
         """
@@ -363,11 +365,13 @@ class Axes:
                 sense, note = crossed_sense((wheel_i, wheel_j), *self._crossing(*labels))
                 return z_i, sense * self.sign(labels[0]) * self.sign(labels[1]) * z_j, note
             check_parallel(wheel_i, wheel_j)
+        # plane wheels: an external pair reverses the sense of rotation, an internal one does not
         if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not side_by_side and (wheel_i.internal or wheel_j.internal):
             what = "a ring on an axis that is not parallel to its mate's"
             raise GearTrainError(Problem(what, "a ring and its mate have parallel axes", "use a bevel pair"))
+        # bevel and crown wheels: the sense depends on the sides on which their cones open
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
         if wheel_i.internal or wheel_j.internal:
@@ -375,7 +379,7 @@ class Axes:
         return z_i, z_j * side_i * side_j, ""
 
     def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return the coefficients of a worm drive; the sense of rotation follows from hand and positions."""
+        """Return a, b and the note for a worm drive, whose sense of rotation follows from hand and positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
         hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
@@ -400,42 +404,43 @@ class Axes:
 
 
 def _vector(figures: Iterable[Any]) -> ExactVector:
-    """Return three figures as numbers, or three lengths in metres."""
+    """Return three numbers as a vector, or three lengths as a vector in metres."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
     return x, y, z
 
 
 def _line(direction: ExactVector) -> ExactVector:
-    """Return a canonical direction, equal for all parallel directions."""
+    """Return a direction scaled so that its first non-zero component is 1; it is equal for all parallel directions."""
     scale = next(part for part in direction if part)
     x, y, z = direction
     return x / scale, y / scale, z / scale
 
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
-"""Two links that turn about each other, and the labels of the axis between them, several if axes are collinear."""
+"""Joint between two links with the labels of its axis; several labels if axes are collinear."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rigid:
-    """One prescription that makes two links one body, and the joints on the path between them."""
+    """Brake or lock that makes two links one rigid body, with the joints on the path between them."""
 
     links: tuple[str, ...]
-    """One link that is fixed, or two that are locked together."""
+    """One fixed link, or two links that are locked together."""
     joints: tuple[JointOnLine, ...]
 
     @property
     def labels(self) -> list[str]:
-        """Labels of the axes on the path."""
+        """Labels of the axes of all joints on the path."""
         return [label for _, _, labels in self.joints for label in labels]
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """Return the cases with every fixed link on an axis of the frame, and every lock between two coaxial links.
+    """Return the cases with each brake on a link that turns on the frame, and each lock between two coaxial links.
 
-    Prescriptions across several axes are replaced by locks of the joints on the path, each with its cause. A case with
-    linkages, or with inputs of links without a single axis in the frame, has them as its `problems`. Raises
-    `DeclarationError` if every case has problems.
+    A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. A case gets
+    `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`
+    if
+    every case has problems.
     """
     lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
     closed = [_closed_case(train, lines, sums, case) for case in cases]
@@ -455,10 +460,9 @@ def _closed_case(train: Train, lines: JointLines, sums: frozenset[str], case: St
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """Yield the prescriptions of a case that a brake or clutch cannot realise, because two or more joints must be
-    closed.
+    """Yield the brakes and locks that no device on one axis can realise, because they close two or more joints.
 
-    A link whose carrier is fixed, or is part of the same body, has only one open joint.
+    Joints that other brakes and locks close are not counted.
     """
     lines = JointLines(train, tree)
     bodies = _Bodies(lines, case)
@@ -466,21 +470,20 @@ def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rig
 
 
 class JointLines:
-    """Axes of a train as lines: the path between two links, collinear axes, and mobility of closed chains."""
+    """Axes of a train as lines: joints between two links, collinear axes, and mobility of closed chains."""
 
     def __init__(self, train: Train, tree: Tree) -> None:
         self.frame, self._tree, self._axes = tree.frame, tree, Axes(train, tree)
 
     def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """Return the joints between two links, one for each line, with each link attached to the carrier of its
-        axis.
-        """
+        """Return the joints on the path between two links, one for each line; collinear axes are merged."""
         parent, top = self._tree.parent, self._tree.top
         up, down = ways_to_common_ancestor(a, b, top.get)
         steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
         steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
         found: list[JointOnLine] = []
         for start, end, label in steps:
+            # consecutive joints on one line are one joint
             if found and self._same_line(found[-1][2][-1], label):
                 before = found.pop()
                 labels = before[2] if before[2][-1] == label else (*before[2], label)
@@ -493,7 +496,7 @@ class JointLines:
         return one == other or self._axes.are_one_line(one, other)
 
     def rigid(self, labels: Sequence[str]) -> bool:
-        """Return whether a closed chain of turning pairs with these axes cannot move."""
+        """Return whether a closed chain of turning pairs with these axes has no mobility."""
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
             return True
@@ -502,7 +505,7 @@ class JointLines:
 
 
 def rigid_connections(lines: JointLines, case: StateCase) -> Iterator[Rigid]:
-    """Yield every prescription of a case that makes two links one body."""
+    """Yield every brake and lock of a case with its joints."""
     for link in case.fixed:
         yield Rigid((link,), lines.joints(link, lines.frame))
     for a, b in case.locks:
@@ -510,7 +513,7 @@ def rigid_connections(lines: JointLines, case: StateCase) -> Iterator[Rigid]:
 
 
 class _Bodies:
-    """Rigid bodies as disjoint sets of links, merged with every joint that is closed."""
+    """Rigid bodies as disjoint sets of links; closing a joint merges two of them."""
 
     def __init__(self, lines: JointLines, case: StateCase) -> None:
         self._lines = lines
@@ -520,9 +523,12 @@ class _Bodies:
                 self._bodies.join(*rigid.joints[0][:2])
 
     def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
-        """Close joints; return them with their causes, and the prescriptions that would form linkages."""
+        """Close joints of brakes and locks across several axes; return them with their causes, and the brakes and locks
+        that form linkages.
+        """
         closed: list[tuple[Rigid, JointOnLine]] = []
         waiting = list(across)
+        # closing a joint may leave fewer open joints in other chains, so it is repeated
         while waiting:
             able = [rigid for rigid in waiting if self._lines.rigid(self._labels(rigid))]
             if not able:
@@ -535,7 +541,7 @@ class _Bodies:
         return closed, waiting
 
     def open(self, rigid: Rigid) -> list[JointOnLine]:
-        """Return the joints of a prescription that are not closed yet."""
+        """Return the joints on the path of a brake or lock that are not closed yet."""
         return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
     def _labels(self, rigid: Rigid) -> list[str]:
@@ -545,12 +551,13 @@ class _Bodies:
 def _joint_by_joint(
     frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
 ) -> StateCase:
-    """Return the case with its prescriptions across several axes replaced by the joints that they close."""
+    """Return the case with brakes and locks across several axes replaced by the joints that they close."""
     spread = {rigid.links for rigid in across}
     fixed = [link for link in case.fixed if (link,) not in spread]
     locks = [lock for lock in case.locks if lock not in spread]
     causes: dict[tuple[str, ...], tuple[str, ...]] = {}
     for rigid, (start, end, _) in stops:
+        # a joint of the frame is closed by a brake, other joints by a lock
         if frame in (start, end):
             link = end if start == frame else start
             fixed.append(link)
@@ -562,7 +569,7 @@ def _joint_by_joint(
 
 
 def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterator[Problem]:
-    """Yield problems of inputs that prescribe a sum of joint speeds over non-parallel axes."""
+    """Yield problems of inputs whose speed is a sum of joint speeds over non-parallel axes."""
     for link in sums.intersection(case.inputs):
         yield Problem(
             f"the input '{link}' has no speed about one axis",
@@ -584,7 +591,7 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
 
 
 def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
-    """Return the path at which a rigid connection is declared."""
+    """Return the path in the declaration at which a brake or lock is declared."""
     if links in case.clutches:
         return ("clutches", case.clutches[links])
     key = "fixed" if len(links) == 1 else "locks"

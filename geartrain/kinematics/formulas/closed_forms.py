@@ -29,30 +29,34 @@ if TYPE_CHECKING:
 # -------------------------------------------------------------------------------------------------------------- factors
 
 
-_VALUES = (2, 3, 5, 7, 11, 13)
+_VALUES = (2, 3, 5, 7, 11, 13)  # primes: sums of their products rarely vanish
 
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """An integer times powers of variables times sums without a common variable."""
+    """Factored polynomial: an integer times powers of variables times sums, no two of which have a variable in
+    common.
+    """
 
     content: int
     """Integer factor; 0 for the zero polynomial."""
     powers: Exponents
-    """Exponent of each variable."""
+    """Exponent of each variable, by index."""
     sums: tuple[tuple[Term, ...], ...]
-    """Factors of two or more terms, with the terms of highest powers first."""
+    """Factors with two or more terms each; terms are sorted by falling exponents."""
 
     @classmethod
     def of(cls, terms: Sequence[Term], point: Sequence[int], known: Sequence[Laurent] = ()) -> FactoredPolynomial:
-        """Factor a polynomial with non-negative exponents; each sum that is not 0 at `point` is positive there.
+        """Factor a polynomial with non-negative exponents; each sum that is not 0 at `point` is given the sign that
+        makes it positive there.
 
-        known   possible factors, which are tried first
+        known   candidates for factors, which are tried first
         """
         width = len(point)
         given = Laurent.of(terms, width)
         if not given:
             return cls(0, (0,) * width, ())
+        # the monomial factor is split off first, then known factors, then separable ones
         powers = given.lowest()
         rest = given.shifted(tuple(-power for power in powers))
         left = rest
@@ -63,6 +67,7 @@ class FactoredPolynomial:
         sums = [_positive_at_point(each, point) for each in (*found, *_separate_factors(left)) if len(each) > 1]
         back = product([Laurent.of(each, width) for each in sums], width)
         exponents = next(iter(back.terms))
+        # one coefficient determines the integer factor, because the product is known up to it
         content = rest.terms[exponents] / back.terms[exponents]
         assert back.scaled(content) == rest, "factors multiply to the whole"
         return cls(int(content), powers, tuple(sums))
@@ -76,11 +81,12 @@ def _positive_at_point(p: Laurent, point: Sequence[int]) -> tuple[Term, ...]:
 
 
 def _separate_factors(p: Laurent) -> Iterator[Laurent]:
-    """Yield factors without a common variable, up to a constant."""
+    """Yield the factors of a polynomial that have no variable in common, each up to a constant."""
     used = [at for at in range(p.width) if any(exponents[at] for exponents in p.terms)]
     groups = [{at} for at in used]
     for i, j in combinations(used, 2):
         one, other = (next(group for group in groups if at in group) for at in (i, j))
+        # inseparable variables are in one factor: their groups are merged
         if one is not other and not _are_separable(p, i, j):
             groups.remove(other)
             one |= other
@@ -98,7 +104,7 @@ def _are_separable(p: Laurent, i: int, j: int) -> bool:
 
 
 def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
-    """Return the polynomial with some variables replaced by numbers at which it is not 0."""
+    """Return the polynomial with the variables `others` replaced by primes at which it does not vanish."""
     for at in others:
         p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
     return p
@@ -117,12 +123,12 @@ def _substitute(p: Laurent, at: int, value: int) -> Laurent:
 
 _PLAIN = re.compile(r"\w+")
 _MOST_SPLIT = 3
-"""Maximum number of terms of a sum that is divided term by term."""
+"""Maximum number of terms of a sum that is divided term by term, as in 1 + z_r/z_s."""
 
 
 @dataclass(frozen=True)
 class _Style:
-    """Notation of symbols, powers, quotients and brackets."""
+    """Notation of symbols, powers, quotients and brackets, as text or as LaTeX."""
 
     symbol: Callable[[str], str]
     power: Callable[[str, int], str]
@@ -146,11 +152,11 @@ _LATEX = _Style(
 
 @dataclass(frozen=True)
 class ClosedForm(Result):
-    """A rational function of tooth counts in lowest terms, and its value at the declared counts.
+    """Rational function of tooth counts in lowest terms, with its value at the declared counts.
 
     See Also
     --------
-    OutputFormula : What an output is, made of these.
+    OutputFormula : speed of an output as a sum of such functions times input speeds
     """
 
     KEYS = ("text", "latex", "value", Key("wheels", "formula.wheels"))
@@ -158,9 +164,9 @@ class ClosedForm(Result):
     formula: Formula
     """Exact numerator and denominator."""
     counts: Mapping[str, int] = field(repr=False)
-    """Declared count by wheel, at least of all wheels in the formula."""
+    """Wheel -> declared tooth count, at least for all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
-    """Possible factors: wheels, and terms whose exponents refer to them."""
+    """Candidates for factors: wheels, and the terms whose exponents refer to them."""
 
     def __str__(self) -> str:
         """Return the formula as text."""
@@ -169,7 +175,6 @@ class ClosedForm(Result):
     _repr_html_ = None  # type: ignore[assignment]  # notebooks show the formula
 
     def _repr_latex_(self) -> str:
-        """Return the formula in LaTeX for notebooks."""
         return f"${self.latex}$"
 
     @property
@@ -220,12 +225,13 @@ class ClosedForm(Result):
         return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)
 
     def elasticity(self, wheel: str) -> ClosedForm:
-        """Return the elasticity (z/f) df/dz in one wheel's count z: relative change of f over relative change of z.
+        """Return the elasticity of f in the tooth count z of one wheel, (z/f) df/dz: relative change of f per relative
+        change of z.
 
         Parameters
         ----------
         wheel : str
-            A wheel; 0 is returned for a wheel that is not in the formula.
+            Name of a wheel; the elasticity is 0 for a wheel that is not in the formula.
         """
         width, wheels = len(self.formula.wheels), self.formula.wheels
         top, bottom = (Laurent.of(terms, width) for terms in (self.formula.numerator, self.formula.denominator))
@@ -240,13 +246,15 @@ class ClosedForm(Result):
 
     @property
     def poles(self) -> tuple[str, ...]:
-        """Zeros of the denominator, as equations between products of counts; empty if it cannot vanish."""
+        """Conditions for a zero denominator, as equations between products of tooth counts; empty if it cannot
+        vanish.
+        """
         sums = self._factored(self.formula.denominator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
     @property
     def zeros(self) -> tuple[str, ...]:
-        """Zeros of the numerator, as equations between products of counts; empty if it cannot vanish."""
+        """Conditions for a zero numerator, as equations between products of tooth counts; empty if it cannot vanish."""
         sums = self._factored(self.formula.numerator).sums
         return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
 
@@ -256,7 +264,7 @@ class ClosedForm(Result):
         return FactoredPolynomial.of(terms, point, [each for each in known if each is not None])
 
     def _converted(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
-        """Return a sum in the variables of this formula; None if it has other wheels too."""
+        """Return a polynomial in the variables of this formula; None if it contains another wheel."""
         own, used = self.formula.wheels, [at for at in range(len(wheels)) if any(each.exponents[at] for each in terms)]
         if any(wheels[at] not in own for at in used):
             return None
@@ -274,13 +282,15 @@ class ClosedForm(Result):
         return sign + (above if below == "1" else style.over(above, below))
 
     def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
-        """Write a short sum over one of its terms as 1 plus quotients; "" for other formulas."""
+        """Return a short sum over one of its terms as 1 plus quotients, such as 1 + z_r/z_s; "" for other formulas."""
+        # only a short sum over a monomial that is one of its terms
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
             return ""
         one = next((term for term in top.sums[0] if term.exponents == bottom.powers), None)
         if one is None or one.coefficient * top.content % bottom.content:
             return ""
         words: list[str] = []
+        # the term that cancels comes first, as the 1 in 1 + z_r/z_s
         for term in sorted(top.sums[0], key=lambda each: each is not one):
             value = Fraction(term.coefficient * top.content, bottom.content)
             powers = tuple(a - b for a, b in zip(term.exponents, bottom.powers, strict=True))
@@ -295,12 +305,12 @@ class ClosedForm(Result):
 
 
 def _times_derivative(p: Laurent, at: int) -> Laurent:
-    """Return z dp/dz: every term times its exponent of z."""
+    """Return z dp/dz for the variable z with index `at`: every term times its exponent of z."""
     return Laurent(p.width, {exponents: c * exponents[at] for exponents, c in p.terms.items() if exponents[at]})
 
 
 def _product(p: FactoredPolynomial, wheels: Sequence[str], style: _Style) -> str:
-    """Return the text of a product without its sign."""
+    """Return the absolute value of a factored polynomial as text."""
     parts = [] if abs(p.content) == 1 else [str(abs(p.content))]
     for wheel, power in zip(wheels, p.powers, strict=True):
         if power:
@@ -328,7 +338,7 @@ def _has_both_signs(terms: Sequence[Term]) -> bool:
 
 
 def _equation(terms: Sequence[Term], wheels: Sequence[str]) -> str:
-    """Return the text of an equation: sum of positive terms = sum of negative terms."""
+    """Return the equation p = 0 as text: sum of positive terms = sum of negative terms."""
     added = [term for term in terms if term.coefficient > 0]
     taken = [Term(-term.coefficient, term.exponents) for term in terms if term.coefficient < 0]
     return f"{_sum(added, wheels, _TEXT)} = {_sum(taken, wheels, _TEXT)}"

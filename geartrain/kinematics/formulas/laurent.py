@@ -21,11 +21,15 @@ from geartrain.numerics.elimination import PRIME
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one step; above it (some seconds) polynomials are too long to be useful."""
+"""Maximum number of products of terms in one step, which take some seconds; longer polynomials are too long to be
+useful.
+"""
 
 
 class Term(NamedTuple):
-    """An integer coefficient times a product of powers; exponents are in the order of wheels, or of groups."""
+    """Integer coefficient times a product of powers. Exponents are in the order of the wheels, or of the monomial
+    groups.
+    """
 
     coefficient: int
     exponents: Exponents
@@ -37,25 +41,27 @@ class TooLongError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Laurent:
-    """A sum of rational coefficients times monomials in `width` variables. Equal polynomials compare equal."""
+    """Laurent polynomial: rational coefficients times monomials in `width` variables. Equal polynomials compare
+    equal.
+    """
 
     width: int
     terms: Mapping[Exponents, Fraction]
-    """Non-zero coefficient by exponents."""
+    """Exponents -> non-zero coefficient."""
 
     @classmethod
     def constant(cls, value: Fraction | int, width: int) -> Laurent:
-        """Return a constant polynomial."""
+        """Return a constant as a polynomial in `width` variables."""
         return cls(width, {(0,) * width: Fraction(value)} if value else {})
 
     @classmethod
     def variable(cls, at: int, width: int) -> Laurent:
-        """Return the variable with index `at`."""
+        """Return the variable with index `at` as a polynomial in `width` variables."""
         return cls(width, {tuple(int(other == at) for other in range(width)): Fraction(1)})
 
     @classmethod
     def of(cls, terms: Iterable[Term], width: int) -> Laurent:
-        """Return the sum of some terms."""
+        """Return the polynomial that is the sum of the given terms; equal exponents may be repeated."""
         total: dict[Exponents, Fraction] = {}
         for coefficient, exponents in terms:
             total[exponents] = total.get(exponents, Fraction(0)) + coefficient
@@ -87,26 +93,26 @@ class Laurent:
 
     @property
     def is_unit(self) -> bool:
-        """True for a single monomial, by which division is exact."""
+        """True if it has one term, and division by it is exact."""
         return len(self.terms) == 1
 
     @property
     def is_constant(self) -> bool:
-        """True for a constant polynomial."""
+        """True if no variable occurs with a non-zero exponent."""
         return not any(any(exponents) for exponents in self.terms)
 
     @property
     def is_definite(self) -> bool:
-        """True if it cannot vanish for positive counts, because all its terms have the same sign."""
+        """True if all coefficients have the same sign, so the polynomial cannot vanish for positive tooth counts."""
         return len({value > 0 for value in self.terms.values()}) == 1
 
     def inverse(self) -> Laurent:
-        """Return the inverse of a unit."""
+        """Return the inverse of a unit, which is a polynomial with one term."""
         ((exponents, value),) = self.terms.items()
         return Laurent(self.width, {tuple(-power for power in exponents): 1 / value})
 
     def modulo(self, point: Sequence[int], prime: int) -> int:
-        """Return the value modulo a prime, at non-zero residues."""
+        """Return the value at `point` modulo a prime; all elements of `point` are non-zero residues."""
         total = 0
         for exponents, value in self.terms.items():
             product = value.numerator * pow(value.denominator, -1, prime)
@@ -117,41 +123,45 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the lowest exponent of every variable, which are those of the largest monomial that divides all
+        """Return the minimum exponent of every variable: the exponents of the largest monomial that divides all
         terms.
         """
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
     def shifted(self, by: Exponents) -> Laurent:
-        """Return the product with the monomial of exponents `by`."""
+        """Return the product of the polynomial and the monomial with the exponents `by`."""
         return Laurent(
             self.width, {tuple(map(int.__add__, exponents, by)): value for exponents, value in self.terms.items()}
         )
 
     def scaled(self, factor: Fraction) -> Laurent:
-        """Return the product with a non-zero number."""
+        """Return the product of the polynomial and a non-zero number."""
         return Laurent(self.width, {exponents: value * factor for exponents, value in self.terms.items()})
 
     def content(self, *others: Laurent) -> Fraction:
-        """Return the positive rational by which division makes coefficients, here and in `others`, coprime integers."""
+        """Return the content: division by this positive rational makes all coefficients, also in `others`, coprime
+        integers.
+        """
         values = [value for each in (self, *others) for value in each.terms.values()]
         return Fraction(math.gcd(*(v.numerator for v in values)), math.lcm(*(v.denominator for v in values)))
 
     def primitive(self) -> Laurent:
-        """Return the primitive part: multiple by a unit with lowest exponents 0 and coprime integer coefficients."""
+        """Return the primitive part: a multiple by a unit whose minimum exponents are 0 and whose coefficients are
+        coprime integers.
+        """
         if not self.terms:
             return self
         return self.shifted(tuple(-power for power in self.lowest())).scaled(1 / self.content())
 
     def sorted_terms(self) -> tuple[Term, ...]:
-        """Return the terms of a polynomial with integer coefficients, highest powers first."""
+        """Return the terms of a polynomial with integer coefficients, sorted by falling exponents."""
         return tuple(Term(int(self.terms[exponents]), exponents) for exponents in sorted(self.terms, reverse=True))
 
 
 def _sum(
     total: dict[Exponents, Fraction], terms: Iterable[tuple[Exponents, Fraction]], factor: Fraction | int
 ) -> dict[Exponents, Fraction]:
-    """Add factor * terms to `total` in place, and drop terms that cancel."""
+    """Add factor * terms to `total` in place, and remove terms that cancel."""
     for exponents, value in terms:
         known = total.get(exponents)
         new = factor * value if known is None else known + factor * value
@@ -163,13 +173,12 @@ def _sum(
 
 
 def product(factors: Iterable[Laurent], width: int) -> Laurent:
-    """Return the product of some polynomials; 1 for an empty sequence."""
+    """Return the product of polynomials in `width` variables; 1 for an empty sequence."""
     return reduce(Laurent.__mul__, factors, Laurent.constant(1, width))
 
 
 def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
-    """Return the determinants of n rows and n + 1 columns, one for each omitted column; the order of the others is
-    kept.
+    """Return the n + 1 determinants of n rows and n + 1 columns, each with one column omitted.
 
     Dynamic programming over rows with one partial sum for each set of used columns (a bit mask). It needs no division,
     and sparse rows reach few of the 2^n sets. Raises `TooLongError` beyond `MOST_PRODUCTS`.
@@ -196,7 +205,7 @@ def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
 
 
 def divide(p: Laurent, q: Laurent) -> Laurent | None:
-    """Return p / q if the non-zero q divides p among Laurent polynomials, else None."""
+    """Return p / q if the non-zero polynomial q divides p exactly, else None."""
     if q.is_unit:
         return p * q.inverse()
     low_p, low_q = p.lowest(), q.lowest()
@@ -231,10 +240,12 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
 
 
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
-    """Return the primitive common divisor of highest degree of two Laurent polynomials; 1 if they are coprime.
+    """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime.
 
     Euclid's algorithm with primitive remainders over the rationals, in one variable after another. Coprime polynomials
-    are usually recognised at once by their images modulo a prime, whose common divisor never has too low a degree.
+    are usually recognised at once by their images modulo a prime, because the degree of the images' common divisor is
+    never
+    lower.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:
@@ -251,7 +262,9 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
 
 
 def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Apply Euclid's algorithm in one variable, with the contents (in the other variables) handled separately."""
+    """Apply Euclid's algorithm in the variable `at`; the contents, polynomials in the other variables, are handled
+    separately.
+    """
     content_p, content_q = _content(p, at), _content(q, at)
     content = common_divisor(content_p, content_q)
     p, q = _divide_exactly(p, content_p), _divide_exactly(q, content_q)
@@ -261,13 +274,14 @@ def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
         rest = _pseudo_remainder(p, q, at)
         if not rest:
             return (content * q).primitive()
+        # a non-zero remainder without the variable: only the contents have a common divisor
         if not _degree(rest, at):
             return content
         p, q = q, _divide_exactly(rest, _content(rest, at)).primitive()
 
 
 def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Return the remainder of a multiple of p divided by q, as polynomials in one variable."""
+    """Return the pseudo-remainder of p divided by q, as polynomials in the variable `at`."""
     degree = _degree(q, at)
     lead = _coefficient(q, at, degree)
     while p and _degree(p, at) >= degree:
@@ -278,7 +292,7 @@ def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
 
 
 def _content(p: Laurent, at: int) -> Laurent:
-    """Return the common divisor of the coefficients of p as a polynomial in one variable."""
+    """Return the content of p: the common divisor of its coefficients as a polynomial in the variable `at`."""
     found = Laurent.constant(0, p.width)
     for power in {exponents[at] for exponents in p.terms}:
         found = common_divisor(found, _coefficient(p, at, power))
@@ -307,8 +321,8 @@ def _negated(exponents: Exponents) -> Exponents:
 
 
 def _may_have_common_divisor(p: Laurent, q: Laurent, at: int) -> bool:
-    """Return False only if no common divisor contains the variable; the others are set to random numbers modulo a
-    prime.
+    """Return False only if no common divisor contains the variable `at`. Other variables are set to random numbers
+    modulo a prime.
     """
     draw = random.Random(len(p) * 1000 + len(q))
     # at a random point the degree of the common divisor may be too high, never too low
@@ -322,7 +336,9 @@ def _may_have_common_divisor(p: Laurent, q: Laurent, at: int) -> bool:
 
 
 def _image(p: Laurent, at: int, point: Sequence[int]) -> list[int]:
-    """Return the coefficients by power at a point modulo the prime, without trailing zeros."""
+    """Return the coefficients of p as a polynomial in the variable `at`, at a point modulo the prime, without trailing
+    zeros.
+    """
     image = [0] * (_degree(p, at) + 1)
     for exponents, value in p.terms.items():
         alone = Laurent(p.width, {tuple(0 if o == at else e for o, e in enumerate(exponents)): value})
@@ -331,8 +347,9 @@ def _image(p: Laurent, at: int, point: Sequence[int]) -> list[int]:
 
 
 def _remainder(p: Sequence[int], q: Sequence[int]) -> list[int]:
-    """Return the remainder of univariate polynomials modulo the prime."""
+    """Return the remainder of the division of two univariate polynomials modulo the prime."""
     rest = list(p)
+    # schoolbook division with the inverse of the leading coefficient
     inverse = pow(q[-1], -1, PRIME)
     while len(rest) >= len(q):
         factor = rest[-1] * inverse % PRIME

@@ -28,15 +28,16 @@ from geartrain.train import StateCase, Teeth, Train, Wheel
 from geartrain.train.fields import MOST_TEETH
 
 Row = dict[int, Laurent]
-"""A linear form as coefficients by column. Columns >= 0 are unknowns; column -1 is the prescribed part."""
+"""Linear form: column -> coefficient. Columns >= 0 are unknowns; column -1 is the constant term from prescribed speeds.
+"""
 
-GIVEN = -1
+GIVEN = -1  # column of prescribed speeds; unknowns have columns from 0
 _Residues = dict[int, int]
 
 
 @dataclass(frozen=True, slots=True)
 class SymbolicValue:
-    """A numerator over the product of the determinants of some blocks, each to the first power."""
+    """Rational function: a numerator over the product of the determinants of some blocks, each to the first power."""
 
     numerator: Laurent
     blocks: frozenset[int] = frozenset()
@@ -44,20 +45,20 @@ class SymbolicValue:
 
 @dataclass(frozen=True, slots=True)
 class SymbolicSolution:
-    """Unknowns of a system as rational functions."""
+    """Solution of a linear system: its unknowns as rational functions of tooth counts."""
 
     width: int
     point: Sequence[int]
     pivots: Sequence[tuple[int, Row]]
-    """Pairs (column, rest) with column = -rest; rest is free of all columns taken before it."""
+    """Pairs (column, rest), which mean: unknown = -rest. `rest` contains no column of an earlier pair."""
     values: Mapping[int, SymbolicValue]
-    """Solution of the core by column; free columns count as 0."""
+    """Values of the unknowns of the core, by column; undetermined unknowns are set to 0."""
     determinants: Sequence[Laurent]
-    """Determinants of the blocks of the core."""
+    """Determinants of the diagonal blocks of the core."""
     span: Mapping[int, _Residues]
-    """Rows of the core at a random point in echelon form, by leading column."""
+    """Rows of the core at a random point, in echelon form, by leading column."""
     conditions: Sequence[tuple[int, Laurent]]
-    """Pairs of a row and the function that remains of it, which must vanish for the system to be consistent."""
+    """Pairs of a row's index and the function that remains after elimination; it must be 0 for a consistent system."""
 
     def value(self, form: Mapping[int, Laurent]) -> SymbolicValue | None:
         """Return the value of a linear form of the unknowns; None if the system does not determine it."""
@@ -67,20 +68,21 @@ class SymbolicSolution:
             if factor is not None:
                 add_into(rest, equal, -factor)
         free = {c: entry.modulo(self.point, PRIME) for c, entry in rest.items() if c != GIVEN}
+        # not in the row space of the core: the form contains a free unknown
         if _reduced_row(free, self.span):
             return None
         return _combined(rest, self.values, self.determinants, self.width)
 
     def denominator(self, value: SymbolicValue) -> Laurent:
-        """Return the product of a value's determinants."""
+        """Return the denominator of a value: the product of the determinants of its blocks."""
         return product((self.determinants[block] for block in sorted(value.blocks)), self.width)
 
 
 def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None = None) -> SymbolicSolution:
-    """Solve rows that must all vanish. A random point decides which of them determine the unknowns.
+    """Solve the linear system in which every row must be 0. A random point decides which rows determine the unknowns.
 
-    preferred   an assignment of intended counts. If there are more coupled rows than unknowns, rows that are
-                independent there are used; without it, rows with prescribed values come first
+    preferred   intended tooth counts. If there are more coupled rows than unknowns, rows that are independent at these
+                counts are used; by default rows with prescribed values come first
 
     Raises `TooLongError` if too many unknowns depend on each other for their functions to be useful.
     """
@@ -105,7 +107,7 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
 
 
 class _LaurentRing:
-    """Ring of Laurent polynomials, whose units are the monomials."""
+    """Ring of Laurent polynomials for `eliminate_units`; its units are the monomials."""
 
     modulus = 0
 
@@ -119,7 +121,9 @@ class _LaurentRing:
 def _eliminate_monomials(
     rows: Sequence[Row],
 ) -> tuple[list[tuple[int, Row]], list[tuple[int, Row]], list[tuple[int, Laurent]]]:
-    """Eliminate with monomials as pivots. Return the pivots, the remaining core, and conditions."""
+    """Eliminate unknowns with monomials as pivots; return the pivots, the remaining core, and the consistency
+    conditions.
+    """
     pivots, left = eliminate_units(rows, _LaurentRing())
     core = [(at, row) for at, row in left if row.keys() - {GIVEN}]
     core.sort(key=lambda pair: (GIVEN not in pair[1], pair[0]))
@@ -128,13 +132,14 @@ def _eliminate_monomials(
 
 
 def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple[list[int], dict[int, _Residues]]:
-    """Return the first rows that are independent at a point modulo the prime, and their echelon form."""
+    """Return the indices of the first rows that are independent at a point modulo the prime, and their echelon form."""
     chosen: list[int] = []
     span: dict[int, _Residues] = {}
     for at, (_, row) in enumerate(rows):
         rest = _reduced_row({c: entry.modulo(point, PRIME) for c, entry in row.items() if c != GIVEN}, span)
         if rest:
             lead = min(rest)
+            # leading entries are normalised to 1
             inverse = pow(rest[lead], -1, PRIME)
             span[lead] = {column: value * inverse % PRIME for column, value in rest.items()}
             chosen.append(at)
@@ -142,7 +147,7 @@ def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple
 
 
 def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Residues:
-    """Return a row after elimination of the leading columns of an echelon form, without zeros."""
+    """Return a row reduced by the rows of an echelon form, without zeros."""
     rest = {column: value for column, value in row.items() if value}
     while True:
         lead = next((column for column in sorted(rest) if column in span), None)
@@ -160,7 +165,7 @@ def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Resi
 def _solve_core(
     rows: Sequence[Row], columns: Sequence[int], width: int
 ) -> tuple[dict[int, SymbolicValue], list[Laurent]]:
-    """Solve a square core block by block; the other columns count as 0."""
+    """Solve a square core by blocks of its block triangular form; unknowns of other columns are set to 0."""
     place = {column: at for at, column in enumerate(columns)}
     blocks = find_blocks([[place[column] for column in row if column in place] for row in rows])
     assert blocks is not None, "a system of full rank has a matching"
@@ -188,7 +193,7 @@ def _solve_core(
 def _combined(
     form: Mapping[int, Laurent], values: Mapping[int, SymbolicValue], determinants: Sequence[Laurent], width: int
 ) -> SymbolicValue:
-    """Return a form of the core's columns and the prescribed part, over one denominator."""
+    """Return a linear form of solved unknowns as one rational function over a common denominator."""
     used = frozenset().union(*(values[column].blocks for column in form if column in values))
     return SymbolicValue(_over_blocks(form, values, determinants, used, width), used)
 
@@ -200,7 +205,7 @@ def _over_blocks(
     used: frozenset[int],
     width: int,
 ) -> Laurent:
-    """Return the numerator of a form over the product of the determinants of the blocks `used`."""
+    """Return the numerator of a linear form over the product of the determinants of the blocks `used`."""
     total = Laurent.constant(0, width)
     for column, entry in form.items():
         value = SymbolicValue(Laurent.constant(1, width)) if column == GIVEN else values.get(column)
@@ -215,7 +220,7 @@ def _over_blocks(
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """A circuit that closes a loop, with the product of the loop's ratios and its component."""
+    """Circuit that closes a loop, with the product of the loop's speed ratios and the component of the loop."""
 
     circuit: int
     product: Laurent
@@ -223,13 +228,13 @@ class Chord:
 
 
 class SymbolicEquations:
-    """Equations of one case as rows that must vanish, in unknowns numbered as in `reduce_components`.
+    """Equations of one case, as rows that must be 0, with the unknowns of `reduce_components`.
 
-    circuits   with any counts that are different for all free wheels
-    free       index of the variable by wheel
+    circuits   fundamental circuits, with different tooth counts for all free wheels
+    free       wheel -> index of its variable
 
-    rows, origin   the equations, and the statement that each of them expresses
-    chords         circuits whose loops close for some of the free counts only
+    rows, origin   the equations, and the cause of each of them
+    chords         circuits whose loops have the ratio product 1 for some of the free counts only
     """
 
     def __init__(
@@ -247,6 +252,7 @@ class SymbolicEquations:
         self._ratios = self._find_ratios(parts)
         loops = [self._chord(parts, at) for at in (*parts.closing, *parts.breaking)]
         one = Laurent.constant(1, self.width)
+        # a constant product other than 1: the loop locks for all free counts
         never = [chord.circuit for chord in loops if chord.product.is_constant and chord.product != one]
         self.chords = tuple(chord for chord in loops if not chord.product.is_constant)
         self._reduced = reduce_components(replace(parts, breaking=never))
@@ -256,22 +262,25 @@ class SymbolicEquations:
         self.origin = [words for _, words in stated]
 
     def relative(self, link: str, base: str) -> Row:
-        """Return the speed of a link relative to another, about the axis of the first, as a form of the unknowns."""
+        """Return the speed of a link relative to another as a linear form; it is measured about the axis of the first
+        link.
+        """
         row = self._form(self.parts.index[link])
         add_into(row, self._form(self.parts.index[base]), self._constant(-1))
         sign = self._constant(self._signs.get(link, 1))
         return {column: entry * sign for column, entry in row.items()}
 
     def unknown(self, group: int) -> Row:
-        """Return the unknown of one component."""
+        """Return the unknown speed of one component as a linear form."""
         return {group: self._constant(1)}
 
     def _find_ratios(self, parts: Components) -> list[Laurent]:
-        """Return the speed of every node relative to its carrier, over its component's unknown."""
+        """Return the speed of every node relative to its carrier, over the unknown speed of its component."""
         found: dict[int, Laurent] = {}
         for start in range(len(parts.node_link)):
             chain = []
             node = start
+            # iterative, because a train can be deeper than the recursion limit
             while node not in found and parts.node_parent[node] >= 0:
                 chain.append(node)
                 node = parts.node_parent[node]
@@ -282,13 +291,17 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of one link of a circuit over that of the other, relative to their carrier."""
+        """Return the speed of link `to` of a circuit over the speed of its other link, both relative to their
+        carrier.
+        """
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())
 
     def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
-        """Return a or b of a circuit; for a free wheel, its variable with the sign of the coefficient."""
+        """Return coefficient a (side 0) or b (side 1) of a circuit; for a free wheel, its variable with the sign of the
+        coefficient.
+        """
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.kind == "gear" else None
         if variable is None:
@@ -304,7 +317,7 @@ class SymbolicEquations:
         return Chord(at, around, parts.node_group[i])
 
     def _form(self, link: int) -> Row:
-        """Return the speed of a link, without axis sign, as a form of the unknowns."""
+        """Return the speed of a link as a linear form of the unknowns, before the sign of its axis is applied."""
         reduced = self._reduced
         if link == self.parts.frame:
             return {}
@@ -312,7 +325,7 @@ class SymbolicEquations:
         return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
     def _relative_form(self, node: int) -> Row:
-        """Return the speed of a node's link: the speed of its carrier plus its relative speed."""
+        """Return the speed of a node's link as a linear form: speed of its carrier plus relative speed."""
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
@@ -358,28 +371,28 @@ Counts = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Formulas(Mapping[str, Formula], Result):
-    """Outputs of a train in one state, as functions of its free wheels. As a mapping it is `outputs`.
+    """Outputs of a train in one state as functions of its free wheels. As a mapping, it contains `outputs`.
 
-    A loop is either consistent, or it locks its wheels. Only the first case is considered for loops with free wheels,
-    so a train that runs with an inconsistent loop of free wheels has no formulas. Loops of fixed counts may be of
-    either kind.
+    A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with free wheels are assumed to turn,
+    so
+    a train that moves although such a loop is locked has no formulas. Loops of fixed counts may be of either kind.
     """
 
     outputs: Mapping[str, Formula]
-    """Exact speed of each output in the train's unit (a difference of speeds for `relative_to`)."""
+    """Exact speed of each output [unit of the train]; with `relative_to` a difference of speeds."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 for the train to turn, because of loops, or of links driven or fixed in several
+    """Functions that must all be 0 if the train is to turn, because of loops, or of links driven or fixed in several
     ways.
 
     The `label` names the cause. A constant other than 0 means that the train never turns. The outputs are valid where
     all conditions are satisfied.
     """
     exclusions: tuple[Formula, ...]
-    """Functions that must not be 0. Where one vanishes, the train is locked or free although the outputs have values,
+    """Functions that must not be 0. Where one is 0 the train is locked or free, although the outputs have values,
     because the factor cancels in them.
     """
     undetermined: tuple[str, ...]
-    """Outputs that the inputs do not determine for any counts."""
+    """Names of outputs that the inputs do not determine for any tooth counts."""
 
     def __getitem__(self, name: str) -> Formula:
         return self.outputs[name]
@@ -391,7 +404,7 @@ class Formulas(Mapping[str, Formula], Result):
         return len(self.outputs)
 
     def turns(self, counts: Mapping[str, int]) -> bool:
-        """Return True if at these counts every condition is 0, and no exclusion is 0."""
+        """Return whether at these tooth counts every condition is 0 and no exclusion is 0."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 
@@ -399,10 +412,10 @@ class Formulas(Mapping[str, Formula], Result):
 def find_formulas(
     train: Train, state: str | None, free: Mapping[str, Counts], inputs: Mapping[str, int] | None = None
 ) -> Formulas:
-    """Return every output of one state as a function of the counts of the free wheels.
+    """Return every output of one state as a function of the tooth counts of the free wheels.
 
     state    a declared state, or None for a train without states
-    free     allowed counts by wheel; all other wheels keep their declared count
+    free     wheel -> allowed tooth counts; all other wheels keep their declared count
     inputs   speeds of the input links, instead of the declared ones
 
     Raises `QuestionError` for wheels or states that the train does not have, and for trains whose coupled part is too
@@ -425,9 +438,9 @@ def find_formulas(
 
 
 def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
-    """Return the same validated declaration with other tooth counts; line numbers and uncertainties are kept.
+    """Return a copy of a validated declaration with other tooth counts; line numbers and uncertainties are kept.
 
-    counts   tooth count by wheel, from 1 to 10^12
+    counts   wheel -> tooth count, from 1 to 10^12
 
     The cost is linear in the number of links. Raises `QuestionError` for wheels that the train does not have, and for
     invalid tooth counts.
@@ -445,7 +458,9 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
 
 
 def _with_value(wheel: Wheel, count: int) -> int | Teeth:
-    """Return the count with the wheel's range or choices if these allow it, else only the count."""
+    """Return the tooth count together with the wheel's declared range or choices if these allow it, else only the
+    count.
+    """
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return count
@@ -457,7 +472,7 @@ def _with_value(wheel: Wheel, count: int) -> int | Teeth:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations that affect the outputs. Free wheels are represented by distinct large random counts."""
+    """Return the equations that affect the outputs. Free wheels are represented by large, different random counts."""
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
@@ -473,7 +488,7 @@ def _equations(
 
 
 def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
-    """Return the outputs, conditions and exclusions from the solved equations."""
+    """Return the outputs, conditions and exclusions as functions of the free wheels, from the solved equations."""
     solution = solve_rows(equations.rows, equations.width, _declared(train, wheels))
     outputs: dict[str, Formula] = {}
     undetermined: list[str] = []
@@ -485,6 +500,7 @@ def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquation
             continue
         denominator = solution.denominator(value)
         outputs[name], common = make_formula(name, wheels, value.numerator, denominator)
+        # a cancelled factor that can vanish hides tooth counts at which the train is locked or free
         if not common.is_definite:
             cancelled[name] = common
     stated = [(equations.origin[row], left) for row, left in solution.conditions]
@@ -494,21 +510,23 @@ def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquation
 
 
 def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """Yield the conditions of loops of free wheels: ratio product 1, unless the wheels of the loop are at rest."""
+    """Yield the condition of each loop with free wheels: ratio product 1, or wheels of the loop at rest."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
+        # wheels that never roll impose no condition
         if rolls is not None and not rolls.numerator:
             continue
         loop = equations.parts.loop(chord.circuit)
         left = chord.product - one
+        # wheels that may be at rest: the condition is satisfied there too
         if rolls is not None and not rolls.numerator.is_definite:
             left = left * rolls.numerator
         yield f"loop {' - '.join(loop.links)} closes", left
 
 
 def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
-    """Return functions of which only the zeros matter, divided by one of their monomials, without duplicates."""
+    """Return functions whose zeros are the conditions, each divided by one of its monomials, without duplicates."""
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
@@ -531,7 +549,12 @@ def _check(train: Train, state: str | None, free: Mapping[str, Counts]) -> None:
         if not counts:
             place = train.place("links", train.wheels[name][0], "wheels", name)
             raise QuestionError(
-                Problem(f"wheel '{name}' has no counts to choose from", "its list is empty", "widen its range", place)
+                Problem(
+                    f"wheel '{name}' has no allowed tooth count",
+                    "its list of counts is empty",
+                    "allow at least one count",
+                    place,
+                )
             )
 
 

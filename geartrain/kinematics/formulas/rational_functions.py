@@ -24,29 +24,33 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MonomialGroup(Result):
-    """A class of wheels on which the function depends only through x, the product of their counts to `exponents`."""
+    """Set of wheels on which the function depends only through x, the product of their counts to the powers
+    `exponents`.
+    """
 
     KEYS = (Key("exponents", "by_wheel"), "degree")
 
     wheels: tuple[str, ...]
-    """Wheels in the order of the declaration."""
+    """Names of the wheels in the order of the declaration."""
     exponents: Exponents
-    """Non-zero exponents; usually 1 or -1, the first positive."""
+    """Non-zero exponent of each wheel's count; usually 1 or -1. The first one is positive."""
     degree: int
-    """Highest power of x in the numerator or denominator; for 1 the function is a Moebius function of x."""
+    """Highest power of x in the numerator or the denominator; for 1 the function is a Moebius transformation of x."""
 
     @property
     def by_wheel(self) -> dict[str, int]:
-        """Exponent of each wheel."""
+        """Exponent of each wheel, by name."""
         return dict(zip(self.wheels, self.exponents, strict=True))
 
     @property
     def roundings(self) -> int:
-        """Number of roundings in `monomials`; to first order its relative error is below this number times 2^-53."""
+        """Number of roundings in `monomials`; to first order the relative error is below this number times 2^-53."""
         return sum(map(abs, self.exponents))
 
     def monomials(self, columns: Mapping[str, Any]) -> NDArray[np.float64]:
-        """Return x for many assignments (counts by wheel, as arrays that broadcast); see `roundings` for the error."""
+        """Return x for many combinations of tooth counts (arrays by wheel, which are broadcast); see `roundings` for
+        the error.
+        """
         import numpy as np
 
         top: NDArray[np.float64] = np.ones(())
@@ -66,12 +70,12 @@ class MonomialGrouping:
     """Polynomials rewritten in the smallest possible number of monomials, up to a common monomial factor."""
 
     members: tuple[Mapping[int, int], ...]
-    """Exponent by variable in the monomial of each group."""
+    """Exponents of the variables in the monomial of each group, by variable index."""
     rewritten: tuple[Laurent, ...]
-    """Polynomials in the monomials of the groups, with non-negative exponents."""
+    """Polynomials with the monomials of the groups as variables; exponents are not negative."""
 
     def back(self, p: Laurent, width: int) -> Laurent:
-        """Convert a polynomial in the monomials of the groups to the original variables."""
+        """Express a polynomial in the monomials of the groups as a polynomial in `width` original variables."""
 
         def spread(exponents: Exponents) -> Exponents:
             full = [0] * width
@@ -87,11 +91,10 @@ Member = TypeVar("Member")
 
 
 def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[Exponents, dict[Member, int]]:
-    """Group keys whose integer lists are multiples of one list; return for each class its list and the multiple of each
-    key.
+    """Group keys whose integer vectors are multiples of one vector; return this vector, and the factor of each key.
 
-    The lists of the classes are primitive (their entries are coprime), and their first non-zero entry is positive. Keys
-    with zero lists are left out.
+    The vectors are primitive (their entries are coprime), and their first non-zero entry is positive. Keys with zero
+    vectors are left out.
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
@@ -104,12 +107,12 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
 
 
 def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
-    """Find the coarsest classes of variables such that a quotient of the polynomials depends on each through one
+    """Find the coarsest groups of variables such that a quotient of the polynomials depends on each through one
     monomial.
 
-    Division of all polynomials by one monomial changes no quotient, so only differences of exponents matter. A class
-    depends on one monomial if and only if the lists of its variables' exponent differences, over all terms, are
-    multiples of one list. For a quotient in lowest terms no coarser classes exist.
+    Division of all polynomials by one monomial changes no quotient, so only differences of exponents matter. The
+    variables of a group occur in one monomial if and only if the vectors of their exponent differences, over all terms,
+    are multiples of one vector. For a quotient in lowest terms no coarser groups exist.
     """
     terms = [exponents for p in polynomials for exponents in p.terms]
     columns = enumerate(zip(*terms, strict=True))
@@ -117,8 +120,10 @@ def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
     members = []
     lists = []
     for list_, found in classes.items():
+        # the first exponent of a group is positive
         sign = 1 if next(iter(found.values())) > 0 else -1
         members.append({variable: sign * size for variable, size in found.items()})
+        # a common monomial factor makes the exponents non-negative
         minimum = min(sign * step for step in list_)
         lists.append([sign * step - minimum for step in list_])
     powers_of: Iterator[Exponents] = iter(zip(*lists, strict=True) if lists else [()] * len(terms))
@@ -129,7 +134,7 @@ def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
 
 
 def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
-    """Evaluate a polynomial with non-negative exponents at integers."""
+    """Return the integer value of a polynomial with non-negative exponents at an integer point."""
     total = 0
     for coefficient, exponents in terms:
         for count, power in zip(point, exponents, strict=True):
@@ -142,7 +147,7 @@ def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
 def substituted(
     terms: Iterable[Term], wheels: Sequence[str], left: Sequence[str], counts: Mapping[str, int]
 ) -> Laurent:
-    """Substitute counts in a polynomial, and return it in the remaining wheels."""
+    """Return a polynomial in the wheels `left` after substitution of tooth counts for the other wheels."""
     rest = [
         Term(
             whole(
@@ -172,58 +177,60 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Formula:
-    """A rational function of tooth counts in lowest terms: numerator and denominator are coprime.
+    """Rational function of tooth counts in lowest terms: its numerator and denominator are coprime.
 
-    A denominator without terms is 0. Such a function, which `fixed` may return, has no value anywhere.
+    A denominator without terms is 0, and the function then has no value anywhere; `fixed` may return such a function.
     """
 
     label: str
-    """Output that the formula gives, or the cause of a condition."""
+    """Name of the output whose speed the function gives, or cause of a condition."""
     wheels: tuple[str, ...]
     """Free wheels on which the function depends, in the order of the declaration."""
     numerator: tuple[Term, ...]
-    """Terms with non-negative exponents in the order of `wheels`; integer coefficients, coprime with the denominator's.
+    """Terms of the numerator, with non-negative exponents in the order of `wheels`. Coefficients are integers, coprime
+    with the coefficients of the denominator.
     """
     denominator: tuple[Term, ...]
-    """Terms like those of the numerator; the first coefficient is positive."""
+    """Terms of the denominator in the same form; the first coefficient is positive."""
     groups: tuple[MonomialGroup, ...]
-    """Coarsest classes of wheels such that the function depends on each through one monomial only."""
+    """Coarsest groups of wheels such that the function depends on each group through one monomial."""
     upper: tuple[Term, ...]
-    """Numerator in the monomials of `groups`, with non-negative exponents."""
+    """Numerator with the monomials of `groups` as variables; exponents are not negative."""
     lower: tuple[Term, ...]
-    """Denominator in the monomials of `groups`, with non-negative exponents."""
+    """Denominator with the monomials of `groups` as variables; exponents are not negative."""
 
     @property
     def constant(self) -> Fraction | None:
-        """Value of a function that does not depend on any wheel; None otherwise, or if it has no value."""
+        """Value of a function that depends on no wheel; None if it depends on wheels, or has no value."""
         return None if self.wheels else self.value({})
 
     @property
     def has_poles(self) -> bool:
-        """False if the denominator cannot vanish, because all its terms are positive."""
+        """False if the denominator cannot vanish for positive tooth counts, because all its terms are positive."""
         return any(term.coefficient < 0 for term in self.denominator) or not self.denominator
 
     def value(self, counts: Mapping[str, int]) -> Fraction | None:
-        """Return the exact value; None if the denominator vanishes, so that the train is locked or free.
+        """Return the exact value; None if the denominator is 0, where the train is locked or free.
 
-        counts   tooth count by wheel, at least of all `wheels`
+        counts   wheel -> tooth count, at least for all `wheels`
         """
         point = [int(counts[wheel]) for wheel in self.wheels]  # Python integers, because numpy's would overflow
         bottom = whole(self.denominator, point)
         return Fraction(whole(self.numerator, point), bottom) if bottom else None
 
     def values(self, columns: Mapping[str, Ints]) -> Floats:
-        """Return the values of many assignments, nan or infinite at poles; `accuracy` bounds their error.
+        """Return the values for many combinations of tooth counts in float64; nan or infinite at poles. `accuracy`
+        bounds their error.
 
-        columns   counts by wheel, arrays that broadcast against each other
+        columns   wheel -> array of tooth counts; the arrays are broadcast
         """
         return self._bounded(columns)[0]
 
     def accuracy(self, columns: Mapping[str, Ints]) -> Floats:
-        """Return a bound on the relative error of `values`: |value - exact| <= accuracy |exact|, including
-        cancellation.
+        """Return a bound on the relative error of `values`, including cancellation: |value - exact| <= accuracy
+        |exact|.
 
-        Infinite if cancellation leaves no digit, at poles, and beyond the range of float64.
+        The bound is infinite if cancellation leaves no digit, at poles, and beyond the range of float64.
         """
         import numpy as np
 
@@ -234,8 +241,8 @@ class Formula:
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """Return the function of the remaining wheels with some counts substituted; wheels not in the formula are
-        ignored.
+        """Return the function of the remaining wheels after substitution of tooth counts for some wheels; other names
+        are ignored.
         """
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
@@ -244,7 +251,7 @@ class Formula:
         return make_formula(self.label, left, *parts)[0]
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
+        """Return the function as plain data for JSON."""
         return {
             "label": self.label,
             "text": str(self),
@@ -261,7 +268,7 @@ class Formula:
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
     def _bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Return values and bounds on their absolute errors."""
+        """Return values in float64, and bounds on their absolute errors."""
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import BoundedQuotient, in_range, products_of
@@ -271,6 +278,7 @@ class Formula:
             value, error = quotient.bounded(products_of([group.monomials(columns) for group in self.groups]))
         terms = (*self.numerator, *self.denominator)
         scale = max(abs(term.coefficient) for term in terms)
+        # the bounds are valid only without overflow and underflow
         largest = [log10(Fraction(int(np.max(columns[wheel], initial=1)))) for wheel in self.wheels]
         scaled = ((Fraction(c, scale), exponents) for c, exponents in terms)
         return value, error if in_range(scaled, largest) else np.full_like(error, np.inf)
@@ -279,9 +287,9 @@ class Formula:
 def make_formula(
     label: str, wheels: Sequence[str], numerator: Laurent, denominator: Laurent
 ) -> tuple[Formula, Laurent]:
-    """Return a formula in lowest terms, and the cancelled common divisor (1 if nothing but units was cancelled).
+    """Return a rational function in lowest terms, and the cancelled common divisor (1 if only units were cancelled).
 
-    wheels   variables of both polynomials, by index
+    wheels   names of the variables of both polynomials, by index
     """
     if not denominator:
         return Formula(label, (), (Term(1, ()),), (), (), (Term(1, ()),), ()), Laurent.constant(1, len(wheels))
@@ -297,16 +305,18 @@ def make_formula(
 
 
 def _listed(terms: Sequence[Term]) -> list[list[Any]]:
-    """Return terms for JSON; coefficients too long for a JSON number are text."""
+    """Return terms as lists for JSON; coefficients with too many digits for a JSON number are text."""
     return [[c if is_short(c, 600) else fraction_text(c), list(exponents)] for c, exponents in terms]
 
 
 def _formula(label: str, wheels: Sequence[str], grouping: MonomialGrouping, top: Laurent, bottom: Laurent) -> Formula:
-    """Return the formula of two coprime polynomials in the monomials of the groups."""
+    """Return the formula for two coprime polynomials in the monomials of the groups."""
     used = sorted(variable for members in grouping.members for variable in members)
     spread = [grouping.back(each, len(wheels)) for each in (top, bottom)]
+    # exponents are made non-negative by a common monomial factor
     lowest = list(map(min, *(each.lowest() for each in spread if each))) if top else list(spread[1].lowest())
     spread = [each.shifted(tuple(-power for power in lowest)) for each in spread]
+    # canonical form: coprime integer coefficients, the first one of the denominator positive
     first = max(spread[1].terms.items())[1]
     scale = (1 if first > 0 else -1) / top.content(bottom)
     groups = tuple(

@@ -22,21 +22,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InputShare(Result):
-    """Contribution of one input to an output."""
+    """Contribution of one input to the speed of an output."""
 
     KEYS = ("input", "speed", "ratio")
 
     input: str
-    """Link that is driven."""
+    """Name of the driven link."""
     speed: Fraction
     """Declared speed of the input [unit of the train]."""
     ratio: ClosedForm
-    """Output over input, with all other inputs at rest."""
+    """Speed of the output over speed of the input, with all other inputs at rest."""
 
 
 @dataclass(frozen=True)
 class OutputFormula(Result):
-    """Speed of an output: the sum over all inputs of a ratio times the input's speed.
+    """Speed of an output as a sum over all inputs: ratio times speed of the input.
 
     See Also
     --------
@@ -52,7 +52,7 @@ class OutputFormula(Result):
     shares: tuple[InputShare, ...]
     """Contribution of each input on which the output depends."""
     conditions: tuple[str, ...] = ()
-    """Equations between tooth counts that are necessary for motion, because they close loops."""
+    """Equations between tooth counts that must be satisfied if the train is to move, because they close loops."""
     poles: tuple[str, ...] = ()
     """Equations between tooth counts at which the output is locked or free."""
 
@@ -68,12 +68,11 @@ class OutputFormula(Result):
     _repr_html_ = None  # type: ignore[assignment]  # notebooks show the formula
 
     def _repr_latex_(self) -> str:
-        """Return the formula in LaTeX for notebooks."""
         return f"${self.latex}$"
 
     @property
     def ratio(self) -> ClosedForm:
-        """Output over input, if there is exactly one input.
+        """Speed of the output over speed of the input, for an output that depends on exactly one input.
 
         Raises
         ------
@@ -85,7 +84,9 @@ class OutputFormula(Result):
 
     @property
     def value(self) -> Fraction | None:
-        """Speed at the declared counts and inputs [unit of the train]; None if it is not determined there."""
+        """Speed at the declared tooth counts and input speeds [unit of the train]; None if it is not determined
+        there.
+        """
         values = [share.ratio.value for share in self.shares]
         if any(value is None for value in values):
             return None
@@ -125,7 +126,7 @@ class OutputFormula(Result):
 
 
 def _times(ratio: str, speed: str, style: str) -> str:
-    """Return a ratio times a speed as text, with brackets if the ratio is a sum."""
+    """Return the product of a ratio and a speed as text, with brackets if the ratio is a sum."""
     if ratio in ("1", "-1"):
         return ratio[:-1] + speed
     dot = " · " if style == "text" else r"\,"
@@ -136,16 +137,18 @@ def _times(ratio: str, speed: str, style: str) -> str:
 
 
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    """Yield the formulas of all outputs of a state, or of some, in the order of the declaration.
+    """Yield the formulas of all outputs of a state, or of the outputs named, in the order of the declaration.
 
-    Outputs that are not determined are left out. All wheels with a count are free variables. Wheels without a count,
-    and couplings, are treated as in `find_formulas`, which also raises the errors.
+    Undetermined outputs are left out. All wheels with a tooth count are variables. `find_formulas` describes the
+    treatment
+    of other wheels and of couplings, and raises the errors.
     """
     case = train.case(state)
     for name in outputs:
         check_choice("output", name, case.outputs)
     counts = {name: wheel.count for name, (_, wheel) in train.wheels.items() if wheel.count}
     free = {name: (count,) for name, count in counts.items()}
+    # superposition: one solution for a unit speed of each input, with the others at rest
     units = {link: dict.fromkeys(case.inputs, 0) | {link: 1} for link in case.inputs}
     found = {link: find_formulas(train, state, free, unit) for link, unit in units.items()}
     for name in outputs or case.outputs:

@@ -1,4 +1,4 @@
-"""Gridlock: causes for which meshes lock a train, and the smallest set of meshes to disengage so that it moves."""
+"""Gridlock: loops of meshes that lock a train, and the smallest set of meshes to disengage so that it can move."""
 
 from __future__ import annotations
 

@@ -17,11 +17,11 @@ from geartrain.numerics.graphs import tree_path, ways_to_common_ancestor
 
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
-"""A closed walk as a list of steps: the node that a step leaves, and the mesh that it uses."""
+"""Closed walk in the graph: pairs of the node where a step starts, and the mesh of the step."""
 
 
 def inverse(gain: Gain) -> Gain:
-    """Return the inverse gain; signs stay integers, which are fast."""
+    """Return 1 / gain; the gains 1 and -1 stay integers, which are faster than Fractions."""
     return (
         gain if gain == 1 or gain == -1 else 1 / Fraction(gain)
     )  # never a float, because products are compared with 1 exactly
@@ -29,19 +29,19 @@ def inverse(gain: Gain) -> Gain:
 
 @dataclass(frozen=True)
 class GainGraph:
-    """Graph with nodes 0..size-1 and meshes as edges, addressed by index."""
+    """Graph with links as nodes 0 to size - 1, and meshes with gains as edges, addressed by index."""
 
     size: int
     ends: Sequence[tuple[int, int]]
-    """Two nodes of each mesh; several meshes may join the same nodes."""
+    """Two nodes of each mesh; several meshes may connect the same nodes."""
     gains: Mapping[int, Gain]
-    """Gain by mesh, if it is not 1: speed of its second end over that of its first."""
+    """Mesh -> gain, if it is not 1: speed of its second node over speed of its first."""
     firm: frozenset[int] = frozenset()
-    """Meshes that cannot be disengaged (pins in slots)."""
+    """Meshes that cannot be disengaged, such as pins in slots."""
 
     @cached_property
     def at(self) -> list[list[int]]:
-        """Meshes of each node."""
+        """Indices of the meshes at each node."""
         meshes: list[list[int]] = [[] for _ in range(self.size)]
         for mesh, (first, second) in enumerate(self.ends):
             meshes[first].append(mesh)
@@ -54,7 +54,7 @@ class GainGraph:
         return gain if start == self.ends[mesh][0] else inverse(gain)
 
     def other(self, mesh: int, start: int) -> int:
-        """Return the far end of a mesh."""
+        """Return the node of a mesh that is not `start`."""
         first, second = self.ends[mesh]
         return first + second - start
 
@@ -66,7 +66,7 @@ class GainGraph:
         return total
 
     def part(self, meshes: Sequence[int]) -> tuple[GainGraph, list[int]]:
-        """Return the subgraph of some meshes, in the order given, and the nodes that it has."""
+        """Return the subgraph of the given meshes, in their order, and the list of its nodes."""
         nodes = list(dict.fromkeys(node for mesh in meshes for node in self.ends[mesh]))
         number = {node: at for at, node in enumerate(nodes)}
         ends = [(number[self.ends[mesh][0]], number[self.ends[mesh][1]]) for mesh in meshes]
@@ -78,7 +78,8 @@ class GainGraph:
 class GainWalk(NamedTuple):
     """Result of a breadth-first search.
 
-    Nodes in the order of discovery, predecessor node and mesh of each (-1 for a root), and speeds.
+    It has the nodes in the order of discovery, the predecessor and entry mesh of each node (-1 for a root), and the
+    speeds.
     """
 
     order: list[int]
@@ -86,23 +87,25 @@ class GainWalk(NamedTuple):
     entry: list[int]
     speed: list[Gain]
     breaking: dict[int, Gain]
-    """Meshes that are inconsistent with the search tree, with the factor of inconsistency from first end to second."""
+    """Meshes that are inconsistent with the search tree -> factor of inconsistency, from their first node to the
+    second.
+    """
     chords: list[int]
-    """All other meshes that close a loop."""
+    """Meshes outside the search tree that are consistent with it; each closes a loop that can turn."""
 
     def above(self, node: int) -> int | None:
         """Return the predecessor of a node; None for a root."""
         return self.parent[node] if self.parent[node] >= 0 else None
 
     def loop(self, mesh: int, ends: tuple[int, int]) -> GainLoop:
-        """Return the loop that a chord closes, starting at the common ancestor of its ends."""
+        """Return the loop that a mesh outside the search tree closes, starting at the common ancestor of its nodes."""
         up, down = ways_to_common_ancestor(*ends, self.above)
         there = [(self.parent[node], self.entry[node]) for node in up[-2::-1]]
         return [*there, (ends[0], mesh), *((node, self.entry[node]) for node in down[:-1])]
 
 
 def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Sequence[int] = ()) -> GainWalk:
-    """Search all nodes breadth first, from `roots` if possible, without some meshes."""
+    """Search all nodes breadth first, starting with `roots`, without the meshes `without`."""
     gone = bytearray(len(network.ends))
     for mesh in without:
         gone[mesh] = 1
@@ -143,12 +146,12 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Se
 
 
 def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
-    """Return True if every loop is consistent after removal of some meshes."""
+    """Return whether every loop has gain product 1 after removal of the meshes `without`."""
     return not walk_gain_graph(network, without).breaking
 
 
 def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
-    """Return every mesh whose removal alone frees a connected network, in linear time.
+    """Return every mesh whose removal, without others, frees a connected locked network, in linear time.
 
     Such a mesh lies on every inconsistent loop, so one such loop is taken as a tree path plus its chord. The tree path
     of any other chord covers an interval of that path. A mesh of the path frees the network if every inconsistent chord
@@ -180,7 +183,7 @@ def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
 
 
 def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
-    """Return for each node the position at which its tree path joins a given path."""
+    """Return for each node the position on `path` at which its tree path reaches it."""
     anchors = [-1] * len(found.order)
     for at, node in enumerate(path):
         anchors[node] = at
@@ -194,7 +197,10 @@ def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
 
 
 def biconnected_blocks(network: GainGraph) -> list[list[int]]:
-    """Return the meshes of each biconnected component (Hopcroft and Tarjan 1973), without recursion."""
+    """Return the meshes of each biconnected component, by the algorithm of Hopcroft and Tarjan (1973) without
+    recursion.
+    """
+    # depth-first number of each node, and the lowest number that its subtree reaches by one back edge
     order, low = [0] * network.size, [0] * network.size
     used = bytearray(len(network.ends))
     found: list[list[int]] = []
@@ -213,6 +219,7 @@ def biconnected_blocks(network: GainGraph) -> list[list[int]]:
                     continue
                 used[mesh] = 1
                 there = network.other(mesh, here)
+                # back edge
                 if order[there]:
                     pending.append(mesh)
                     low[here] = min(low[here], order[there])
@@ -227,6 +234,7 @@ def biconnected_blocks(network: GainGraph) -> list[list[int]]:
                 if stack:
                     above = stack[-1][0]
                     low[above] = min(low[above], low[here])
+                    # no back edge leaves the subtree: the node above separates it, and its meshes are a block
                     if low[here] >= order[above]:
                         found.append(pending[start:])
                         del pending[start:]
@@ -236,7 +244,9 @@ def biconnected_blocks(network: GainGraph) -> list[list[int]]:
 def shortest_loop(
     network: GainGraph, without: Collection[int] = (), starts: Sequence[int] | None = None
 ) -> GainLoop | None:
-    """Return a shortest inconsistent loop through one of `starts` (default: any node)."""
+    """Return a shortest inconsistent loop through one of the nodes `starts`, by default any node; None if there is
+    none.
+    """
     best: GainLoop | None = None
     for start in range(network.size) if starts is None else starts:
         loop = _loop_through(network, without, start, len(best) if best else 2 * network.size + 1)
@@ -248,7 +258,9 @@ def shortest_loop(
 
 
 def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop | None:
-    """Find an inconsistent loop shorter than `below` by breadth-first search from `start`."""
+    """Return an inconsistent loop with fewer than `below` meshes, by breadth-first search from `start`; None if there
+    is none.
+    """
     speed: dict[int, Gain] = {start: 1}
     came: dict[int, tuple[int, int]] = {}
     depth = {start: 0}

@@ -1,4 +1,4 @@
-"""Gridlock of a train: one gain graph for each component with an inconsistent loop."""
+"""Gridlock of a train: one gain graph for each component that has an inconsistent loop."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000
-"""Maximum number of meshes for the search over several carriers; each trial solves the train."""
+"""Maximum number of meshes for the removal search over several carriers, because each trial solves the train."""
 _ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
 _TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
-    """A component as a gain graph: its carrier, links by node, and circuits by mesh."""
+    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each mesh."""
 
     carrier: str
     links: list[str]
@@ -35,9 +35,9 @@ class LockedNetwork(NamedTuple):
 
 @collector_paused()
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
-    """Find the locked parts of a train, without regard to brakes, locks, inputs and followers.
+    """Find the parts of a train that meshes lock, without regard to brakes, locks, inputs and followers.
 
-    A follower only oscillates; its mean speed of 0 is not caused by a mesh.
+    Followers are ignored because they only oscillate: no mesh causes their mean speed of 0.
     """
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
@@ -52,7 +52,9 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graphs of all components with an inconsistent loop, in units in which all other gains are 1."""
+    """Return the gain graph of each component with an inconsistent loop; most gains are 1 in the chosen units of
+    speed.
+    """
     size = len(parts.links)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
     gains = {chord: _gain(parts, chord) for chord in parts.breaking}
@@ -62,6 +64,7 @@ def find_locked_networks(parts: Components) -> list[LockedNetwork]:
     }
     index, group_of = parts.index, parts.node_group
     for circuit, (_, _, i, j, k, _, b, _, _) in enumerate(parts.circuits):
+        # a follower is not a mesh
         if not b:
             continue
         carrier = index[k] * size
@@ -92,7 +95,7 @@ def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
 
 
 def _gain(parts: Components, chord: int) -> Gain:
-    """Return the factor by which a circuit is inconsistent with the search tree, from its first link to its second."""
+    """Return the ratio product of the loop that a circuit closes, with -1 as an integer."""
     gain = parts.closing_product(chord)
     return -1 if gain == -1 else gain
 
@@ -101,6 +104,7 @@ def _locked_subgraph(parts: Components, jammed: LockedNetwork) -> LockedSubgraph
     network = jammed.network
     found = walk_gain_graph(network)
     choice = choose_removal(network, found)
+    # the loop that proves a single removal is also the example
     steps = choice.bounds[0].loops[0] if choice.method == "one" else open_loop(network, found)
     return LockedSubgraph(
         jammed.carrier,
@@ -139,10 +143,11 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links that meshes lock for any tooth counts, after removal of some meshes.
+    """Return the links that meshes lock for any tooth counts, after removal of the meshes `gone`.
 
-    A ratio can keep one link from rotating, and all links that it drives at rest, while the train moves. With other
-    tooth counts these links would move, so only links that are at rest for other ratios too are counted.
+    Special tooth counts can keep a link at rest, with all links that it drives, while the train moves. So only links
+    that
+    are also at rest for other ratios are returned.
     """
     less = _without(part, gone)
     still = _stationary_links(less)
@@ -160,7 +165,7 @@ def _stationary_links(part: SolvedPart) -> tuple[str, ...]:
 
 
 def _with_random_ratios(part: SolvedPart) -> SolvedPart:
-    """Return the train with another ratio for every link and carrier; the ratio products of loops are unchanged."""
+    """Return the train with a random ratio for every link and carrier; the ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
         # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma)
@@ -180,16 +185,16 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
 
 
 def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
-    """Return True if every loop is consistent and every link can move after removal of some meshes."""
+    """Return whether removal of the meshes `gone` makes every loop consistent and every link movable."""
     less = _without(part, gone)
     return not less.reduced.components.breaking and not _locked_links(part, gone)
 
 
 def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return meshes of several carriers whose removal frees the train: a smallest set for few meshes, else a minimal
-    one.
+    """Return meshes of several carriers whose removal frees the train.
 
-    None if such a set does not exist, or there are too many meshes to try.
+    The set is the smallest one if there are few meshes, else a minimal one. None if no set exists, or if there are too
+    many meshes to try.
     """
     toothed = _without(part, ())
     bound = {
@@ -215,7 +220,7 @@ def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> 
 
 
 def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
-    """Return a minimal set of meshes whose removal frees the train, preferring those early in the list.
+    """Return a minimal set of meshes whose removal frees the train; meshes early in the sequence are preferred.
 
     Removal of more meshes never locks anything, so the shortest sufficient prefix of the list is found by bisection.
     Its last mesh is necessary, and the search continues among those before it.
@@ -233,7 +238,9 @@ def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
 
 
 def _search_smaller_sets(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
-    """Search all smaller sets exhaustively, in the order of size."""
+    """Return the smallest set of meshes that frees the train, by exhaustive search over sets of increasing size; else
+    `kept`.
+    """
     for size in sizes:
         for some in combinations(gears, size):
             if _frees_train(part, some):

@@ -1,4 +1,4 @@
-"""Result of a gridlock analysis: the inconsistent loops, and the meshes to disengage."""
+"""Result of a gridlock analysis: inconsistent loops, and meshes to disengage."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ class RemovalBound(Result):
     KEYS = ("sharing", "loops")
 
     loops: tuple[Loop, ...]
-    """Inconsistent loops (ratio product other than 1)."""
+    """Inconsistent loops (ratio product other than 1) that prove the bound."""
     sharing: int
     """Maximum number of loops to which one mesh belongs."""
 
     @property
     def at_least(self) -> int:
-        """Minimum number of meshes to remove."""
+        """Lower bound on the number of meshes to remove: number of loops over `sharing`, rounded up."""
         return -(-len(self.loops) // self.sharing)
 
     def __str__(self) -> str:
@@ -43,11 +43,11 @@ class RemovalBound(Result):
 
 @dataclass(frozen=True, slots=True)
 class MeshRemoval(Result):
-    """Meshes to disengage so that all locked links can move. None of them can be left out.
+    """Meshes to disengage so that all locked links can move. The set is minimal: each mesh in it is necessary.
 
     See Also
     --------
-    Gridlock : an example
+    Gridlock : has an example
     """
 
     KEYS = ("meshes", "method", "minimum", "at_least", "choices", "proofs")
@@ -57,16 +57,16 @@ class MeshRemoval(Result):
     method: RemovalMethod
     """Method by which the set was found.
 
-    one: a single mesh is enough (for each part). loops: the same number of inconsistent loops share no mesh. matching,
-    search: exact, by matching the odd faces of a planar graph (a T-join) or by branch and bound. greedy: a heuristic
-    set, not proved to be the smallest.
+    "one": a single mesh is enough for each part. "loops": smallest, because as many inconsistent loops share no mesh.
+    "matching": smallest, by matching the odd faces of a planar graph (a T-join). "search": smallest, by exhaustive
+    search or branch and bound. "greedy": heuristic, not proved to be the smallest.
     """
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """All alternatives, if a single mesh is enough."""
+    """Alternatives to `meshes`, if a single mesh is enough."""
     proofs: tuple[RemovalBound, ...] = ()
-    """Loops that prove the bound; empty if only the method proves it."""
+    """Loops that prove the lower bound; empty if only the method proves it."""
 
     def _summary(self) -> str:
         return str(self)
@@ -103,23 +103,23 @@ class MeshRemoval(Result):
 
 @dataclass(frozen=True, slots=True)
 class LockedSubgraph(Result):
-    """One component that its meshes lock to its carrier, and the meshes whose removal frees it.
+    """Component that its meshes lock to its carrier, and the meshes whose removal frees it.
 
     See Also
     --------
-    Gridlock : an example
+    Gridlock : has an example
     """
 
     carrier: str
-    """Carrier of the component, together with which all its links turn."""
+    """Carrier of the component; all links of the component turn with it."""
     loop: Loop
-    """Inconsistent loop (ratio product other than 1)."""
+    """One inconsistent loop of the component (ratio product other than 1)."""
     links: tuple[str, ...]
-    """All links of the component."""
+    """Names of all links of the component."""
     meshes: int
     """Number of meshes of the component."""
     by: Literal["sign", "ratio"]
-    """Cause: sign, if all inconsistent loops have the ratio product -1; ratio otherwise."""
+    """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, else "ratio"."""
     release: MeshRemoval
     """Meshes whose removal frees this component."""
 
@@ -166,7 +166,7 @@ class Gridlock(Result):
     jams: tuple[LockedSubgraph, ...] = ()
     """Components with an inconsistent loop, equation (21) of docs/theory.md."""
     held: tuple[str, ...] = ()
-    """Links that meshes of several carriers lock together, although every loop is consistent."""
+    """Links that meshes of several carriers lock together, although every loop can turn."""
     release: MeshRemoval | None = None
     """Meshes whose removal frees the whole train; None if it moves, or if no set was found."""
 
@@ -182,7 +182,7 @@ class Gridlock(Result):
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """Yield one sentence for each problem and its remedy; nothing for a train that moves.
+        """Yield one sentence for each locked part and its remedy; none for a train that moves.
 
         Parameters
         ----------
@@ -206,13 +206,14 @@ class Gridlock(Result):
 
 
 def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:
-    """Return the method with the weakest proof, which is the proof of the combined result."""
+    """Return the method with the weakest proof; a combined result is proved only by this method."""
     return max(methods, key=_WEAKER.index)
 
 
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
     """Combine the removals of components without common meshes."""
     parts = tuple(releases)
+    # alternatives exist only for a single component
     if len(parts) == 1:
         return parts[0]
     return MeshRemoval(
@@ -225,7 +226,7 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
 
 
 def merge_bounds(proofs: Iterable[RemovalBound]) -> Iterator[RemovalBound]:
-    """Merge bounds on disjoint sets of meshes; loops that share no mesh are counted together."""
+    """Merge lower bounds on disjoint sets of meshes; bounds by loops that share no mesh are added."""
     every = list(proofs)
     apart = tuple(loop for proof in every if proof.sharing == 1 for loop in proof.loops)
     if apart:

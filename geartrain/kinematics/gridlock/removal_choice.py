@@ -1,10 +1,9 @@
-"""Choice of the meshes to disengage: a single one if that is enough, a smallest set if it can be proved, else a good
-one.
+"""Choice of the meshes to disengage: one mesh if it is enough, a smallest set if it can be proved, else a minimal set.
 
 Smallest sets are found by branch and bound, good sets by a greedy forest; loops without a common mesh prove a lower
 bound. For planar graphs whose gains are signs, the smallest set is found by matching:
 
-Drawn in the plane, a mesh graph divides it into faces. A set of meshes frees the train if and only if, in the dual
+A planar graph divides the plane into faces. A set of meshes frees the train if and only if, in the dual
 graph, it joins the faces with an odd boundary in pairs, that is, if it is a T-join. The smallest one is a
 minimum-weight perfect matching of the odd faces by their distances (Edmonds and Johnson 1973; for signed graphs Katai
 and Iwai 1978).
@@ -40,13 +39,14 @@ if TYPE_CHECKING:
 def disjoint_loops(
     network: GainGraph, without: Collection[int] = (), firm: Collection[int] = ()
 ) -> list[GainLoop] | None:
-    """Return inconsistent loops that share no mesh other than firm ones, so that each requires the removal of one mesh.
+    """Return inconsistent loops that share only firm meshes; each of them requires the removal of a mesh.
 
-    Shortest loops are taken first. None if a loop consists of firm meshes only, so that it cannot be resolved.
+    Shortest loops are chosen first. The result is None if a loop consists of firm meshes only, which cannot be removed.
     """
     used = set(without)
     loops: list[GainLoop] = []
     while (loop := shortest_loop(network, used)) is not None:
+        # firm meshes stay in later searches: they can be in several loops
         loose = [mesh for _, mesh in loop if mesh not in firm and mesh not in network.firm]
         if not loose:
             return None
@@ -56,9 +56,10 @@ def disjoint_loops(
 
 
 def minimal_removal(network: GainGraph, most: int, budget: int) -> list[int] | None:
-    """Find a smallest set of fewer than `most` meshes whose removal frees the network; None if none exists.
+    """Return a smallest set of fewer than `most` meshes whose removal frees the network, by branch and bound; else
+    None.
 
-    Branch and bound. It branches on the meshes of a shortest inconsistent loop, one of which must be removed. The
+    The algorithm branches on the meshes of a shortest inconsistent loop, one of which must be removed. The
     lower bound on the remaining removals is the number of loops without a common mesh. Raises `OverBudgetError` after
     `budget` branches.
     """
@@ -66,11 +67,11 @@ def minimal_removal(network: GainGraph, most: int, budget: int) -> list[int] | N
 
 
 class OverBudgetError(Exception):
-    """Error raised if branch and bound exceeds its number of branches."""
+    """Branch and bound exceeded its maximum number of branches."""
 
 
 class _BranchAndBound:
-    """State of one branch and bound: `best` is the smallest set so far, `most` its size."""
+    """State of a branch-and-bound search: `best` is the smallest set found so far, `most` its size."""
 
     def __init__(self, network: GainGraph, most: int, budget: int) -> None:
         self.network, self.most, self.budget = network, most, budget
@@ -105,14 +106,16 @@ class _BranchAndBound:
 def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list[GainLoop]]:
     """Return a minimal set of meshes whose removal frees the network, and short loops without a common mesh.
 
-    A spanning forest with gains grows mesh by mesh and keeps the consistent ones: first meshes on no short inconsistent
-    loop, last those on most such loops. Nodes then change to the speed for which most of their meshes are consistent.
+    Meshes are added to a spanning forest one by one if they are consistent with it: first meshes on no short
+    inconsistent
+    loop, last the meshes on most such loops. A local search then improves the set.
     """
     suspects, loops = _inconsistent_loop_counts(network, found)
     tree = [mesh for mesh in found.entry if mesh >= 0]
     last = sorted(suspects, key=lambda mesh: suspects[mesh])
     calm = [mesh for mesh in (*tree, *found.chords, *found.breaking) if mesh not in suspects]
     best: list[int] | None = None
+    # two orders, because neither is always better
     for order in ([*calm, *last], [*tree, *found.chords, *found.breaking]):
         first = _inconsistent_meshes(network, order)
         better = _local_search(network, first)
@@ -125,7 +128,8 @@ def greedy_removal(network: GainGraph, found: GainWalk) -> tuple[list[int], list
 def _inconsistent_loop_counts(
     network: GainGraph, found: GainWalk, most: int = 64
 ) -> tuple[dict[int, int], list[GainLoop]]:
-    """Return the number of inconsistent loops of two to four meshes on which each mesh lies, and disjoint ones of them.
+    """Return the number of inconsistent loops of two to four meshes that contain each mesh, and disjoint loops among
+    them.
 
     An inconsistent loop contains a mesh with a gain other than 1 if speeds are in the units of the search, so only the
     neighbourhood of such meshes is searched. Nodes with more than `most` meshes are skipped.
@@ -156,6 +160,7 @@ def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
     loops: list[GainLoop] = []
     if max(len(network.at[start]), len(network.at[end])) > most:
         return loops
+    # neighbours of the start, from which the last mesh of a loop returns to it
     near = {network.other(last, start): last for last in network.at[start] if last != mesh}
     for second in network.at[end]:
         middle = network.other(second, end)
@@ -166,6 +171,7 @@ def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
             continue
         if middle in near:
             loops.append([(start, mesh), (end, second), (middle, near[middle])])
+        # loops of four meshes through nodes with many meshes are skipped to bound the cost
         if len(network.at[middle]) > most:
             continue
         for third in network.at[middle]:
@@ -176,7 +182,7 @@ def _short_loops(network: GainGraph, mesh: int, most: int) -> list[GainLoop]:
 
 
 def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
-    """Arrange the set of meshes of a loop in their order."""
+    """Return the meshes of a loop in the order in which they follow each other."""
     left = sorted(meshes)
     first = left.pop(0)
     loop: GainLoop = [(network.ends[first][0], first)]
@@ -190,8 +196,8 @@ def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
 
 
 def _inconsistent_meshes(network: GainGraph, order: Sequence[int]) -> list[int]:
-    """Return the meshes that are inconsistent with earlier ones in a forest with gains (Kruskal); firm ones come
-    first.
+    """Return the meshes that are inconsistent with earlier ones in a spanning forest (Kruskal's algorithm); firm meshes
+    are first.
     """
     up = list(range(network.size))
     gain: list[Gain] = [1] * network.size  # speed over that of the parent node
@@ -208,12 +214,13 @@ def _inconsistent_meshes(network: GainGraph, order: Sequence[int]) -> list[int]:
 
 
 def _root(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
-    """Return the root of a node and the node's speed over the root's (union-find with path compression)."""
+    """Return the root of a node, and the node's speed over the root's speed (union-find with path compression)."""
     chain = []
     while up[node] != node:
         chain.append(node)
         node = up[node]
     total: Gain = 1
+    # path compression from the root downwards
     for below in reversed(chain):
         total = total * gain[below]
         up[below], gain[below] = node, total
@@ -221,7 +228,9 @@ def _root(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
 
 
 def _local_search(network: GainGraph, refused: Sequence[int]) -> list[int]:
-    """Reduce a removal by local search: nodes take the speed for which most of their meshes are consistent."""
+    """Return a smaller or equal removal found by local search: nodes take the speed for which most of their meshes are
+    consistent.
+    """
     speed = list(walk_gain_graph(network, refused).speed)
     queue = [node for mesh in refused for node in network.ends[mesh]]
     for here in queue:
@@ -249,18 +258,20 @@ def _is_consistent(network: GainGraph, speed: Sequence[Gain], mesh: int, start: 
 
 
 MOST_ODD = 300
-"""Maximum number of odd faces for matching, whose cost grows with the cube of their number."""
+"""Maximum number of odd faces for matching; its run time grows with the cube of their number."""
 
 
 class TJoin(NamedTuple):
-    """Meshes to remove, and the boundaries of the odd faces if no two meshes join the same nodes."""
+    """Meshes to remove, and the boundaries of the odd faces (empty if several meshes connect the same nodes)."""
 
     meshes: list[int]
     odd: list[GainLoop]
 
 
 def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None:
-    """Return a smallest set for one block whose gains are signs; None if it is not planar or has too many odd faces."""
+    """Return a smallest removal for one block with gains 1 and -1; None if it is not planar or has too many odd
+    faces.
+    """
     import networkx as nx
 
     nodes = _merged_edges(network)
@@ -285,7 +296,9 @@ def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None
 
 
 def _merged_edges(network: GainGraph) -> list[tuple[int, Gain]]:
-    """Return the representative of each node and its relative sign; nodes joined by firm meshes are merged."""
+    """Return for each node its representative and relative sign; nodes that firm meshes connect have one
+    representative.
+    """
     merged: list[tuple[int, Gain]] = [(node, 1) for node in range(network.size)]
     done: set[int] = set()
     starts = {end for mesh in network.firm for end in network.ends[mesh]}
@@ -306,10 +319,11 @@ Pair = tuple[int, int]
 
 
 def _bundles(network: GainGraph, nodes: Sequence[tuple[int, Gain]]) -> dict[Pair, int]:
-    """Return for each pair of adjacent nodes the number of meshes with gain 1 minus that with gain -1, if not 0.
+    """Return for each pair of adjacent nodes the number of meshes with gain 1 minus the number with gain -1, if not 0.
 
-    For either relative sense of two nodes the minority of their meshes must be removed. The difference is the cost of a
-    change of sense.
+    For a given relative sense of two nodes, the meshes of the other sign must be removed. The difference is the number
+    of
+    additional removals if the sense is changed.
     """
     bundles: dict[Pair, int] = {}
     for mesh, (i, j) in enumerate(network.ends):
@@ -333,14 +347,15 @@ def _steps(face: Sequence[int]) -> list[Pair]:
 
 
 def _is_odd(bundles: dict[Pair, int], face: Sequence[int]) -> bool:
-    """Return True if an odd number of bundles around a face have a negative sign."""
+    """Return whether the boundary of a face has an odd number of negative entries in `bundles`."""
     return sum(bundles[min(step), max(step)] < 0 for step in _steps(face)) % 2 == 1
 
 
 def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
-    """Return the sign of every node such that all bundles except those of the join are consistent."""
+    """Return the sign of every node for which all bundles outside `join` are consistent."""
     near: dict[int, list[tuple[int, int]]] = {}
     for (one, two), surplus in bundles.items():
+        # pairs of nodes in the join have the relative sense of the minority of their meshes
         sign = -1 if (surplus < 0) != ((one, two) in join) else 1
         near.setdefault(one, []).append((two, sign))
         near.setdefault(two, []).append((one, sign))
@@ -357,7 +372,7 @@ def _signs(bundles: dict[Pair, int], join: set[Pair]) -> dict[int, int]:
 
 
 def _minimum_join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequence[int]) -> set[Pair]:
-    """Return the bundles crossed by a minimum T-join of the odd faces."""
+    """Return the node pairs crossed by a minimum T-join of the odd faces in the dual graph."""
     import networkx as nx
 
     side = {step: at for at, face in enumerate(faces) for step in _steps(face)}
@@ -385,13 +400,16 @@ def _minimum_join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd:
 def _shortest_paths(
     dual: Sequence[Sequence[tuple[int, int, Pair]]], start: int
 ) -> tuple[dict[int, int], dict[int, tuple[int, Pair]]]:
-    """Compute distances from one face by Dijkstra's algorithm, with predecessor face and bundle of each."""
+    """Return distances from one face by Dijkstra's algorithm, and the predecessor face and crossed node pair of each
+    face.
+    """
     done: dict[int, int] = {}
     came: dict[int, tuple[int, Pair]] = {}
     near = {start: 0}
     queue = [(0, start)]
     while queue:
         distance, here = heappop(queue)
+        # an outdated entry of the heap
         if here in done:
             continue
         done[here] = distance
@@ -415,40 +433,42 @@ _BRANCHES = 20_000  # branches times meshes, one or two seconds
 
 
 class LoopPacking(NamedTuple):
-    """Inconsistent loops, with each mesh on at most `sharing` of them, which prove a lower bound."""
+    """Inconsistent loops such that each mesh is in at most `sharing` of them; they prove a lower bound on removals."""
 
     loops: list[GainLoop]
     sharing: int
 
     @property
     def at_least(self) -> int:
-        """Minimum number of meshes to remove."""
+        """Lower bound on the number of meshes to remove: number of loops over `sharing`, rounded up."""
         return -(-len(self.loops) // self.sharing)
 
 
 class RemovalChoice(NamedTuple):
-    """Meshes whose removal frees a network."""
+    """Choice of meshes whose removal frees a network, with its proof."""
 
     meshes: list[int]
     method: RemovalMethod
     at_least: int
-    """Proved lower bound; a set of that size is a smallest one."""
+    """Proved lower bound on the number of meshes; a set of this size is a smallest one."""
     choices: list[int]
-    """All alternatives, if a single mesh is enough."""
+    """Alternatives to `meshes`, if a single mesh is enough."""
     bounds: list[LoopPacking]
-    """Loops that prove the bound, if there are any."""
+    """Loops that prove the lower bound; empty if only the method proves it."""
 
 
 def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
-    """Choose the meshes to disengage in a connected locked network; `found` is a search through it."""
+    """Choose the meshes to disengage in a connected locked network; `found` is the result of a search through it."""
     singles = single_mesh_removals(network, found)
     if singles:
         loop = LoopPacking([open_loop(network, found)], 1)
         return RemovalChoice(sorted(singles)[:1], "one", 1, sorted(singles), [loop])
+    # searches for shortest loops would take quadratic time
     if len(network.ends) > LARGE:
         meshes, loops = greedy_removal(network, found)
         return _greedy(meshes, LoopPacking(loops or [open_loop(network, found)], 1))
     choices = []
+    # a loop lies in one block, so blocks are solved separately
     for block in biconnected_blocks(network):
         part, nodes = network.part(block)
         if not is_balanced(part):
@@ -457,7 +477,7 @@ def choose_removal(network: GainGraph, found: GainWalk) -> RemovalChoice:
 
 
 def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
-    """Return a short inconsistent loop, a shortest one except in large networks."""
+    """Return a short inconsistent loop; it is a shortest one except in large networks."""
     if network.size <= _MEDIUM:
         starts: Sequence[int] = range(network.size)
         best = None
@@ -473,7 +493,9 @@ def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
 
 
 def _choose_in_block(block: GainGraph) -> RemovalChoice:
-    """Return a smallest set for one block if it is small, or planar with signs only; else the best set found."""
+    """Return a smallest removal for one block if it is small, or planar with gains 1 and -1; else the best removal
+    found.
+    """
     found = walk_gain_graph(block)
     singles = single_mesh_removals(block, found)
     if singles:
@@ -507,7 +529,7 @@ def _greedy(meshes: list[int], bound: LoopPacking) -> RemovalChoice:
 
 
 def _better_packing(network: GainGraph, loops: list[GainLoop]) -> LoopPacking:
-    """Return the better of two collections of loops without a common mesh."""
+    """Return the larger of two collections of loops without a common mesh as a lower bound."""
     more = disjoint_loops(network) if len(network.ends) <= _MEDIUM else None
     return LoopPacking(max((loops, more or []), key=len), 1)
 
@@ -522,6 +544,7 @@ def _loop_proofs(network: GainGraph, odd: Sequence[GainLoop], minimum: int) -> l
         if used.isdisjoint(mesh for _, mesh in loop):
             used.update(mesh for _, mesh in loop)
             apart.append(loop)
+    # a mesh of a planar graph is on at most two faces
     for bound in (LoopPacking(apart, 1), LoopPacking(list(odd), 2)):
         if bound.at_least == minimum:
             return [bound]
@@ -540,7 +563,7 @@ def _with_network_indices(choice: RemovalChoice, block: Sequence[int], nodes: Se
 
 
 def _combined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
-    """Combine the choices of all blocks. No loop passes through two blocks, so bounds are added."""
+    """Combine the choices of all blocks. Their lower bounds are added, because no loop is in two blocks."""
     if len(choices) == 1:
         return choices[0]
     return RemovalChoice(
@@ -553,6 +576,6 @@ def _combined(choices: Sequence[RemovalChoice]) -> RemovalChoice:
 
 
 def _merged_bounds(bounds: Sequence[LoopPacking]) -> list[LoopPacking]:
-    """Merge the bounds of several blocks; loops without a common mesh are counted together."""
+    """Merge the lower bounds of several blocks; bounds by loops without a common mesh are added."""
     apart = [loop for bound in bounds if bound.sharing == 1 for loop in bound.loops]
     return ([LoopPacking(apart, 1)] if apart else []) + [bound for bound in bounds if bound.sharing > 1]

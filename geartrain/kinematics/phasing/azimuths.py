@@ -1,4 +1,4 @@
-"""Azimuths of the pitch points of a declared train, on parallel or intersecting axes, with their accuracy."""
+"""Azimuths of the pitch points of gear pairs on parallel or intersecting axes, with their accuracy."""
 
 from __future__ import annotations
 
@@ -24,69 +24,71 @@ from geartrain.train import Train
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-EPS = 2 * UNIT_ROUNDOFF
+EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of an angle in turns
 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """A gear pair or coupling with unknown position, and the reason."""
+    """Gear pair or coupling whose position is unknown, and the reason."""
 
     name: str
-    """Name of the pair."""
+    """Name of the pair or coupling."""
     why: str
-    """Reason for which the position is unknown."""
+    """Reason why the position is unknown."""
 
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """Gear pairs with known positions. All arrays have one row for each pair and one column for each of its two
-    wheels.
+    """Pitch points of gear pairs with known positions. All arrays have one row for each pair, and one column for each
+    of its two wheels.
     """
 
     circuits: tuple[Circuit, ...]
-    """Circuits of the pairs. Each wheel on the frame is a separate link here, because its mounting angle is free."""
+    """Circuits of the pairs. A wheel on the frame is treated as a separate link, because its mounting angle is free."""
     azimuth: Floats
-    """Direction from the wheel's axis to the pitch point (turns, counterclockwise about its positive sense)."""
+    """Azimuth of the pitch point as seen from the wheel's axis [turn], counterclockwise about the positive sense of the
+    axis.
+    """
     slack: Floats
-    """Maximum error of the azimuth (turns)."""
+    """Maximum error of the azimuth [turn]."""
     family: Sequence[tuple[int, int]]
-    """Family of each contact. Contacts of one family are known rational fractions of a turn apart."""
+    """Number of each contact's family. Contacts of one family are known rational fractions of a turn apart."""
     part: Sequence[tuple[Fraction, Fraction]]
-    """Fraction of a turn from the first contact of the family."""
+    """Angle from the first contact of the family [turn], exact."""
     guessed: frozenset[int] = frozenset()
-    """Families with a fraction that was recognised from rounded positions."""
-    left_out: tuple[UnplacedPair, ...] = ()
-    """Pairs and couplings with unknown position."""
+    """Families with an angle that was recognised as a fraction from rounded positions."""
+    omitted: tuple[UnplacedPair, ...] = ()
+    """Pairs and couplings whose positions are unknown."""
 
     @cached_property
     def teeth(self) -> Floats:
-        """Coefficients a and b of the pairs: tooth counts, the second negative for internal pairs."""
+        """Coefficients a and b of the pairs, shape (pairs, 2): tooth counts, the second negative for internal pairs."""
         return np.array([(c.a, c.b) for c in self.circuits], float).reshape(-1, 2)
 
     @cached_property
     def constant(self) -> Floats:
-        """Constant c of equation (1) of docs/closure.md, in pitches from 0 to 1: a theta_i + b theta_j = c (mod 1)."""
+        """Constant c of equation (1) of docs/closure.md [pitch], 0 to 1: a theta_i + b theta_j = c (mod 1)."""
         # integer pitches are removed before the sum, to keep digits; 1/2 because a tooth meets a gap
         whole: Floats = np.mod(np.mod(self.teeth * self.azimuth, 1.0).sum(axis=1) + 0.5, 1.0)
         return whole
 
     @cached_property
-    def doubt(self) -> Floats:
-        """Maximum error of `constant` (pitches)."""
+    def uncertainty(self) -> Floats:
+        """Maximum error of `constant` [pitch]."""
         # a pitch is 1/z turn, so the error of an azimuth counts z times
-        doubt: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
-        return doubt
+        uncertainty: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
+        return uncertainty
 
     @cached_property
     def scale(self) -> int:
-        """Common denominator of all exact fractions of a turn, and of one half."""
+        """Common denominator of one half and of all exact angles in `part`."""
         found = {part.denominator for parts in self.part for part in parts}
         # dtype object, because the common denominator may exceed 64 bits
         return int(np.lcm.reduce(np.array([2, *found], dtype=object)))
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """Constant c as an integer multiple of 1/`scale`, with azimuths relative to the first contact of each
+        """Constant c as an integer multiple of 1/`scale`, with azimuths measured from the first contact of each
         family.
         """
         scale, found = self.scale, []
@@ -97,14 +99,16 @@ class PitchPoints:
 
 
 def mesh_nodes(parts: Components, circuits: Sequence[Circuit]) -> list[tuple[int, int]]:
-    """Return the two nodes of every pair, which are its links relative to its carrier."""
+    """Return the two nodes of every pair: its two links relative to its carrier."""
     index = parts.index
     at = {key: node for node, key in enumerate(zip(parts.node_link, parts.node_carrier, strict=True))}
     return [(at[index[c.i], index[c.carrier]], at[index[c.j], index[c.carrier]]) for c in circuits]
 
 
 def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[int, int]], Mapping[object, int]]:
-    """Return the family numbers of every pair, with one family for each distinct key, in order of first occurrence."""
+    """Return the family numbers of the two contacts of every pair, and the number of each key; equal keys form a
+    family.
+    """
     number: dict[object, int] = {}
     for pair in keys:
         for key in pair:
@@ -121,39 +125,40 @@ _Z: IntegerVector = (0, 0, 1)
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """An axis in integer coordinates."""
+    """Axis in integer coordinates, with the errors of its declared numbers."""
 
     way: IntegerVector
-    """Declared direction."""
+    """Declared direction as an integer vector."""
     unsure: float
-    """Maximum error of the direction (rad)."""
+    """Maximum error of the direction [rad]."""
     sense: IntegerVector
-    """Direction about which the speeds of its links are positive."""
+    """Direction about which speeds are positive, common to all parallel axes."""
     place: IntegerVector | None
-    """A point of the axis, in a unit of length common to all axes; None if not declared."""
+    """Point on the axis, in a unit of length common to all axes; None if not declared."""
     error: Fraction
     """Maximum error of the point, in the same unit."""
 
 
 @collector_paused()
 def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> PitchPoints:
-    """Return the contacts of all gear pairs, in the pose in which moving axes are declared."""
+    """Return the pitch points of all gear pairs, in the pose in which moving axes are declared."""
     axes = _axes(train)
+    # an undeclared axis is parallel to z, without a position
     plain = _Axis(_Z, 0.0, _Z, None, Fraction(0))
     placed: list[Circuit] = []
     ways: list[tuple[IntegerVector, IntegerVector]] = []
     senses: list[tuple[IntegerVector, IntegerVector]] = []
     rounded: list[float] = []
     blurred: list[float] = []
-    left_out: list[UnplacedPair] = []
+    omitted: list[UnplacedPair] = []
     for circuit in circuits:
         if circuit.kind != "gear":
-            left_out.append(UnplacedPair(circuit.id, "a pin in a slot has no teeth"))
+            omitted.append(UnplacedPair(circuit.id, "a pin in a slot has no teeth"))
             continue
         first, second = (axes.get(tree.axis_seen_from(circuit.carrier, link), plain) for link in (circuit.i, circuit.j))
         found = _contact(train, circuit, first, second)
         if isinstance(found, str):
-            left_out.append(UnplacedPair(circuit.id, found))
+            omitted.append(UnplacedPair(circuit.id, found))
             continue
         placed.append(mount_frame_wheels(circuit, train.frame))
         ways.append(found[:2])
@@ -163,11 +168,11 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
     azimuth = _azimuths(ways, senses)
     slack = np.add(rounded, blurred)[:, None] * np.ones(2)
     family, part, guessed = _families(placed, ways, azimuth, rounded, blurred)
-    return PitchPoints(tuple(placed), azimuth, slack, family, part, guessed, tuple(left_out))
+    return PitchPoints(tuple(placed), azimuth, slack, family, part, guessed, tuple(omitted))
 
 
 def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
-    """Return the pair with a wheel of the frame on a separate link, because its mounting angle is free."""
+    """Return the circuit with a wheel of the frame as a separate link, because its mounting angle is free."""
     i, j = circuit.i, circuit.j
     if frame not in (i, j):
         return circuit
@@ -181,13 +186,15 @@ def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
 
 
 def _axes(train: Train) -> dict[str, _Axis]:
-    """Return the declared axes in integers; points are multiples of one unit of length for the whole train."""
+    """Return the declared axes in integer coordinates; positions are multiples of one length for the whole train."""
     points = {label: [part.base for part in axis.position] for label, axis in train.axes.items() if axis.position}
+    # a common unit of length makes all coordinates integers
     unit = math.lcm(*{part.denominator for point in points.values() for part in point})
     senses: list[IntegerVector] = [_Z]
     known: dict[tuple[str, ...], tuple[IntegerVector, float, IntegerVector]] = {}
     found: dict[str, _Axis] = {}
     for label, axis in train.axes.items():
+        # equal texts are parsed once, because large trains repeat directions
         key = tuple(figure.text for figure in axis.direction)
         if key not in known:
             known[key] = _direction(axis.direction, senses)
@@ -201,7 +208,7 @@ def _axes(train: Train) -> dict[str, _Axis]:
 
 
 def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[IntegerVector, float, IntegerVector]:
-    """Return a direction, its maximum error (rad), and the first known direction parallel to it."""
+    """Return a direction as integers, its maximum error [rad], and the first known direction parallel to it."""
     way = _integer_direction([figure.value for figure in figures])
     rough = math.hypot(*(float(figure.half or 0) for figure in figures))
     sense = next((known for known in senses if parallel(known, way)), None)
@@ -219,7 +226,7 @@ def _integer_direction(parts: Sequence[Fraction]) -> IntegerVector:
 
 
 def _half_digit(length: Quantity) -> float:
-    """Return half a unit of the last decimal written (m); 0 for integers and fractions, which are exact."""
+    """Return half a unit of the last written decimal [m]; 0 for integers and fractions, which are exact."""
     number = _NUMBER.match(length.text)
     if number is None or not _DECIMAL.search(number[0]) or "/" in length.text or ":" in length.text:
         return 0.0
@@ -230,11 +237,13 @@ def _half_digit(length: Quantity) -> float:
 # ------------------------------------------------------------------------------------------------------------ contacts
 
 _Contact = tuple[IntegerVector, IntegerVector, float, float]
-"""Vectors from both axes to the pitch point, normal to the axes; errors of written positions and of floats (turns)."""
+"""Contact of a pair: vectors from both axes to the pitch point, normal to the axes; errors of declared positions and of
+rounding [turn].
+"""
 
 
 def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Contact | str:
-    """Return the contact of a pair, or the reason for which it has none."""
+    """Return the contact of a pair, or the reason why it is unknown."""
     wheels = [train.wheels[name][1] for name in circuit.wheels]
     kinds = {wheel.kind for wheel in wheels}
     if "worm" in kinds:
@@ -249,7 +258,9 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
 
 
 def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
-    """Return the contact on parallel axes: towards the other axis, or away from it for the mate of a ring."""
+    """Return the contact on parallel axes. The pitch point of a wheel is towards the other axis; for the mate of a
+    ring it is on the opposite side.
+    """
     if first.place is None or second.place is None:
         return "the positions of its axes are not declared"
     way = across_whole(minus(second.place, first.place), first.sense)
@@ -264,7 +275,9 @@ def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> 
 
 
 def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
-    """Return the contact on intersecting axes: towards the side to which the mate's cone opens."""
+    """Return the contact on intersecting axes. The pitch point of a wheel is on the side to which the mate's cone
+    opens.
+    """
     if first.place is not None and second.place is not None:
         apart = dot(minus(second.place, first.place), cross(first.way, second.way))
         reach = _norm(minus(second.place, first.place))
@@ -279,7 +292,9 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
 
 
 def _norm(vector: IntegerVector) -> Fraction:
-    """Return the length of a vector to at least 64 bits; its components may have hundreds of digits."""
+    """Return the length of an integer vector as a Fraction, to at least 64 bits; its components may have hundreds of
+    digits.
+    """
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 
 
@@ -292,8 +307,8 @@ def _turns(sine: float) -> float:
 def _azimuths(
     ways: Sequence[tuple[IntegerVector, IntegerVector]], senses: Sequence[tuple[IntegerVector, IntegerVector]]
 ) -> Floats:
-    """Return azimuths in turns, counterclockwise about each axis, from the projection of x (of y if the axis is nearly
-    x).
+    """Return azimuths about the axes [turn], counterclockwise from the projection of x (of y for an axis nearly
+    parallel to x).
     """
     if not ways:
         return np.zeros((0, 2))
@@ -302,6 +317,7 @@ def _azimuths(
         for sense in pair:
             if sense not in frames:
                 frames[sense] = _frame(sense)
+    # azimuth from the components along two perpendicular directions of each axis
     vectors = np.array([[_floats(way) for way in pair] for pair in ways])
     first = np.array([[frames[sense][0] for sense in pair] for pair in senses])
     second = np.array([[frames[sense][1] for sense in pair] for pair in senses])
@@ -321,7 +337,7 @@ def _frame(sense: IntegerVector) -> tuple[list[float], list[float]]:
 
 
 def _floats(vector: IntegerVector) -> tuple[float, float, float]:
-    """Convert a direction to floats; components of hundreds of digits are scaled first."""
+    """Return a vector in floats, scaled if its components have hundreds of digits."""
     x, y, z = vector
     top = max(abs(x), abs(y), abs(z))
     if top.bit_length() < 300:  # squares and products are within float64
@@ -339,7 +355,9 @@ def _families(
     rounded: Sequence[float],
     blurred: Sequence[float],
 ) -> tuple[list[tuple[int, int]], list[tuple[Fraction, Fraction]], frozenset[int]]:
-    """Return families of contacts of one link that are known rational fractions of a turn apart."""
+    """Return the family of each contact, its angle from the first contact of the family [turn], and the families with
+    guesses.
+    """
     heads: dict[tuple[str, str], list[tuple[int, IntegerVector, float, int]]] = {}
     guessed: set[int] = set()
     count = 0

@@ -1,7 +1,7 @@
 """Phase closure of the loops of a train: verdict, loops, wheel angles for assembly, and distributed errors.
 
-A loop has its gears in order, the divisibility rule of its tooth counts (a modulus that divides a count or a weighted
-sum of counts), and the fraction of a pitch by which its last mesh misses.
+The result for a loop has its gears in order, the divisibility rule of its tooth counts (a modulus that divides a count
+or a weighted sum of counts), and the error of its last mesh if all others mesh exactly.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class DivisibilityCondition(NamedTuple):
     modulus: int
     """Divisor of the weighted sum of the tooth counts."""
     factors: Mapping[str, int]
-    """Weight of each tooth count, by wheel."""
+    """Wheel or kind of wheel -> weight of its tooth count."""
 
 
 @dataclass(frozen=True)
@@ -60,18 +60,18 @@ class DivisibilityRule(Result):
 
     See Also
     --------
-    find_divisibility_rule : Returns it.
-    spherical_divisibility_rule : Returns it for gears with axes through one point.
+    find_divisibility_rule : returns it
+    spherical_divisibility_rule : returns it for gears with axes through one point
     """
 
     KEYS = ("text", "conditions")
 
     conditions: tuple[DivisibilityCondition, ...]
-    """Modulus, and the weight of each kind's tooth count in the sum that it divides."""
+    """Conditions, all of which must be satisfied."""
 
     @property
     def text(self) -> str:
-        """Rule in words, such as `3 divides za and 5 divides zb`."""
+        """Rule as text, such as `3 divides za and 5 divides zb`."""
         kinds = [kind for _, terms in self.conditions for kind in terms]
         short = all(
             kind[:1].isdigit() or len(kind) <= 2 for kind in kinds
@@ -80,7 +80,7 @@ class DivisibilityRule(Result):
         return " and ".join(sums) or "always"
 
     def holds(self, teeth: Mapping[str, int]) -> bool:
-        """Return True if the loops close with these tooth counts.
+        """Return whether all loops close with these tooth counts.
 
         Parameters
         ----------
@@ -91,16 +91,17 @@ class DivisibilityRule(Result):
 
 
 def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> DivisibilityRule:
-    """Find the rule under which all forms are integers: sum of form[kind] z[kind] is an integer for each form.
+    """Find the condition under which the sum of form[kind] z[kind] is an integer for each of the given linear forms.
 
-    Forms matter modulo 1, and generate a finite abelian group, which is the direct sum of its p-parts. In every part
-    the rows modulo a power of p are brought to triangular (Howell) form. Conditions on one kind only are combined
-    again.
+    Only the coefficients modulo 1 matter. The forms generate a finite abelian group, which is the direct sum of its
+    p-parts.
+    In every part the rows modulo a power of p are brought to triangular (Howell) form. Conditions on one kind only are
+    combined again.
 
     Parameters
     ----------
     forms : iterable of mapping of str to Fraction
-        Factor of each kind's tooth count.
+        Coefficient of each kind's tooth count.
 
     Returns
     -------
@@ -133,7 +134,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a condition, merged with one of another prime if the same sum expresses both."""
+    """Add a condition; merge it with a condition on a coprime modulus if one sum expresses both."""
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -159,7 +160,7 @@ def _prime_powers(number: int) -> Iterable[int]:
 
 
 def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return generators of the same group without redundant ones."""
+    """Return a set of generators of the same group without redundant ones."""
     found = _howell_form(rows, power)
     for row in found[::-1]:
         fewer = [other for other in found if other is not row]
@@ -169,13 +170,13 @@ def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[l
 
 
 def _group_order(rows: Sequence[Sequence[int]], power: int) -> int:
-    """Return the number of elements of the group."""
+    """Return the number of elements of the group that the rows generate modulo `power`."""
     firsts = (next(value for value in row if value) for row in _howell_form(rows, power))
     return math.prod(power // math.gcd(first, power) for first in firsts)
 
 
 def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return rows that generate the same group modulo a prime power, in triangular (Howell) form."""
+    """Return the Howell (triangular) form of rows modulo a prime power; it generates the same group."""
     found = []
     active = [list(row) for row in rows]
     width = len(active[0]) if active else 0
@@ -199,7 +200,7 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the equivalent condition with the smallest numbers."""
+    """Return an equivalent condition (modulus, weights) with the smallest numbers."""
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
@@ -237,43 +238,54 @@ class LoopPhase(Result):
 
     See Also
     --------
-    MeshPhasing : an example
+    MeshPhasing : has an example
     """
 
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 
     gears: tuple[str, ...]
-    """Wheels in order; two wheels of one link are joined by `+` if the loop passes from one to the other."""
+    """Wheels in order around the loop; two wheels of one link are joined by `+` if the loop passes from one to the
+    other.
+    """
     meshes: tuple[str, ...]
-    """Pairs in order, the last one closes the loop. If `together` is True, pairs of several loops in no order."""
+    """Pairs in order around the loop; the last one closes it. If `together` is True, pairs of several loops in any
+    order.
+    """
     weights: tuple[int, ...]
-    """Integer weights of the pairs in the sum of their equations; 1 and -1 except for compound wheels."""
+    """Integer weight of each pair in the sum of the phase equations; 1 or -1 except for compound wheels."""
     residue: Fraction | float
     """Deviation of the sum from the nearest integer [pitch], -1/2 to 1/2; a Fraction if it is exact."""
     slack: float
     """Maximum error of the residue [pitch]; 0 if it is exact."""
     how: ResidueKnowledge
-    """Basis of the residue: exact, recognised (exact, with fractions inferred from rounded positions), or numeric."""
+    """Basis of the residue: "exact", "recognised" (exact, with fractions inferred from rounded positions), or
+    "numeric".
+    """
     inside: Mapping[str, Fraction | float] | None
-    """Signed fraction of a turn with which each gear's tooth count enters the sum; None for compound wheels."""
+    """Wheel -> signed angle inside the loop that multiplies its tooth count in the sum [turn]; None for compound
+    wheels.
+    """
     retime: Mapping[str, float]
-    """Rotation of each wheel on its arbor, counterclockwise [pitch], that closes the loop; one of them is enough."""
+    """Wheel -> rotation on its arbor that closes the loop, counterclockwise [pitch]; rotation of one wheel is enough.
+    """
     together: bool = False
-    """True for a condition that applies only to several loops together."""
+    """True for a condition on several loops together that does not follow from the conditions of the single loops."""
 
     @property
     def kind(self) -> PhaseKind:
-        """Verdict: closes, misses, or unclear if positions are too inaccurate."""
+        """Verdict: "closes", "misses", or "unclear" if positions are too inaccurate."""
         return judge_residue(self.residue, self.slack)
 
     @property
     def miss(self) -> Fraction | float:
-        """Error of the last pair if all others mesh exactly (pitches), with the best choice of teeth to engage."""
+        """Error of the last pair if all other pairs mesh exactly [pitch], minimised over the choice of the engaged
+        teeth.
+        """
         return self.residue / self.weights[-1]
 
     @property
     def text(self) -> str:
-        """Description of the loop on one line."""
+        """Description of the loop in one line of text."""
         name = " - ".join((*self.gears, *self.gears[:1])) if self.gears else f"{', '.join(self.meshes)} together"
         if self.kind == "closes":
             return f"{name} closes{self._accuracy_remark}"
@@ -281,6 +293,7 @@ class LoopPhase(Result):
             return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
         words = f"{name} misses by {_magnitude_text(self.miss)} pitch at {self.meshes[-1]}{self._accuracy_remark}"
         if self.retime:
+            # the wheel with the smallest rotation is suggested
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
             words += f"; {wheel} turned on its arbor by {turned:.6g} pitch would close it"
         return words
@@ -293,7 +306,7 @@ class LoopPhase(Result):
 
 
 def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
-    """Return a condition with the names of gears and pairs."""
+    """Return a phase condition with the names of its wheels and pairs."""
     gears: list[str] = []
     over: dict[str, int] = {}
     cycle = condition.cycle
@@ -302,6 +315,7 @@ def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
         before = cycle.meshes[-1]
         for node, mesh in zip(cycle.nodes, cycle.meshes, strict=True):
             came, goes = (_wheel(problem, one, node) for one in (before, mesh))
+            # different wheels: the loop passes over a compound wheel
             gears.append(came if came == goes else f"{came}+{goes}")
             if came != goes:
                 over |= {came: _sum_change(problem, before, node, row), goes: _sum_change(problem, mesh, node, row)}
@@ -325,15 +339,13 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of a loop's sum when one wheel is rotated on its arbor by one pitch."""
+    """Return the change of a loop's sum [pitch] if one wheel is rotated on its arbor by one pitch."""
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return the signed and weighted azimuths of both contacts of each gear, summed: the angle inside the loop
-    (turns).
-    """
+    """Return for each gear the angle between its two contacts in the loop, signed and weighted [turn]."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -343,6 +355,7 @@ def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str,
         part: Fraction | float = Fraction(0)
         for one in (before, mesh):
             side = problem.ends[one][1] == node
+            # families cancel in an exact residue, so angles within the family suffice
             angle = contacts.part[one][side] if exact else float(contacts.azimuth[one, int(side)])
             part += _sum_change(problem, one, node, condition.row) * angle
         gear = _wheel(problem, mesh, node)
@@ -363,13 +376,14 @@ _SHOWN = 10  # maximum number of loops listed in a text
 
 @dataclass(frozen=True)
 class MeshPhasing(Result):
-    """Assembly condition: whether the teeth of every loop meet, and the angles at which the wheels are assembled.
+    """Assembly condition: whether the teeth of every loop mesh, and the angles at which the wheels are mounted.
 
-    Equations (1) to (4) of docs/closure.md. True unless a loop misses or is unclear.
+    The equations are (1) to (4) of docs/closure.md. The result is True unless a loop misses or is unclear.
 
     Examples
     --------
-    Two planets of 18 teeth opposite each other between 24 and 60; 2 divides 24 + 60, so they can be assembled.
+    Two planets with 18 teeth are placed opposite each other between a sun with 24 teeth and a ring with 60. They can be
+    assembled, because 2 divides 24 + 60.
 
     >>> import geartrain
     >>> found = geartrain.load("planets-in-place").closure
@@ -393,7 +407,7 @@ class MeshPhasing(Result):
         "spread",
         "fits",
         "unjudged",
-        "left_out",
+        "omitted",
         "rigid",
         Key("complete", "problem.complete"),
     )
@@ -403,11 +417,11 @@ class MeshPhasing(Result):
     problem: PhaseSystem = field(repr=False)
     """Phase equations of all meshes."""
     backlashes: Mapping[str, float] = field(default_factory=dict)
-    """Backlash of pairs whose tooth form determines it [pitch]."""
+    """Pair -> circumferential backlash [pitch], for pairs whose tooth form determines it."""
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
-    """Function that returns for each wheel the name of its tooth count in `rule`."""
+    """Function that returns for each wheel the name of its tooth count in `rule`; equal wheels have one name."""
     unjudged: int = 0
-    """Number of loops through a pair or pin with unknown position."""
+    """Number of loops that cannot be checked, because a pair or pin in them has no known position."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):
@@ -417,18 +431,18 @@ class MeshPhasing(Result):
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
-        """A cycle basis of short loops, followed by conditions that apply to several loops together."""
+        """Conditions of a cycle basis of short loops, followed by conditions on several loops together."""
         return _Loops(self.problem)
 
     @cached_property
     def missing(self) -> tuple[int, ...]:
-        """Indices of the loops that do not close, the worst first."""
+        """Indices of the loops that do not close, sorted by falling error."""
         found = [(-abs(float(one.miss)), at) for at, one in enumerate(self.problem.conditions) if one.kind == "misses"]
         return tuple(at for _, at in sorted(found))
 
     @cached_property
     def kind(self) -> PhaseKind:
-        """Verdict: closes, misses, unclear (a loop cannot be decided), or open (no loop can be checked)."""
+        """Verdict: "closes", "misses", "unclear" (a loop cannot be decided), or "open" (no loop can be checked)."""
         if self.missing:
             return "misses"
         if not self.problem.conditions:
@@ -441,30 +455,30 @@ class MeshPhasing(Result):
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Basis of the residues, the weakest of all loops: exact, recognised or numeric."""
+        """Basis of the residues, the weakest of all loops: "exact", "recognised" or "numeric"."""
         ways = {one.how for one in self.problem.conditions}
         return "numeric" if "numeric" in ways else "recognised" if "recognised" in ways else "exact"
 
     @property
     def rigid(self) -> int:
-        """Number of loops with a ratio product other than 1; they cannot turn, and have no phase condition."""
+        """Number of loops with a ratio product other than 1. They cannot turn, and have no phase condition."""
         return len(self.problem.parts.breaking)
 
     @property
-    def left_out(self) -> tuple[UnplacedPair, ...]:
-        """Pairs and couplings with unknown position."""
-        return self.problem.contacts.left_out
+    def omitted(self) -> tuple[UnplacedPair, ...]:
+        """Pairs and couplings whose positions are unknown."""
+        return self.problem.contacts.omitted
 
     @cached_property
     def worst(self) -> Fraction | float:
-        """Largest magnitude of the miss of a loop (pitches)."""
+        """Maximum magnitude of the error of a loop's last pair [pitch]."""
         misses = [one.miss for one in self.problem.conditions]
         worst = max(misses, key=lambda miss: abs(float(miss)), default=Fraction(0))
         return -worst if worst < 0 else worst
 
     @cached_property
     def angles(self) -> Mapping[str, float]:
-        """Angle of the zero mark of every link (rad, 0 to 2 pi) at which all teeth mesh.
+        """Angle of the zero mark of every link at which all teeth mesh [rad], 0 to 2 pi.
 
         Angles are counterclockwise about the positive sense of the axis from the projection of x (of y if the axis is
         nearly x), with carriers in their declared pose if possible. All wheels of a link have a tooth at its mark. If
@@ -480,7 +494,9 @@ class MeshPhasing(Result):
 
     @cached_property
     def wheels(self) -> Mapping[str, float]:
-        """Angle of the first tooth of every wheel from its reference direction (rad, from 0 to its pitch)."""
+        """Angle of the first tooth of every wheel from its reference direction [rad], 0 to the angular pitch of the
+        wheel.
+        """
         angles, found = self.angles, {}
         for circuit in self.problem.circuits:
             teeth = (circuit.a, abs(circuit.b))
@@ -490,32 +506,34 @@ class MeshPhasing(Result):
 
     @cached_property
     def errors(self) -> Mapping[str, float]:
-        """Error of every pair if the misses are distributed by least squares (pitches)."""
+        """Error of every pair if the errors of the loops are distributed by least squares [pitch]."""
         return self._errors(self.problem.spread_angles)
 
     @property
     def spread_errors(self) -> Mapping[str, float]:
-        """Error of every pair by least squares (pitches); empty if all loops close."""
+        """Error of every pair by least squares [pitch], as in `errors`; empty if all loops close."""
         return self.errors if self.missing else {}
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Error of every pair if the pairs assembled last take all misses (pitches)."""
+        """Error of every pair if the pairs assembled last have the whole error of the loops [pitch]."""
         return self._errors(self.problem.tree_angles)
 
     @cached_property
     def last(self) -> float:
-        """Largest magnitude of `last_errors` (pitches); residues of loops accumulate."""
+        """Maximum magnitude of `last_errors` [pitch]; 0 if all loops close."""
         return max(map(abs, self.last_errors.values()), default=0.0) if self.missing else 0.0
 
     @cached_property
     def spread(self) -> float:
-        """Largest magnitude of the distributed errors (pitches); 0 if all loops close."""
+        """Maximum magnitude of the distributed errors [pitch]; 0 if all loops close."""
         return max(map(abs, self.errors.values()), default=0.0) if self.missing else 0.0
 
     @cached_property
     def fits(self) -> bool | None:
-        """True if the backlash can absorb the distributed errors; None if it is unknown for a pair with an error."""
+        """True if the backlash of each pair absorbs its distributed error; None if the backlash of such a pair is
+        unknown.
+        """
         if not self.missing:
             return None if self.kind == "unclear" else True
         errors = self.errors
@@ -527,7 +545,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def rule(self) -> DivisibilityRule | None:
-        """Divisibility rule of the tooth counts; None if loops are not exact, or wheels are compound."""
+        """Divisibility rule of the tooth counts; None if loops are not exact, or if wheels are compound."""
         forms, kinds = [], self.alike()
         for loop in self.loops:
             form = _by_kind(loop.inside, kinds)
@@ -549,6 +567,7 @@ class MeshPhasing(Result):
         elif self.kind == "misses":
             yield f"phase closure: {len(self.missing)} of {loops} miss{'es' if len(self.missing) == 1 else ''}"
         elif self.kind == "closes":
+            # maximum error of all residues
             near = f"to {max(one.slack for one in self.problem.conditions):.1g} pitch"
             ways = {"exact": "exactly", "recognised": "exactly, with angles inferred from rounded positions"}
             yield f"phase closure: {loops} close{'s' if count == 1 else ''}, {ways.get(self.how, near)}"
@@ -564,7 +583,7 @@ class MeshPhasing(Result):
         if self.unjudged:
             passes = "loop passes" if self.unjudged == 1 else "loops pass"
             yield f"  {self.unjudged} {passes} through pairs with unknown position, not checked:"
-            yield from (f"    {one.name}: {one.why}" for one in self.left_out[:_SHOWN])
+            yield from (f"    {one.name}: {one.why}" for one in self.omitted[:_SHOWN])
         if self.rigid:
             yield f"  {self.rigid} loop{'s' if self.rigid > 1 else ''} cannot turn, without phase condition"
         if not self.problem.complete:
@@ -587,7 +606,7 @@ class MeshPhasing(Result):
 
 
 class _Loops(Sequence[LoopPhase]):
-    """Sequence of conditions that are described on access."""
+    """Sequence of loop results, each of which is computed when it is accessed."""
 
     def __init__(self, problem: PhaseSystem) -> None:
         self.problem = problem
@@ -623,11 +642,11 @@ _OFF = 1e-6  # tolerance (turns) of the positions of contacts declared as regula
 
 
 class SphericalGears(Protocol):
-    """Gears with axes through one point.
+    """Protocol of a configuration of gears whose axes pass through one point.
 
     See Also
     --------
-    geartrain.spherical.Configuration : Has these attributes.
+    geartrain.spherical.Configuration : has these attributes
     """
 
     @property
@@ -636,23 +655,25 @@ class SphericalGears(Protocol):
 
     @property
     def axes(self) -> Floats:
-        """Outward unit vectors, (gears, 3)."""
+        """Outward unit vectors of the axes, shape (gears, 3)."""
 
     @property
     def meshes(self) -> tuple[tuple[int, int], ...]:
-        """Pairs of gears by index."""
+        """Meshing pairs of gears, by index."""
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """Kind of each gear."""
+        """Kind of each gear; gears of one kind have equal tooth counts."""
 
     @property
     def regular(self) -> tuple[int, ...]:
-        """Integer p for each gear if its contacts are at multiples of 1/p turn; 0 if angles are floats."""
+        """Integer p of each gear if its contacts are at multiples of 1/p turn; 0 if the angles are known only as
+        floats.
+        """
 
     @property
     def teeth(self) -> Mapping[str, int]:
-        """Tooth count of each kind."""
+        """Tooth count of each kind of gear."""
 
 
 def find_phasing(
@@ -660,12 +681,12 @@ def find_phasing(
 ) -> MeshPhasing:
     """Check the phase closure of a declared train, in the pose in which its moving axes are declared.
 
-    backlashes   backlash of the teeth by pair (pitches), as far as it is known
+    backlashes   pair -> circumferential backlash [pitch], as far as it is known
     """
     contacts = place_pitch_points(train, tree, circuits)
     parts = find_components(_links(train, contacts.circuits), train.frame, contacts.circuits)
     unjudged = 0
-    if contacts.left_out:
+    if contacts.omitted:
         every = [mount_frame_wheels(circuit, train.frame) for circuit in circuits]
         whole = find_components(_links(train, every), train.frame, every)
         unjudged = max(len(whole.closing) - len(parts.closing), 0)
@@ -673,13 +694,12 @@ def find_phasing(
 
 
 def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
-    """Return all links, and the frame's wheels as separate links."""
     mounts = (link for circuit in circuits for link in (circuit.i, circuit.j) if MOUNT in link)
     return tuple(dict.fromkeys([*train.links, *mounts]))
 
 
 def _equal_wheels(train: Train) -> dict[str, str]:
-    """Map wheels that are equal and have equal mates to the name of the first of them."""
+    """Return for each wheel the name of the first wheel that is equal and has equal mates."""
     marks = {name: (wheel.count, wheel.internal) for name, (_, wheel) in train.wheels.items()}
     mates: dict[str, list[object]] = {name: [] for name in marks}
     for gear in train.gears:
@@ -698,12 +718,12 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
     configuration : SphericalGears
         Configuration of gears, such as a `geartrain.spherical.Configuration`.
     teeth : mapping of str to int, optional
-        Tooth count of each kind, instead of those of the configuration.
+        Kind -> tooth count, instead of the counts of the configuration.
 
     Returns
     -------
     MeshPhasing
-        Angles of links are measured from the first direction of `configuration.frame`.
+        Phasing; angles of links are measured from the first direction of `configuration.frame`.
 
     Raises
     ------
@@ -744,7 +764,7 @@ def spherical_divisibility_rule(configuration: SphericalGears) -> DivisibilityRu
     Returns
     -------
     DivisibilityRule or None
-        None if contacts are not at known rational fractions of a turn.
+        Rule; None if contacts are not at known rational fractions of a turn.
 
     Examples
     --------
@@ -782,7 +802,8 @@ def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> P
             step = (turn - first.setdefault(gear, turn)) * parts
             if abs(step - round(step)) > _OFF * parts:
                 what = f"'{configuration.names[gear]}' has contacts that are not multiples of 1/{parts} turn apart"
-                raise QuestionError(Trouble(what, "it is declared regular", "declare it with `regular` 0"))
+                why = f"it is declared with `regular` {parts}"
+                raise QuestionError(Trouble(what, why, "declare it with `regular` 0"))
             found.append(Fraction(round(step), parts) % 1 if parts else Fraction(0))
             key.append(gear if parts else (len(keys), gear))
         part.append((found[0], found[1]))
@@ -794,8 +815,8 @@ def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> P
 
 
 def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats]:
-    """Return azimuths (turns) of both contacts of every mesh about outward axes, and the sine of the angle between the
-    axes.
+    """Return the azimuths of both contacts of every mesh about outward axes [turn], and the sine of the angle between
+    the axes.
 
     The azimuth is measured from the direction normal to the axis and to the coordinate axis farthest from it.
     """

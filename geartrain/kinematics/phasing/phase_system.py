@@ -1,4 +1,6 @@
-"""Phases of all meshes as one system modulo a pitch: residues of a cycle basis, link angles, distributed errors."""
+"""Phases of all meshes as one linear system modulo a pitch: residues of a cycle basis, link angles, distributed
+errors.
+"""
 
 from __future__ import annotations
 
@@ -25,16 +27,16 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 Row = Mapping[int, int]
-"""Integer weights of meshes."""
+"""Integer combination of the equations of meshes: mesh -> weight."""
 
 
 class PhaseCycle(NamedTuple):
-    """A loop. nodes[k] lies between meshes[k - 1] and meshes[k], and nodes[0] follows the last mesh."""
+    """Loop of meshes. nodes[k] is between meshes[k - 1] and meshes[k], and nodes[0] follows the last mesh."""
 
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
-    """Coprime integers with which the left sides of the equations of the meshes add up to 0."""
+    """Coprime integers; with them as weights, the left sides of the equations of the meshes add up to 0."""
 
     @property
     def row(self) -> dict[int, int]:
@@ -52,10 +54,10 @@ _Edges = dict[int, list[tuple[int, int]]]
 def find_cycle_basis(
     parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
 ) -> list[PhaseCycle]:
-    """Return a cycle basis: for each chord the shortest loop through it and the tree or chords taken before.
+    """Return a cycle basis: for each chord the shortest loop through it, the search tree, and chords that were used
+    before.
 
-    Each loop contains its own chord and no chord that is taken later, so the loops are independent and generate all
-    loops.
+    Each loop contains its own chord and no later chord, so the loops are independent and generate all loops.
     """
     groups = {parts.node_group[ends[chord][0]] for chord in parts.closing}
     edges: _Edges = {}
@@ -93,6 +95,7 @@ def node_depths(parts: Components) -> list[int]:
         while node >= 0 and depth[node] < 0:
             way.append(node)
             node = parts.node_parent[node]
+        # `way` ends at a known node, or at a root with depth 0
         level = depth[node] if node >= 0 else -1
         for below, back in enumerate(reversed(way), 1):
             depth[back] = level + below
@@ -144,7 +147,7 @@ def _joined_path(
 def cycle_weights(
     circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], nodes: Sequence[int], meshes: Sequence[int]
 ) -> tuple[int, ...]:
-    """Return weights that cancel at every node, with a positive weight of the last mesh."""
+    """Return weights for which the coefficients cancel at every node; the weight of the last mesh is positive."""
     weights: list[Fraction | int] = [1]
     for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
         came, goes = mesh_coefficient(circuits, ends, before, node), mesh_coefficient(circuits, ends, mesh, node)
@@ -158,7 +161,7 @@ def cycle_weights(
 
 
 def mesh_coefficient(circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]], mesh: int, node: int) -> int:
-    """Return the coefficient of a node's angle in the equation of a mesh."""
+    """Return the coefficient (a or b) of a node's angle in the equation of a mesh."""
     return circuits[mesh].a if ends[mesh][0] == node else circuits[mesh].b
 
 
@@ -169,16 +172,16 @@ _BUDGET = 10**7  # operations of elimination; beyond, trains of coupled planetar
 
 Number = Fraction | float
 Left = Callable[[int, Sequence[Number]], Number]
-"""Function that returns the remaining constant of a mesh at given angles of the nodes."""
+"""Function that returns the constant of a mesh minus its left side at given angles of the nodes [pitch]."""
 
 
 @dataclass(frozen=True)
 class CarrierCoupling:
     """Coupling of components through shared links and carriers.
 
-    rows       weights of meshes of several carriers with which the left sides of their equations add up to 0
-    complete   False if the search for them was given up
-    forms      unknowns of the components as forms of the angles at which they meet (symbol -1 - equation)
+    rows       weights of meshes of several carriers, with which the left sides of their equations add up to 0
+    complete   False if the search for `rows` exceeded its budget
+    forms      unknowns of the components as linear forms of the angles at which they meet (symbol -1 - equation)
     """
 
     reduced: ReducedSystem
@@ -189,13 +192,13 @@ class CarrierCoupling:
 
     @property
     def complete(self) -> bool:
-        """False if the system was too dense to be solved, so that only loops of one carrier are known."""
+        """False if elimination exceeded its budget, so only loops of one carrier are known."""
         return self.forms is not None
 
     def angles(self, nodes: Sequence[Number], left: Left) -> list[Number]:
-        """Convert angles of nodes, relative to their carriers, to angles of links (turns).
+        """Return angles of links [turn] from angles of nodes, which are relative to carriers [turn].
 
-        Free unknowns are 0, so carriers are in their declared pose.
+        Free unknowns are set to 0: carriers are in their declared pose.
         """
         parts, own = self.reduced.components, self.reduced.own
         together = [self._angle_difference(at, nodes, left) for at in range(len(self.reduced.origin))]
@@ -213,7 +216,9 @@ class CarrierCoupling:
         return found
 
     def _angle_difference(self, at: int, nodes: Sequence[Number], left: Left) -> Number:
-        """Return the difference of a link's angles relative to two carriers, or the required angle of a rigid loop."""
+        """Return the difference of a link's angles relative to two carriers, or the angle that a loop that cannot turn
+        requires [turn].
+        """
         parts = self.reduced.components
         kind, first, node = self.reduced.origin[at]
         if kind == "share":
@@ -227,7 +232,7 @@ class CarrierCoupling:
 def find_carrier_coupling(
     parts: Components, circuits: Sequence[Circuit], ends: Sequence[tuple[int, int]]
 ) -> CarrierCoupling:
-    """Solve the equations that couple the components, with the angles at which they meet as symbols."""
+    """Solve the equations that couple the components; the angles at which components meet are symbols."""
     reduced = reduce_components(parts)
     try:
         equations = ({**row, -at - 1: Fraction(-1)} for at, row in enumerate(reduced.equations))
@@ -258,7 +263,7 @@ def _add_contributions(
     factor: Fraction,
     total: dict[int, Fraction],
 ) -> None:
-    """Add the contribution of each mesh constant on the path from the root to a node's angle."""
+    """Add the weight of each mesh constant on the path from the root to a node in the node's angle, times `factor`."""
     speed = parts.relative(node) * factor
     while parts.node_parent[node] >= 0:
         mesh = parts.node_circuit[node]
@@ -282,39 +287,43 @@ _SAME = 1e-6  # pitch: tolerance at which no tooth changes its gap
 
 @dataclass(frozen=True)
 class PhaseCondition:
-    """Meshes whose left sides add up to 0, so that their constants must add up to an integer number of pitches."""
+    """Condition on meshes whose left sides add up to 0: the weighted sum of their constants must be an integer number
+    of pitches.
+    """
 
     cycle: PhaseCycle | None
-    """Loop of the condition; None if it applies to several loops together."""
+    """Loop of the condition; None for a condition on several loops together."""
     row: Mapping[int, int]
-    """Weight of each mesh."""
+    """Mesh -> integer weight."""
     residue: Fraction | float
-    """Sum minus the nearest integer (pitches); a Fraction if it is exact."""
+    """Weighted sum of the constants minus the nearest integer [pitch]; a Fraction if it is exact."""
     slack: float
-    """Maximum error of the residue (pitches)."""
+    """Maximum error of the residue [pitch]."""
     guessed: bool
-    """True if an exact residue depends on angles recognised from rounded positions."""
+    """True if an exact residue depends on fractions that were recognised from rounded positions."""
 
     @property
     def kind(self) -> PhaseKind:
-        """Verdict: closes, misses, or unclear if positions are too inaccurate."""
+        """Verdict: "closes", "misses", or "unclear" if positions are too inaccurate."""
         return judge_residue(self.residue, self.slack)
 
     @property
     def how(self) -> ResidueKnowledge:
-        """Basis of the residue: exact, recognised or numeric."""
+        """Basis of the residue: "exact", "recognised" or "numeric"."""
         if not isinstance(self.residue, Fraction):
             return "numeric"
         return "recognised" if self.guessed else "exact"
 
     @property
     def miss(self) -> Fraction | float:
-        """Error of the last mesh if all others mesh exactly (pitches)."""
+        """Error of the last mesh if all other meshes mesh exactly [pitch]."""
         return self.residue / (self.cycle.weights[-1] if self.cycle else list(self.row.values())[-1])
 
 
 def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
-    """Return closes, misses, or unclear if positions are too inaccurate."""
+    """Return "misses" if the residue [pitch] exceeds its error `slack`, "unclear" if `slack` is too large, else
+    "closes".
+    """
     if abs(float(residue)) > slack:
         return "misses"
     return "unclear" if slack > _UNCLEAR else "closes"
@@ -322,8 +331,9 @@ def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
 
 @dataclass(frozen=True)
 class PhaseSystem:
-    """System a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md; angles in turns, c in
-    pitches.
+    """Phase equations of all meshes, a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md.
+
+    Angles theta are in turns, constants c in pitches.
     """
 
     parts: Components
@@ -341,12 +351,12 @@ class PhaseSystem:
 
     @cached_property
     def cycles(self) -> list[PhaseCycle]:
-        """Cycle basis of short loops."""
+        """Loops of a cycle basis, which are as short as possible."""
         return find_cycle_basis(self.parts, self.circuits, self.ends)
 
     @cached_property
     def coupling(self) -> CarrierCoupling:
-        """Coupling of components by links that occur relative to several carriers."""
+        """Coupling of components through links that turn relative to several carriers."""
         return find_carrier_coupling(self.parts, self.circuits, self.ends)
 
     @cached_property
@@ -358,7 +368,7 @@ class PhaseSystem:
 
     @cached_property
     def conditions(self) -> list[PhaseCondition]:
-        """Conditions of all loops, followed by those that apply to several loops together."""
+        """Conditions of all loops, followed by conditions on several loops together."""
         cycles = self.cycles
         with collector_paused():
             found = [self._condition(cycle, cycle.row) for cycle in cycles]
@@ -375,7 +385,9 @@ class PhaseSystem:
 
     @cached_property
     def _unequal_rows(self) -> list[dict[int, int]]:
-        """Rows whose integer combinations may have common factors: all rows of components with unequal weights."""
+        """Rows whose integer combinations may have common factors: all rows of components in which weights differ from
+        1 and -1.
+        """
         if not self.cycles:
             return list(self.coupling.rows)
         group = self.parts.node_group
@@ -396,7 +408,7 @@ class PhaseSystem:
         families = self._families(cycle, row)
         slack = 0.0
         for mesh, weight in row.items():
-            slack += abs(weight) * self._doubt[mesh]
+            slack += abs(weight) * self._uncertainty[mesh]
         if families is None:
             # fsum rounds once, so the result does not depend on the order of the meshes
             total = math.fsum(self._weighted(weight, self._constant[mesh]) for mesh, weight in row.items())
@@ -413,8 +425,8 @@ class PhaseSystem:
         return values
 
     @cached_property
-    def _doubt(self) -> list[float]:
-        values: list[float] = self.contacts.doubt.tolist()
+    def _uncertainty(self) -> list[float]:
+        values: list[float] = self.contacts.uncertainty.tolist()
         return values
 
     @staticmethod
@@ -426,8 +438,8 @@ class PhaseSystem:
         )  # exact, because a large weight would cancel the digits of the fraction
 
     def _families(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> list[int] | None:
-        """Return the families of all contacts if they cancel at every node; None if the residue is known in floats
-        only.
+        """Return the families of all contacts of a condition if their unknown angles cancel; None if the residue is
+        known only in floats.
         """
         family = self.contacts.family
         if cycle is not None:
@@ -435,6 +447,7 @@ class PhaseSystem:
             before = cycle.meshes[-1]
             for node, mesh in zip(cycle.nodes, cycle.meshes, strict=True):
                 came = family[before][self.ends[before][1] == node]
+                # contacts of different families have an unknown angle between them
                 if came != family[mesh][self.ends[mesh][1] == node]:
                     return None
                 found.append(came)
@@ -451,7 +464,9 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integer pitches to add to constants, so that loops with unequal weights close as nearly as possible."""
+        """Integer pitches to add to the constants of meshes, which minimise the residues of loops with compound
+        wheels.
+        """
         basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
@@ -465,7 +480,8 @@ class PhaseSystem:
 
     @cached_property
     def _tree_nodes(self) -> list[Number]:
-        """Angles of nodes relative to their carriers that satisfy every mesh of the search tree.
+        """Angles of nodes relative to their carriers that satisfy the equation of every mesh in the search tree
+        [turn].
 
         With compound wheels, a full turn of one link changes the engagement of others; these angles are exact
         fractions.
@@ -473,6 +489,7 @@ class PhaseSystem:
         parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
         found: list[Number] = list(nodes)
         level = node_depths(parts)
+        # from the roots outwards, so that the predecessor is known
         for node in sorted(range(len(nodes)), key=level.__getitem__):
             up = parts.node_parent[node]
             if up < 0:
@@ -493,7 +510,7 @@ class PhaseSystem:
 
     @cached_property
     def tree_angles(self) -> list[float]:
-        """Angles of links (turns) that satisfy every mesh except those that close loops."""
+        """Angles of links that satisfy the equations of all meshes except those that close loops [turn]."""
         return self._link_angles(self._tree_nodes)
 
     def _link_angles(self, nodes: Sequence[Number]) -> list[float]:
@@ -505,7 +522,7 @@ class PhaseSystem:
 
     @cached_property
     def _link_rows(self) -> SparseRows:
-        """Links and coefficients of every mesh: its two links and its carrier."""
+        """Indices of the two links and the carrier of every mesh, with their coefficients."""
         index = self.parts.index
         links = np.array([(index[c.i], index[c.j], index[c.carrier]) for c in self.circuits]).reshape(-1, 3)
         teeth = self.contacts.teeth
@@ -518,14 +535,16 @@ class PhaseSystem:
         return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
     def _without_rigid_loops(self, factors: Floats) -> Floats:
-        """Return the factors with rows of 0 for meshes that close rigid loops, which have no phase condition."""
+        """Return the coefficients with rows of 0 for meshes whose loops cannot turn, because these have no phase
+        condition.
+        """
         found = factors.copy()
         found[list(self.parts.breaking)] = 0.0  # rigid loops have no phase condition
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """Return the error of every mesh (pitches) at given angles of links (turns); 0 for meshes that close a rigid
-        loop.
+        """Return the error of every mesh [pitch] at given angles of links [turn]; 0 for meshes whose loops cannot
+        turn.
         """
         return self._errors(self._link_rows, np.asarray(angles))
 
@@ -538,12 +557,11 @@ class PhaseSystem:
 
     @cached_property
     def spread_angles(self) -> list[float]:
-        """Angles of links with the smallest sum of squared errors that was found.
+        """Angles of links with the smallest sum of squared errors that was found [turn].
 
-        The assignment of teeth to gaps starts from two choices: errors of the pairs that close loops below half a
-        pitch, and residues of short loops below half a pitch. Then errors are distributed by least squares and teeth
-        are reassigned until nothing changes. Each step reduces the sum. It is not proved that no other assignment is
-        better.
+        Two initial assignments of teeth to gaps are tried: one with errors below half a pitch at the pairs that
+        close loops, one with residues of short loops below half a pitch. Then errors are distributed by least squares
+        and teeth are reassigned until nothing changes. Each step reduces the sum. The result is a local minimum.
         """
         start = self.errors(self.tree_angles)
         starts = [self._loop_errors(start), start][: 2 if self._node_rows.small(len(start)) else 1]
@@ -551,8 +569,8 @@ class PhaseSystem:
         return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
 
     def _loop_errors(self, errors: Floats) -> Floats:
-        """Return errors of the meshes that close loops, with integer pitches added so that residues of short loops are
-        small.
+        """Return the errors of all meshes [pitch], with integers added to meshes that close loops so that short loops
+        have small residues.
         """
         found = errors.tolist()
         for condition in self.conditions:
@@ -563,7 +581,9 @@ class PhaseSystem:
         return np.array(found)
 
     def _distribute(self, errors: Floats) -> list[float]:
-        """Distribute the errors; carriers are kept in place unless they are geared to each other."""
+        """Return angles of links with distributed errors [turn]; carriers keep their angles unless gears connect
+        them.
+        """
         if self.coupling.rows:
             together = np.mod(self._iterate(self._link_rows, np.array(self.tree_angles), errors), 1.0)
             return [float(angle) for angle in together]
@@ -572,7 +592,9 @@ class PhaseSystem:
         return self._link_angles([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
 
     def _iterate(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
-        """Distribute errors by least squares and reassign teeth to gaps, alternately until nothing changes."""
+        """Return angles [turn] after least squares and reassignment of teeth to gaps, alternately until nothing
+        changes.
+        """
         for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
             step = rows.least_squares(errors)
             angles = angles + step

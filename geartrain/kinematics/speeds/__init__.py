@@ -1,4 +1,4 @@
-"""Speeds from circuits, exact or in floats with error estimates; mobility and verdict without any tolerance."""
+"""Speeds from circuits, exact or in floats with error estimates; mobility and verdict, decided without tolerances."""
 
 from __future__ import annotations
 

@@ -3,7 +3,8 @@
 Propagation is tried first: if two of a circuit's three links are known, the third follows. It solves ordinary trains,
 and every train whose links are driven one after another, in integers and in linear time. If it stops (a planetary set
 with a fixed ring needs two circuits at once), the coupled system is reduced to components and solved by Gaussian
-elimination. The diagnosis names the loops and prescriptions of systems without a unique solution.
+elimination. If a solution does not exist or is not unique, the diagnosis names the loops, inputs, brakes and locks that
+cause this.
 """
 
 from __future__ import annotations
@@ -38,7 +39,9 @@ _ZERO = Fraction(0)
 
 
 class PrescriptionStatement(NamedTuple):
-    """One prescription: its kind (input, fixed, lock), its text, the text of its declaration, and its speed."""
+    """Input, brake or lock of a case: its kind (input, fixed, lock), its text, the text of its declaration, and its
+    speed.
+    """
 
     kind: str
     text: str
@@ -47,7 +50,7 @@ class PrescriptionStatement(NamedTuple):
 
 
 def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], budget: int | None = None) -> Verdict:
-    """Return the verdict on an inconsistent case, locked or contradictory, with its certificate.
+    """Return the verdict on a case without a solution, locked or contradictory, with its certificate.
 
     An input is locked if its link cannot move whatever the other inputs are. Inputs that can move separately but not
     together are contradictory. The certificate needs much memory for a long coupled train; beyond `budget` operations
@@ -76,12 +79,12 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return the factor of each tagged equation in a row of symbols."""
+    """Return equation number -> factor from a row of symbols, whose columns are -1 - number."""
     return {-1 - column: value for column, value in row.items()}
 
 
 def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm:
-    """Return a row with its solved unknowns substituted."""
+    """Return a linear form with its solved unknowns replaced by their values."""
     resolved: LinearForm = {}
     for column, coefficient in row.items():
         add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
@@ -100,7 +103,9 @@ def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
 
 
 def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Return the verdict without a certificate: locked if an input cannot move, else contradictory."""
+    """Return the verdict on a case without a solution, without certificate: locked if an input cannot move, else
+    contradictory.
+    """
     given = tuple(map(case.given, case.inputs))
     stuck = _locked_inputs(reduced, case)
     if stuck:
@@ -117,6 +122,7 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
     rows += [
         {**reduced.form(reduced.components.index[link]), -1 - at: Fraction(1)} for at, link in enumerate(case.inputs)
     ]
+    # conditions contain only symbols: relations between the inputs
     left = eliminate(map(residues, rows), modulus=PRIME).conditions
     said = [{-1 - column: value for column, value in row.items()} for row in left]
     rank = rank_modulo(said)
@@ -130,7 +136,9 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations, each with its own symbol -1-t, where t counts structural rows first, then prescriptions."""
+    """Return all equations with an own symbol -1-t each, where t counts structural rows first, then inputs, brakes and
+    locks.
+    """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
     statements: list[PrescriptionStatement] = [
@@ -143,6 +151,7 @@ def _tagged(
             PrescriptionStatement("input", case.given(link), case.given(link), speed * signs.get(link, 1))
         )
     for tag, row in enumerate(rows):
+        # the symbols show which equations a contradiction is combined from
         row[-1 - tag] = Fraction(-1)
     return rows, statements
 
@@ -150,16 +159,18 @@ def _tagged(
 def _describe_contradiction(
     reduced: ReducedSystem, case: StateCase, given: Mapping[int, Fraction], statements: Sequence[PrescriptionStatement]
 ) -> Verdict:
-    """Describe one contradiction. `given` has the factor of each equation in it."""
+    """Return the verdict on one contradiction; `given` has the factor of each equation in it."""
     parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
     inputs = [(stated.text, value, stated.speed) for stated, value in used if stated.kind == "input"]
     moving = [text for text, _, speed in inputs if speed]
     held = [stated.text for stated, _ in used if stated.kind != "input"]
     prescriptions = tuple(dict.fromkeys(stated.declared for stated, _ in used))
+    # loops whose equations are in the certificate
     chords = [reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"]
     loops = tuple(parts.loop(chord) for chord in chords)
     shut = f"{abridged_names([*map(str, loops)], '; ')} {'does' if len(loops) == 1 else 'do'} not close"
+    # one input: it is locked; several: their speeds contradict each other
     if len(inputs) == 1:
         link = inputs[0][0].split(" = ")[0]
         if loops:
@@ -168,6 +179,7 @@ def _describe_contradiction(
             by = " and ".join(held) if held else f"the pairs {abridged_names(_pairs(reduced, given, structural))}"
             text = f"input '{link}' is locked to the frame: {by}"
         return Verdict("locked", text, prescriptions=prescriptions, loops=loops)
+    # the relation between the inputs with coprime integer factors
     scale = lcm(*(value.denominator for _, value, _ in inputs))
     numbers = [int(value * scale) for _, value, _ in inputs]
     common = gcd(*numbers) * (1 if numbers[0] > 0 else -1)
@@ -185,12 +197,15 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the gear pairs that take part in a contradiction: the paths between the shared links of its equations."""
+    """Return the names of the gear pairs in a contradiction: those on the paths between the shared links of its
+    equations.
+    """
     parts = reduced.components
     touched: dict[int, set[int]] = {}
     for tag in given:
         if tag < structural and reduced.origin[tag][0] == "share":
             _, link, _ = reduced.origin[tag]
+            # a link in several components couples them; the pairs between such links are concerned
             for node in parts.nodes_of[link]:
                 touched.setdefault(parts.node_group[node], set()).add(node)
     found = {circuit: None for nodes in touched.values() for circuit in parts.path(sorted(nodes))}
@@ -198,7 +213,7 @@ def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: in
 
 
 def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Return the verdict on a case in which no input is driven and every link is locked, by loops or brakes."""
+    """Return the verdict on a case in which no input moves, and loops or brakes lock every link."""
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
     holding = [case.declares(link) for link in case.fixed] + [case.declares(a, b) for a, b in case.locks]
@@ -216,7 +231,9 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """Return the verdict with all undetermined links, and a smallest set of links whose speeds would determine them."""
+    """Return the verdict with all undetermined links, and a smallest set of links whose speeds would determine the
+    others.
+    """
     index = reduced.components.index
     rows: list[LinearForm] = []
     fixes: list[str] = []
@@ -236,7 +253,8 @@ def free_verdict(
     more = (
         ("one more input" if given else "an input") if freedom == 1 else f"{freedom}{' more' if given else ''} inputs"
     )
-    text = f"{head}: speeds of {abridged_names(undetermined)} undetermined; give {more}, such as {', '.join(fixes)}"
+    text = f"{head}: speeds of {abridged_names(undetermined)} are undetermined; prescribe {more}, such as "
+    text += ", ".join(fixes)
     return Verdict("free", text, links=tuple(undetermined), fixes=tuple(fixes))
 
 
@@ -244,11 +262,11 @@ def free_verdict(
 
 
 Terms = tuple[tuple[int, int], ...]
-"""A row: pairs of link index and integer coefficient; the sum of coefficient times speed is 0."""
+"""Equation as pairs of link index and integer coefficient; the sum of coefficient times speed is 0."""
 
 
 class PropagatedSpeeds(Mapping[str, Fraction]):
-    """Exact speeds by link; each product of ratios is multiplied out on access."""
+    """Exact speeds by link, stored as factors; the product of ratios is multiplied out when a speed is read."""
 
     def __init__(self, index: Mapping[str, int], products: FactoredRatios, signs: Mapping[str, int]) -> None:
         self._index, self._products, self._signs = index, products, signs
@@ -271,9 +289,9 @@ class PropagatedSpeeds(Mapping[str, Fraction]):
 def propagate(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: StateCase, signs: Mapping[str, int]
 ) -> PropagatedSpeeds | None:
-    """Return every link's exact speed, or None if propagation does not reach all links or finds a contradiction.
+    """Return every link's exact speed; None if propagation does not reach all links, or finds a contradiction.
 
-    signs   -1 for links whose axis points against the reference direction of its parallel axes
+    signs   -1 for links whose axis is opposite to the reference direction of its parallel axes
     """
     index = {link: at for at, link in enumerate(links)}
     rows = _rows(index, frame, circuits, case)
@@ -313,7 +331,7 @@ def propagate(
 
 
 def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
-    """Return all circuits and locks as rows over the moving links."""
+    """Return the equations of all circuits and locks, over the moving links."""
     rows: list[Terms] = []
     for circuit in circuits:
         rows.append(tuple([(index[link], factor) for link, factor in circuit.terms if link != frame]))
@@ -329,7 +347,7 @@ def _prescribed(case: StateCase, signs: Mapping[str, int]) -> list[tuple[str, Fr
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:
-    """Solve a row for its one unknown link and return that link; -1 if it was solved in the meantime."""
+    """Solve an equation for its only unknown speed and return the index of its link; -1 if no speed is unknown."""
     target, lead = -1, 0
     moving = []
     for link, coefficient in row:
@@ -339,6 +357,7 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
             moving.append((link, coefficient))
     if target < 0:
         return -1
+    # one other moving link: the speed is stored as a short ratio to it
     if len(moving) == 1:
         link, coefficient = moving[0]
         speeds.follow(target, link, -coefficient, lead)
@@ -354,13 +373,13 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 _GIVEN = -1  # column of prescribed speeds
 
 EXACT_BUDGET = 400_000
-"""Coefficient operations after which exact elimination is replaced by floats; about one second."""
+"""Maximum number of coefficient operations of exact elimination, about one second; beyond it, floats are used."""
 
 _PREDICTED = 40_000
-"""Operations modulo a prime beyond which exact elimination is not tried.
+"""Maximum number of operations of the elimination modulo a prime for which exact elimination is tried.
 
-Fill-in makes numbers long: in grids and random networks of differentials, this number of operations with short numbers
-corresponds to about 400,000 of `EXACT_BUDGET`.
+Fill-in increases the number of digits: in grids and random networks of differentials, this number of operations with
+short numbers corresponds to the 400,000 operations of `EXACT_BUDGET`.
 """
 
 _FEW = 100  # for fewer equations the prediction costs as much as it saves
@@ -368,13 +387,15 @@ _FEW = 100  # for fewer equations the prediction costs as much as it saves
 
 @dataclass(frozen=True, slots=True)
 class FreeForms:
-    """Unknowns of a free train as linear forms of those that remain free."""
+    """Unknowns of a train with free links as linear forms of the unknowns that remain free."""
 
     reduced: ReducedSystem
     forms: Mapping[int, LinearForm]
 
     def difference(self, of: str, base: str) -> Fraction | None:
-        """Return the difference of two links' speeds, without axis signs; None if it depends on free unknowns."""
+        """Return the difference of two links' speeds before axis signs are applied; None if it depends on free
+        unknowns.
+        """
         index = self.reduced.components.index
         row = dict(self.reduced.form(index[of]))
         add_into(row, self.reduced.form(index[base]), -1)
@@ -383,22 +404,22 @@ class FreeForms:
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Exact speeds of a train in one case, and the verdict."""
+    """Exact speeds of a train in one case, with the verdict."""
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
-    """Speed by link, in the order of the declaration; only determined links."""
+    """Link -> speed, only for determined links, in the order of the declaration."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Ratio of speeds by link and input, with the other inputs at rest."""
+    """Link -> input -> speed of the link per unit speed of the input, with the other inputs at rest."""
     signs: Mapping[str, int]
-    """-1 for links whose axis points against its parallel axes."""
+    """Signs (-1) of links whose axis is opposite to the reference direction of its parallel axes."""
     loose: FreeForms | None = None
-    """Every link as a form of the free unknowns; None if all links are determined, or none."""
+    """Speeds of all links as linear forms of the free unknowns; None if all links are determined, or none."""
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
 
-        It may be determined although both links are free, namely if the difference is in the row space.
+        It can be determined although both links are free: if the difference is in the row space of the system.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.loose is None:
@@ -414,14 +435,14 @@ class Solution:
 
 
 class _Ratios(Mapping[str, Mapping[str, Fraction]]):
-    """Exact table of ratios, link by input; solved on first access."""
+    """Exact ratios, link -> input -> ratio, which are solved at the first access."""
 
     def __init__(self, part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> None:
         self._part, self._case, self._signs = part, case, signs
 
     @cached_property
     def _forms(self) -> dict[int, LinearForm]:
-        """Every unknown as a linear form of the inputs, with one symbol for each input."""
+        """Every unknown as a linear form of the inputs; input number i has the symbol -1 - i."""
         reduced = self._part.reduced
         index = reduced.components.index
         rows = [*reduced.equations, *held_rows(reduced, self._case)]
@@ -448,8 +469,8 @@ class _Ratios(Mapping[str, Mapping[str, Fraction]]):
 def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
     """Solve one case exactly, by propagation if it reaches every link, else by reduction and elimination.
 
-    signs    -1 for links whose axis points against its parallel axes; results are converted to declared directions
-    budget   operations allowed beyond linear work; `TooDenseError` if exceeded, None for no limit
+    signs    -1 for links whose axis is opposite to the reference direction; results refer to the declared directions
+    budget   maximum number of operations beyond linear work; `TooDenseError` if exceeded, None for no limit
     """
     ratios = _Ratios(part, case, signs)
     walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
@@ -461,6 +482,7 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
     echelon = eliminate_within(rows, budget)
     if echelon.conditions:
         return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
+    # all inputs 0: speeds are 0 also for a locked train, so the rank decides
     if not any(case.inputs.values()) and _is_immobile(reduced, case, budget):
         return Solution(stationary_verdict(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
     forms = echelon.forms(budget)
@@ -473,12 +495,15 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """Return the budget for one system, increased for uncoupled equations, which need only a few operations each."""
+    """Return the operation budget for one system: 30 operations for each equation are added, for equations that are not
+    coupled.
+    """
     return None if budget is None else budget + 30 * len(reduced.equations)
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Eliminate exactly within a budget. Raises `TooDenseError` at once if the predicted fill-in exceeds it.
+    """Eliminate exactly within a budget of operations. Raises `TooDenseError` at once if the predicted fill-in exceeds
+    it.
 
     The prediction is the same elimination modulo a prime, with short numbers and its own limit.
     """
@@ -488,7 +513,7 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """Return only the verdict, by elimination modulo a prime, for systems too dense for rational elimination."""
+    """Return the verdict only, by elimination modulo a prime, for systems too dense for rational elimination."""
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
@@ -503,7 +528,7 @@ def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, i
 
 
 def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) -> Verdict:
-    """Return the verdict that all speeds are determined, with a remark on a loop that locks a part of the train."""
+    """Return the verdict that all speeds are determined; it mentions a loop that locks a part of the train."""
     parts = reduced.components if reduced else None
     loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
     text = f"every speed follows from {', '.join(case.inputs)}"
@@ -522,12 +547,12 @@ def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int
 
 
 def _is_immobile(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
-    """Return True if no link can move, which inputs that are all 0 would conceal."""
+    """Return whether no link can move; solution of a case whose inputs are all 0 does not show this."""
     return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 
 class _LazySpeeds(Mapping[str, Fraction]):
-    """Speeds by link, computed on access: speed of the carrier plus ratio times the component's unknown."""
+    """Speeds by link, computed when they are read: speed of the carrier plus ratio times unknown of the component."""
 
     def __init__(self, reduced: ReducedSystem, known: Sequence[Fraction | None], signs: Mapping[str, int]) -> None:
         self._reduced, self._known, self._signs = reduced, known, signs
@@ -535,7 +560,7 @@ class _LazySpeeds(Mapping[str, Fraction]):
         self._links: dict[str, None] = {}
 
     def take(self, link: str, speed: Fraction | None = None) -> None:
-        """Add a determined link; `speed` is given if free unknowns cancel in its form."""
+        """Add a link to the determined links; `speed` is given if free unknowns cancel in its linear form."""
         self._links[link] = None
         if speed is not None:
             self._cancelled[link] = speed
@@ -593,7 +618,7 @@ def _determined_speeds(
 
 
 def _value(form: LinearForm | None) -> Fraction | None:
-    """Return the value of a form, or None if it contains a free unknown."""
+    """Return the value of a linear form; None if it contains a free unknown."""
     if form is None or any(column >= 0 for column in form):
         return None
     return form.get(_GIVEN, Fraction(0))

@@ -1,14 +1,15 @@
 """Float64 speeds by sparse LU and iterative refinement with extra-precise residuals, and their error bounds.
 
-The coefficients are integers, so the residual of a float solution can be computed in twice the working precision by
+The coefficients are integers, so that the residual of a float solution can be computed in twice the working precision
+by
 error-free products and sums. Refinement with it reduces the error of every component to one or two roundings
 (docs/accuracy.md), as long as the factors have any correct digit of the inverse. Beyond that no bound from the same
 factors is valid, and the solution is refused (Demmel, Hida, Kahan, Li, Mukherjee and Riedy, Error bounds from
 extra-precise iterative refinement, 2006).
 
-Trains whose speeds leave the range of float64 are scaled by powers of two. These follow from a rough elimination in
-numbers of 53 bits with unlimited exponents, of which only the order of magnitude is used; the scaled rows are then
-solved and checked like any other.
+Trains whose speeds leave the range of float64 are scaled by powers of two. The exponents are estimated by elimination
+in
+numbers with 53 bits and unlimited exponents. The scaled rows are then solved and checked like any other.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ _TOO_DENSE = Problem(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _RoughFloat(LongFloat):
-    """A float with unlimited exponent whose sums are set to 0 after almost complete cancellation."""
+    """Float with unlimited exponent; a sum becomes 0 after almost complete cancellation."""
 
     @classmethod
     def make(cls, mantissa: float, exponent: int) -> Any:
@@ -78,11 +79,11 @@ class _RoughFloat(LongFloat):
 
 
 def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], links: Sequence[str]) -> list[int]:
-    """Return an exponent of two for each link such that its speed divided by that power is near 1.
+    """Return for each link an exponent of two such that its speed divided by this power is near 1.
 
     given   right-hand side of each row
 
-    Raises `RangeError` if the rows are too dense for elimination in about a minute.
+    Raises `RangeError` if elimination would take more than about a minute.
     """
     at = {link: column for column, link in enumerate(links)}
     lines = [{at[link]: c for link, c in row.terms if link in at} for row in rows]
@@ -110,7 +111,7 @@ def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], li
 
 
 def _assign_exponents(lines: Sequence[Mapping[int, int]], found: dict[int, float]) -> None:
-    """Assign exponents to links at rest: the smallest that one of their rows with other links gives.
+    """Assign exponents to links at rest: the minimum exponent that makes an entry comparable with others of its row.
 
     In rows of faster links the scaled entry is then negligible, which is correct because the link does not move.
     """
@@ -118,6 +119,7 @@ def _assign_exponents(lines: Sequence[Mapping[int, int]], found: dict[int, float
     for row, line in enumerate(lines):
         for column in line:
             users.setdefault(column, []).append(row)
+    # breadth-first search from links with known exponents
     queue = deque(column for line in lines if found.keys() & line for column in line if column not in found)
     while queue:
         column = queue.popleft()
@@ -154,7 +156,7 @@ _ORDINARY = 400  # exponents of two up to which speeds are solved unscaled: squa
 class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds by sparse LU and iterative refinement, with an estimate of their error (docs/theory.md, 11).
 
-    `floats[link]` is the speed of a link in the first case; `RangeError` beyond the range of float64.
+    `floats[link]` returns the speed of a link in the first case; `RangeError` beyond the range of float64.
 
     Notes
     -----
@@ -172,17 +174,19 @@ class FloatSpeeds(FrozenFields, Shown):
     """
 
     speeds: LabelledArray
-    """Speeds (link, case) [unit of the train], to be multiplied by 2**exponents."""
+    """Speeds, axes (link, case) [unit of the train times 2**exponents]."""
     estimate: LabelledArray
     """Estimated absolute error of each speed, with axes and unit of `speeds`."""
     residual: LabelledArray
-    """Relative residual (row, case) of each row of the matrix, |b - A x| over |A| |x|, in twice the precision [1]."""
+    """Relative residual |b - A x| over |A| |x| of each row of the matrix, axes (row, case), in twice the working
+    precision [1].
+    """
     condition: Mapping[str, float]
-    """Component-wise condition number cond(A, x) of the first case, equation (25), for each requested link; at least 1,
-    infinite for a link at rest. Computed on access.
+    """Link -> component-wise condition number cond(A, x) of the first case, equation (25), for the requested links. It
+    is at least 1, and infinite for a link at rest. Computed at the first access.
     """
     exponents: LabelledArray
-    """Exponents of two (link, case); 0 if the speed and its estimate are within the range of float64."""
+    """Exponents of two, axes (link, case); 0 if the speed and its estimate are within the range of float64."""
 
     def _summary(self) -> str:
         return self.speeds._summary()
@@ -192,11 +196,11 @@ class FloatSpeeds(FrozenFields, Shown):
         if isinstance(speed, float):
             return speed
         what = f"the speed of '{link}' is {speed}, beyond the range of float64"
-        fix = f"read `speeds` times 2 to the power of `exponents`, or `decimal('{link}')`"
+        fix = f"use `decimal('{link}')`, or `speeds` times 2**`exponents`"
         raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", fix))
 
     def number(self, link: str, case: int = 0) -> Real:
-        """Return the speed of a link, as a float if it is within the range.
+        """Return the speed of a link [unit of the train]: a float, or a `LongFloat` beyond the range of float64.
 
         Parameters
         ----------
@@ -208,7 +212,7 @@ class FloatSpeeds(FrozenFields, Shown):
         return scaled(float(self.speeds[link][case]), int(self.exponents[link][case]))
 
     def decimal(self, link: str, case: int = 0, digits: int = 10) -> str:
-        """Return the speed of a link as decimal text, of any magnitude.
+        """Return the speed of a link as decimal text; its magnitude is not limited.
 
         Parameters
         ----------
@@ -232,9 +236,11 @@ def solve_floats(
 ) -> FloatSpeeds:
     """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs        speeds by link, one for each case, for every input of the system; one factorisation serves all cases
-    condition_of  links whose component-wise condition number is wanted; one transposed solve each, on access
-    ordering      column ordering of the factorisation; COLAMD is the only one that never takes quadratic time
+    inputs        input link -> speeds, one for each case, for every input of the system; all cases share one
+    factorisation
+    condition_of  links whose component-wise condition number is requested; each costs one transposed solve when it is
+    read
+    ordering      column ordering of the factorisation; only COLAMD never takes quadratic time
     refine        True for iterative refinement, False for the unrefined LU solution (for comparison)
 
     If speeds leave the range of float64, each case is solved with a separate power of two for every link. Raises
@@ -256,7 +262,7 @@ def solve_floats(
 
 
 class _Solved(NamedTuple):
-    """Speeds and their estimates (link, case), residuals (row, case), and condition numbers by link."""
+    """Speeds and their error estimates (link, case), residuals (row, case), and condition numbers by link."""
 
     x: Floats
     estimate: Floats
@@ -275,12 +281,14 @@ class _Options(NamedTuple):
 def _solve_with_scaling(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], options: _Options
 ) -> tuple[_Solved, NDArray[np.int64]]:
-    """Return scaled speeds with their estimates, and the exponents of two; these are 0 for ordinary trains."""
+    """Return scaled speeds with their error estimates, and the exponents of two, which are 0 for ordinary trains."""
     near = None
     with suppress(RangeError):
         near = _solve(matrix, rows, given, options)
+    # scaling is needed only for extreme speeds
     if near is not None and _is_ordinary(near.x):
         return near, np.zeros(near.x.shape, dtype=np.int64)
+    # exponents depend on the input speeds, so each case is scaled separately
     cases = [_solve_scaled(matrix, rows, [line[at : at + 1] for line in given], options) for at in range(len(given[0]))]
     found, exponents = zip(*cases, strict=True)
     x, estimate, residual, conditions = zip(*found, strict=True)
@@ -288,7 +296,7 @@ def _solve_with_scaling(
 
 
 def _is_ordinary(x: Floats) -> bool:
-    """Return True if no speed is so large or small that errors, or squares in `_error_bound`, leave float64."""
+    """Return whether all speeds are so near 1 in magnitude that their errors and squares stay within float64."""
     sizes = np.frexp(x)[1]
     return bool(((x == 0) | (np.abs(sizes) <= _ORDINARY)).all())
 
@@ -296,7 +304,7 @@ def _is_ordinary(x: Floats) -> bool:
 def _solve(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], options: _Options
 ) -> _Solved:
-    """Return the solution with its error estimates. Raises `RangeError` beyond the range of float64."""
+    """Return the solution with error estimates. Raises `RangeError` beyond the range of float64."""
     right, remainder = _rounded_right_sides(rows, given)
     try:
         lu = matrix.factorise(options.ordering)
@@ -324,8 +332,8 @@ def _solve(
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Refine a solution iteratively (23): one step for an ordinary train, more while each step at least halves the
-    last.
+    """Return the solution after iterative refinement (23), which ends when a step is not smaller than half the last
+    step.
     """
     last = 1.0
     for _ in range(_STEPS):
@@ -343,7 +351,7 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
 def _solve_scaled(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], options: _Options
 ) -> tuple[_Solved, NDArray[np.int64]]:
-    """Solve one case in speeds scaled by powers of two, which causes no rounding."""
+    """Solve one case for speeds that are scaled by powers of two, which causes no rounding."""
     exponents = np.array(find_exponents(rows, [right for (right,) in given], list(matrix.at)), dtype=np.int64)
     near, shifts = matrix.scaled(exponents)
     moved = [[right * Fraction(2) ** -shift] for (right,), shift in zip(given, shifts.tolist(), strict=True)]
@@ -357,16 +365,16 @@ def _solve_scaled(
 
 
 def _is_representable(values: Floats, powers: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return a mask of values that, times powers of two, are 0 or normal float64 numbers."""
+    """Return a mask of the values that, times powers of two, are 0 or normal float64 numbers."""
     sizes = np.frexp(values)[1] + powers
     held: NDArray[np.bool_] = (values == 0) | ((sizes >= LOWEST) & (sizes <= HIGHEST))
     return held
 
 
 def _error_bound(lu: Any, error: Floats) -> Floats:
-    """Return the maximum change of each speed by errors of the equations of any sign: |A^-1| error.
+    """Return the maximum change of each speed if the equations have errors of any sign: |A^-1| error.
 
-    A solution for one set of signs may cancel to 0 where another does not. The inverse is computed column by column for
+    For a single set of signs the effects of several errors may cancel. The inverse is computed column by column for
     up to 400 links. For more links four times the root mean square over random signs and sizes is used.
     """
     found = np.zeros_like(error)
@@ -386,18 +394,20 @@ def _error_bound(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """Return as many independent rows as there are moving links, ready for factorisation.
+    """Return the matrix for factorisation and its rows: as many independent rows as there are moving links.
 
     Raises `RangeError` if the system is not square.
     """
     links, rows = independent_rows(system.links, system.equations, system.redundant)
     if len(rows) > len(links):
         what = "the prescribed speeds contradict each other"
-        raise RangeError(Problem(what, "no speeds satisfy all equations", "read the verdict of `solve()`"))
+        raise RangeError(
+            Problem(what, "no speeds satisfy all equations", "print `train.solve().verdict`, which names the cause")
+        )
     if len(rows) < len(links):
         what = f"{len(rows)} independent equations for {len(links)} moving links"
         why = "a train that is free, locked or contradictory has no float solution"
-        raise RangeError(Problem(what, why, "read the verdict of `solve()` first"))
+        raise RangeError(Problem(what, why, "print `train.solve().verdict`, which names the cause"))
     return PaddedRows(links, rows), rows
 
 
@@ -414,7 +424,7 @@ def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) 
 def _right_hand_sides(
     rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None
 ) -> list[list[Fraction]]:
-    """Return the right-hand side of every row, one number for each case."""
+    """Return the right-hand side of every row, one number for each case [unit of the train]."""
     cases = len(next(iter(inputs.values()))) if inputs else 1
     return [
         [Fraction(value) for value in inputs[row.terms[0][0]]]
@@ -435,14 +445,17 @@ def _rounded_right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequenc
         if None in nearest:
             raise RangeError(_out_of_range(rows[at].label))
         right[at] = nearest
+        # rounding of the inputs is corrected in the residual
         remainder[at] = [float(value - Fraction(near)) for value, near in zip(line, right[at].tolist(), strict=True)]
     return right, remainder
 
 
 def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[WillisEquation]) -> None:
-    """Raise `RangeError` for a solution with overflow, or with underflow along the train.
+    """Raise `RangeError` for a solution with overflow or underflow.
 
-    One mesh changes a speed by a factor of at most 1e12, so a speed that underflows to 0 has neighbours near the limit.
+    One mesh changes a speed by a factor of at most 1e12, so a speed that underflows to 0 has neighbours near the lower
+    limit
+    of float64.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         size = matrix.size(x)
@@ -462,8 +475,8 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
 
 
 def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -> None:
-    """Raise `RangeError` if the factors have no correct digit: the spectral radius of |A^-1| |A| is 1 / (4 eps) or
-    more.
+    """Raise `RangeError` if the factors have no correct digit: if the spectral radius of |A^-1| |A| is at least 1 / (4
+    eps).
 
     The radius is the condition number of the system in the best units for each link (Bauer 1963). For any positive v it
     is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and power iteration from |x| lowers that bound. A
@@ -471,7 +484,7 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
     the bound stays at the limit.
 
     speeds   |x|
-    spread   |A^-1| |A| |x|, by the factors
+    spread   |A^-1| |A| |x|, computed with the factors
     """
     condition = _condition(lu, matrix, speeds, spread, _LARGEST_CONDITION)
     if (condition <= _LARGEST_CONDITION).all():
@@ -483,8 +496,8 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
 
 
 def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
-    """Return |A^-1| |A| v / v, whose maximum bounds the spectral radius, for the first v with a bound below the
-    limit.
+    """Return |A^-1| |A| v / v for the first v of a power iteration whose maximum, a bound of the spectral radius, is
+    below `limit`.
     """
     for _ in range(_ITERATIONS):
         condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
@@ -495,7 +508,7 @@ def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limi
 
 
 def is_regular(system: WillisSystem) -> bool:
-    """Return True if float64 proves that the system determines all speeds; False if it does not, or in doubt.
+    """Return whether float64 proves that the system determines all speeds; False also means that this is undecided.
 
     The factors of a singular matrix are those of a regular one that differs by roundings, so their condition number is
     about 1 / eps. The limit is a thousand times lower.

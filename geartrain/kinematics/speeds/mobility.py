@@ -1,4 +1,4 @@
-"""Mobility of a train, by count and by exact rank, and the loops that make them differ."""
+"""Mobility of a train by count and by exact rank, and the loops that cause the difference."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from geartrain.numerics.results import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Mobility(Result):
-    """Mobility of a train by count and by exact rank, with the reasons for the difference; docs/theory.md, (16), (17),
-    (20).
+    """Mobility of a train by count and by exact rank, with the reasons for their difference; docs/theory.md, (16),
+    (17), (20).
 
     Examples
     --------
-    Four wheels in a ring, one of whose meshes is redundant:
+    A closed loop of four wheels; one of its meshes is redundant:
 
     >>> import geartrain
     >>> found = geartrain.load("four-gear-loop").mobility
@@ -51,19 +51,19 @@ class Mobility(Result):
     couplings: int
     """Number of couplings, such as pins in slots; together with the gear pairs they are j_G."""
     by_rank: int
-    """Mobility by rank, links - 1 - rank of all circuits; always correct."""
+    """Mobility by rank, links - 1 - rank of all circuits; it is correct for every train."""
     redundant: int
-    """Number of redundant circuits."""
+    """Number of circuits that follow from other circuits."""
     loops: tuple[Loop, ...]
-    """Loops of ratio product 1, which redundant circuits close; the first 1000."""
+    """Loops with ratio product 1, each of which has one redundant pair; the first 1000."""
     shared: tuple[str, ...]
-    """Links at which components meet in redundant equations."""
+    """Links through which redundant equations couple components."""
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; the first 1000."""
     still: tuple[str, ...]
-    """Links that cannot move, whatever drives the train."""
+    """Links that cannot move, whichever link drives the train."""
     idle: tuple[str, ...]
-    """Ids of circuits whose wheels never roll on each other."""
+    """Names of pairs whose wheels never roll on each other."""
     certain: bool = True
     """False if the rank was computed modulo two primes (wrong with a probability of 1e-36)."""
 
@@ -74,17 +74,17 @@ class Mobility(Result):
 
     @property
     def by_count(self) -> int:
-        """Mobility by count, j_R - j_G, couplings included in j_G; correct only without redundancy."""
+        """Mobility by count, j_R - j_G, where j_G includes couplings; it is correct only without redundant pairs."""
         return self.turning_pairs - self.gear_pairs - self.couplings
 
     @property
     def rank(self) -> int:
-        """Rank of the rows of all circuits."""
+        """Rank of the equations of all circuits."""
         return self.links - 1 - self.by_rank
 
 
 def _idle_circuits(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Return the circuits of components whose unknown is always 0."""
+    """Return the names of pairs in components whose unknown speed is always 0."""
     parts = reduced.components
     null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
     if not null:
@@ -93,13 +93,14 @@ def _idle_circuits(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> l
 
 
 def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Return the links that are at rest in every motion, because their form vanishes."""
+    """Return the links that are at rest in every motion, because their linear form is 0."""
     parts = reduced.components
     if not forms:
         return []
     null = {column for column, form in forms.items() if not form}
     found = []
     for at, name in enumerate(parts.links):
+        # one moving unknown moves the link; several may cancel, which the exact form decides
         moving = [column for column in reduced.unknowns_of(at) if column not in null]
         if at != parts.frame and (not moving or (len(moving) > 1 and not resolve_form(reduced.form(at), forms))):
             found.append(name)

@@ -20,11 +20,12 @@ _LOW = 1e-200  # smaller entries of a scaled row are dropped: their products wou
 
 
 class PaddedRows:
-    """Integer rows as arrays, padded to a common number of terms."""
+    """Integer rows of a linear system as arrays, padded to a common number of terms."""
 
     def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
         self.at = {link: column for column, link in enumerate(links)}
         width = max((len(row.terms) for row in rows), default=0)
+        # rows are padded with coefficient 0 in column 0
         self.columns = np.zeros((len(rows), width), dtype=np.intc)
         self.coefficients = np.zeros((len(rows), width))
         for at, row in enumerate(rows):
@@ -34,11 +35,10 @@ class PaddedRows:
         self.low = np.zeros_like(self.coefficients, dtype=bool)
 
     def scaled(self, exponents: NDArray[np.int64]) -> tuple[PaddedRows, NDArray[np.int64]]:
-        """Return the rows for scaled speeds, and the power of two by which each row was divided.
+        """Return the rows for scaled speeds, and the exponent of the power of two by which each row was divided.
 
-        The largest entry of each row is then between 1 and 2. All scalings are exact. Entries below 1e-200 of their row
-        are dropped: they change no rounding, and their products would lose the bits of which residuals consist. Their
-        maximum effect is given by `sunk`.
+        The largest entry of each row is then between 1 and 2. Scaling causes no rounding. Entries below 1e-200 are
+        dropped, because their products would underflow in residuals. `sunk` returns a bound on their effect.
         """
         sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
         shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
@@ -61,15 +61,15 @@ class PaddedRows:
         return csc_array(entries, shape=(size, len(self.at)))
 
     def factorise(self, ordering: str) -> Any:
-        """Return the sparse LU factors."""
+        """Return the sparse LU factors of the matrix, computed by SuperLU."""
         from scipy.sparse import linalg
 
         solver: Any = linalg
         return solver.splu(self.matrix(), permc_spec=ordering)
 
     def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
-        """Return right - A x in twice the working precision, by compensated dot products (Dot2; Ogita, Rump and Oishi
-        2005).
+        """Return right + remainder - A x in twice the working precision, by compensated dot products (Dot2; Ogita, Rump
+        and Oishi 2005).
         """
         total, low = right.copy(), remainder.copy()
         for position in range(self.columns.shape[1]):
@@ -79,27 +79,30 @@ class PaddedRows:
         return total + low
 
     def prescribe(self, x: Floats, right: Floats) -> None:
-        """Set prescribed speeds, which are rows with a single coefficient 1, to their exact right-hand side."""
+        """Set prescribed speeds, which have rows with a single coefficient 1, to their exact values in `x`, in
+        place.
+        """
         single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
         own = self.coefficients[single, 0] == 1
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """Return |A| |x|, row by row."""
+        """Return |A| |x|, one value for each row and case."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 
     def sunk(self, x: Floats) -> Floats:
-        """Return the maximum contribution of dropped entries, row by row."""
+        """Return a bound on the contribution of dropped entries, one value for each row and case."""
         total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
         return total
 
     @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition number beyond float64 is infinite
     def condition(self, lu: Any, links: Sequence[str], x: Floats) -> dict[str, float]:
-        """Return cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, by one transposed solve
-        each.
+        """Return the condition numbers cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|.
 
-        Infinite for a link at rest, whose relative error is not defined.
+        Each y is the solution of one transposed system. The number is infinite for a link at rest, whose relative error
+        is not
+        defined.
         """
         size = self.size(x[:, None])[:, 0]
         found = dict.fromkeys(links, float("inf"))

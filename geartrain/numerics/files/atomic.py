@@ -71,7 +71,7 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
 def place(temporary: Path, path: Path, force: bool = False) -> None:
     """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`.
 
-    The permissions of an overwritten file are kept. Raises `GearTrainError`, and `OSError` for errors of the disk.
+    The permissions of an overwritten file are kept. Raises `GearTrainError`, or `OSError` for disk errors.
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
@@ -86,7 +86,7 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
-    """Convert an error of the disk to a `GearTrainError` for a file that could not be written."""
+    """Return the `GearTrainError` for a file that could not be written because of a disk error."""
     why = getattr(error, "strerror", None) or str(error)
     fix = "free disk space, or check the folder and its permissions"
     return GearTrainError(Problem("the file cannot be written", why, fix, str(path)))
@@ -103,7 +103,9 @@ def umask() -> int:
 
 
 def _target(path: Path) -> tuple[Path, int | None]:
-    """Return the target of the symbolic links of a path, and its mode, None if it does not exist."""
+    """Return the target of a path after resolving symbolic links, and its mode; None as mode if the file does not
+    exist.
+    """
     try:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
@@ -144,7 +146,7 @@ def _folder(path: Path, real: Path) -> Problem | None:
 
 
 def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return the problem that protects an existing file, or None."""
+    """Return the problem that an existing file must not be overwritten; None if it may be."""
     if not force:
         return _exists(path)
     if not mode & 0o222 or not os.access(real, os.W_OK):
@@ -179,7 +181,7 @@ def _copy_permissions(old: Path, new: Path) -> None:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Take an unused name in one step by a hard link; return False if the disk does not support it.
+    """Give a file an unused name in one step by a hard link; return False if the disk does not support it.
 
     Unlike renaming, this fails if another process has created the file in the meantime.
     """
@@ -194,7 +196,7 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Write a folder to disk (fsync), so that the new name survives a power failure, on systems that support this."""
+    """Write a folder to disk (fsync), so that a new name survives a power failure, on systems that support this."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -204,7 +206,7 @@ def _sync_folder(folder: Path) -> None:
 
 
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
-    """Raise `GearTrainError` if files with these names (`wheels/b1.svg`) cannot be written into a folder.
+    """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written into a folder.
 
     Existing files are refused without `force`.
     """

@@ -1,7 +1,7 @@
 """Tables on disk: long ones as CSV or Parquet, and small text files of points and edges.
 
-Long tables are written in pieces to a file named partial until they are complete. An interrupted CSV file can be
-resumed. All rows of CSV files are formatted here.
+Long tables are written in chunks to a file whose name contains `partial` until they are complete. An interrupted CSV
+file can be resumed. All rows of CSV files are formatted here.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ def partial_name(path: Path) -> Path:
 def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
     """Return the partial file of a table for `path`, after resolving the symbolic links of the path.
 
-    An existing partial file belongs to an interrupted run, which `resume` continues and `force` overwrites. Raises
-    `GearTrainError` if it or the table cannot be written.
+    An existing partial file belongs to an interrupted run: `resume` continues the run, and `force` overwrites the file.
+    Raises `GearTrainError` if it or the table cannot be written.
     """
     found = partial_name(destination(path, force))
     if found.is_symlink():
@@ -47,12 +47,12 @@ def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
 
 
 class LongTable:
-    """A CSV file that grows row by row as `name.partial.csv`, and is renamed to `name.csv` when it is complete.
+    """CSV file that is written row by row as `name.partial.csv`, and renamed to `name.csv` when it is complete.
 
     rows     number of rows, including those of an interrupted run that is resumed
-    resume   continue the partial file
-    force    overwrite an existing table
-    replay   overwrite the partial file of an interrupted run, whose rows are stored elsewhere
+    resume   True to continue the partial file
+    force    True to overwrite an existing table
+    replay   True to overwrite the partial file of an interrupted run, whose rows are stored elsewhere
     """
 
     def __init__(
@@ -110,7 +110,7 @@ class LongTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Rename the complete file, or mark an interrupted one as partial in its last line."""
+        """Rename the complete file; mark an interrupted file as partial in its last line."""
         try:
             if kind is not None:
                 self._file.write(f"{PARTIAL_SUFFIX}stopped after {self.rows} rows\n".encode())
@@ -122,11 +122,11 @@ class LongTable:
 
 
 class ColumnTable:
-    """A Parquet file that grows by row groups as `name.partial.parquet`, and is renamed when it is complete.
+    """Parquet file that is written by row groups as `name.partial.parquet`, and renamed when it is complete.
 
     about    metadata of the file, by key
-    force    overwrite an existing table
-    replay   overwrite the partial file of an interrupted run
+    force    True to overwrite an existing table
+    replay   True to overwrite the partial file of an interrupted run
 
     After an interrupt the partial file is closed and readable. Raises `MissingExtraError` without pyarrow, and
     `GearTrainError` if the file cannot be written.
@@ -158,7 +158,7 @@ class ColumnTable:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        """Rename the complete file; leave an interrupted one partial."""
+        """Rename the complete file; an interrupted file keeps its partial name."""
         if self._writer is None:
             return
         try:
@@ -179,7 +179,7 @@ def csv_line(cells: Iterable[object]) -> str:
 
     None becomes empty text, and floats have all digits.
 
-    A text that a spreadsheet would interpret as a formula gets an apostrophe in front, except numbers and fractions.
+    An apostrophe is put before a text that a spreadsheet would interpret as a formula, except numbers and fractions.
     Control characters are escaped, so that a row is always one line of a file.
 
     >>> csv_line(["a,b", "=1+1", "-254/19", -0.5, None])
@@ -189,7 +189,7 @@ def csv_line(cells: Iterable[object]) -> str:
 
 
 def csv_lines(rows: Iterable[Iterable[object]]) -> list[str]:
-    """Format several rows as CSV, each as by `csv_line`."""
+    """Format several rows as CSV, each as `csv_line` does."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows([_cell(cell) for cell in row] for row in rows)
     return out.getvalue().split("\n")[:-1]
@@ -210,9 +210,9 @@ def _cell(cell: object) -> object:
 
 
 def read_points(path: Path) -> list[tuple[float, float, float]]:
-    """Read points from a file, three numbers a line separated by blanks or commas.
+    """Read points from a file with three numbers per line, separated by blanks or commas.
 
-    `#` begins a comment. Raises `GearTrainError` with the lines at fault.
+    `#` begins a comment. Raises `GearTrainError` with the invalid lines.
     """
     points: list[tuple[float, float, float]] = []
     problems = []
@@ -230,9 +230,9 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 
 
 def read_edges(path: Path) -> list[tuple[str, str]]:
-    """Read edges from a file, two names a line separated by blanks or commas.
+    """Read edges from a file with two names per line, separated by blanks or commas.
 
-    `#` begins a comment. Raises `GearTrainError` with the lines at fault.
+    `#` begins a comment. Raises `GearTrainError` with the invalid lines.
     """
     edges: list[tuple[str, str]] = []
     problems = []

@@ -3,7 +3,7 @@
 `run(work, tasks, executor, journal)` yields the results in the order of the tasks, independent of the process that
 computes them. `open_executor()` starts processes or connects to a cluster. A `Journal` stores finished results, so
 that a run killed at any moment can be resumed with the same result. Journals are not written through `files`, because
-they are not results for a reader and are removed when the run is complete.
+they are not results, and are removed when the run is complete.
 """
 
 from geartrain.numerics.work.executors import cores, open_executor

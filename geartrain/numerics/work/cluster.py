@@ -33,7 +33,7 @@ _DEATHS = 2  # deaths counted for a task that dask gave up: it is run without ot
 
 
 class DaskPool(WorkerPool):
-    """An executor on the workers of the scheduler at `address`. Raises `GearTrainError` if it cannot be used."""
+    """Executor on the workers of the dask scheduler at `address`. Raises `GearTrainError` if it cannot be used."""
 
     def __init__(self, address: str, answer: float = _TIMEOUT) -> None:
         self._address, self._seen = address, monotonic()
@@ -68,7 +68,7 @@ class DaskPool(WorkerPool):
         return max(1, self._threads)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Submit a call, as `Executor.submit`."""
+        """Submit a call, as `Executor.submit` does."""
         return follow(self._executor.submit(fn, *args, **kwargs), _translate)
 
     def check(self) -> None:
@@ -83,7 +83,7 @@ class DaskPool(WorkerPool):
             raise self._empty("has lost all its workers", _PATIENCE)
 
     def dismiss(self) -> None:
-        """Cancel pending tasks and disconnect; the cluster continues to run."""
+        """Cancel pending tasks and disconnect from the cluster, which continues to run."""
         with suppress(Exception):  # a client that lost its scheduler may fail to disconnect
             self._client.close(timeout=2)
 

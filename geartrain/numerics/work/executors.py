@@ -25,9 +25,10 @@ def cores() -> int:
 def open_executor(
     workers: int | None = None, dask: str | None = None, announce: Announcement | None = None
 ) -> Iterator[Executor | None]:
-    """Open an executor for `run`; None if one worker is enough, which means work in this process.
+    """Return a context manager with an executor for `run`; None if one worker is enough, and work is done in this
+    process.
 
-    The function returns a context manager, which ends all running work on exit.
+    On exit the context manager ends all running work.
 
     Parameters
     ----------
@@ -39,19 +40,19 @@ def open_executor(
         Address of a dask scheduler, such as `tcp://10.0.0.1:8786`, whose workers do the work. Needs the extra `dask`,
         and the same version of geartrain on the cluster.
     announce : callable, optional
-        Called once with (tasks, workers) when other processes begin to work.
+        Function called once with (tasks, workers) when other processes begin to work.
 
     Yields
     ------
     concurrent.futures.Executor or None
-        An argument for `run` and `Execution`; it survives the death of workers.
+        Argument for `run` and `Execution`; it survives the death of workers.
 
     Raises
     ------
     QuestionError
-        If both are given, or `workers` is below 1.
+        If both `workers` and `dask` are given, or if `workers` is below 1.
     MissingExtraError
-        If an address is given without the extra.
+        If `dask` is given and the extra `dask` is not installed.
     GearTrainError
         If the cluster does not respond or cannot work.
 

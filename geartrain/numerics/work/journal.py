@@ -1,7 +1,7 @@
-"""Finished results of a long run on disk, so that a run killed at any moment can be resumed with the same result.
+"""Stored results of a long run, with which an interrupted run can be resumed with the same result.
 
-A journal is a file of JSON lines to which lines are only appended. The first line is the question as plain data. Each
-further line is one finished task, in the order of completion:
+A journal is a file of JSON lines to which lines are only appended. The first line has plain data that identify the
+run, under the key `question`. Each further line is one finished task, in the order of completion:
 
     {"geartrain journal":1,"question":{...}}
     {"crc":"1c291ca3","task":3,"mark":"d202ef8d","result":[1,2]}
@@ -36,24 +36,24 @@ _SYNC_INTERVAL = 1.0  # s between flushes to disk: a power failure loses at most
 class Journal:
     """Results by task number, stored in a file until the run is complete.
 
-    A context manager that leaves the file for a later run. `len()` is the number of stored results. It needs 8 bytes of
-    memory per task.
+    A journal is a context manager, which leaves the file for a later run. `len()` is the number of stored results. A
+    journal needs 8 bytes of memory per task.
 
     Parameters
     ----------
     path : path or str
-        The file; it is created, or resumed if it contains the same question.
+        Path of the file; it is created, or resumed if it contains the same `question`.
     question : mapping
-        Plain data that identify the run: everything on which tasks and results depend.
+        Plain data that identify the run: all data on which tasks and results depend.
     resume : bool
-        False to begin again, even if the file contains results (of any question).
+        False to discard the results in the file, also those of another run.
 
     Raises
     ------
     QuestionError
-        If the file belongs to another question, is not a journal, or is in use by another run.
+        If the file has another `question`, is not a journal, or is in use by another process.
     GearTrainError
-        If it cannot be read or written.
+        If the file cannot be read or written.
 
     Examples
     --------
@@ -72,7 +72,12 @@ class Journal:
         plain = json.loads(json.dumps(question))
         header = _START + f'"question":{json.dumps(plain, ensure_ascii=False)}}}\n'.encode()
         if len(header) >= _MOST_HEADER_BYTES:
-            raise _refused("the question is too long for a journal", "it has 10 MB or more", "shorten it", self.path)
+            raise _refused(
+                "the data that identify the run are too long for a journal",
+                "they have 10 MB or more",
+                "shorten `question`",
+                self.path,
+            )
         self._at = array("q")  # position of the line of a task in the file; -1: not stored
         self._count, self._synced, self._dirty = 0, monotonic(), False
         if self.path.exists() and not self.path.is_file():
@@ -97,19 +102,19 @@ class Journal:
             self._write(header)
 
     def _resumable_length(self, question: Any, resume: bool) -> int:
-        """Return the length of the part of the file that can be resumed, 0 for none, and index its tasks."""
+        """Return the number of bytes of the file that can be resumed, 0 for none, and index the tasks in them."""
         first = self._reader.readline(_MOST_HEADER_BYTES)
         torn = not first.endswith(b"\n")
         begun = first.startswith(_START) or (torn and _START.startswith(first))
         if not begun or len(first) == _MOST_HEADER_BYTES:
-            why = "its first line is not that of a journal"
+            why = "its first line is not the first line of a journal"
             raise _refused("the file is not a journal", why, "give another file", self.path)
         if torn or not resume:
             return 0
         try:
             theirs = json.loads(first)["question"]
         except (ValueError, KeyError):
-            why = "its first line, the question, is damaged"
+            why = "its first line, which identifies the run, is damaged"
             raise _refused("the journal cannot be resumed", why, "remove it to begin again", self.path) from None
         self._compare(theirs, question)
         end = len(first)
@@ -136,7 +141,7 @@ class Journal:
         return self._count
 
     def recall(self, task: int, mark: str = "") -> str | None:
-        """Return the stored result of a task as JSON, or None.
+        """Return the stored result of a task as JSON text; None if it is not stored.
 
         Parameters
         ----------
@@ -156,12 +161,14 @@ class Journal:
             raise _refused(
                 f"task {task} of the journal cannot be read",
                 "the file was changed during the run",
-                "begin again",
+                "remove the journal to begin again",
                 self.path,
             )
         if found[4].decode() != mark:
             why = "the work was divided into other tasks when this journal was begun"
-            raise _refused(f"task {task} of the journal is now another task", why, "begin again", self.path)
+            raise _refused(
+                f"task {task} of the journal is now another task", why, "remove the journal to begin again", self.path
+            )
         return found[5].decode()
 
     def keep(self, task: int, mark: str, text: str) -> None:
@@ -174,7 +181,7 @@ class Journal:
         mark : str
             Identifier of the task, in hexadecimal digits.
         text : str
-            The result, one line of JSON.
+            Result as one line of JSON.
         """
         rest = f'"task":{task},"mark":"{mark}","result":{text}}}'.encode()
         self._enter(task, self._write(b'{"crc":"%08x",' % crc32(rest) + rest + b"\n"))
@@ -207,7 +214,7 @@ class Journal:
         return self._file.closed
 
     def close(self) -> None:
-        """Close the file, flushed to disk, so that it can be resumed later."""
+        """Write the file to disk and close it; the run can be resumed later."""
         if not self.closed:
             with suppress(OSError):  # a full disk was already reported by the write
                 self._sync()
@@ -230,7 +237,7 @@ class Journal:
 
 @contextmanager
 def _only_writer(path: Path) -> Iterator[None]:
-    """Lock a journal for this process by a lock file; the lock ends with the process in any case."""
+    """Lock a journal for this process by a lock file; the lock always ends with the process."""
     from filelock import FileLock, Timeout
 
     lock = FileLock(f"{path}.lock", timeout=0, thread_local=False)
@@ -238,7 +245,7 @@ def _only_writer(path: Path) -> Iterator[None]:
         lock.acquire()
     except Timeout:
         raise _refused(
-            "another run is writing this journal", "two runs would mix their results", "wait for its end", path
+            "another run is writing this journal", "two runs would mix their results", "wait until it ends", path
         ) from None
     try:
         yield
@@ -250,7 +257,7 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem that an existing journal belongs to another question."""
+    """Return the problem that an existing journal has another `question`, and so belongs to another run."""
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]
@@ -261,11 +268,11 @@ def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
 
 def _another(difference: str, path: Path) -> Problem:
     fix = "give the same options to resume; omit --resume, or remove the file, to begin again"
-    return Problem("the journal belongs to another question", difference, fix, str(path))
+    return Problem("the journal belongs to another run", difference, fix, str(path))
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
-    """Describe the first difference between two plain data structures; empty if they are equal.
+    """Return a text on the first difference between two plain data structures; empty if they are equal.
 
     >>> first_difference({"wheels": [30, 36]}, {"wheels": [30, 48]})
     'wheels[1] is 36 there and 48 here'
@@ -289,7 +296,7 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
 
 
 def _valid_line(line: bytes) -> re.Match[bytes] | None:
-    """Match a line that is complete and has a correct checksum; None otherwise."""
+    """Return the match of a line that is complete and has a correct checksum; else None."""
     found = _LINE.fullmatch(line)
     return found if found is not None and int(found[1], 16) == crc32(found[2]) else None
 

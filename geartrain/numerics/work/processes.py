@@ -1,8 +1,8 @@
 """Worker processes on this machine.
 
 They are spawned, not forked. A fork copies locks that other threads hold (of numpy, of a progress bar), and a worker
-that waits for such a lock waits forever. Spawning also works the same on all systems. It costs each worker its
-imports once.
+that waits for such a lock waits forever. Spawning works in the same way on all systems. Each worker imports its modules
+once.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ _MOST = 61 if sys.platform == "win32" else 10_000  # processes: Windows cannot w
 class ProcessPool(WorkerPool):
     """Up to `workers` processes, started when they are needed and replaced when one dies; `waits` as in `WorkerPool`.
 
-    The processes end with this process, however it ends. Each of them has one end of a pipe, the leash, and exits when
-    the other end is closed.
+    The processes end with this process, also if it is killed. Each process has one end of a pipe (`leash`), and exits
+    when the other end is closed.
     """
 
     def __init__(self, workers: int, waits: bool = False) -> None:
@@ -46,7 +46,7 @@ class ProcessPool(WorkerPool):
         return self._workers
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """Return whether the function can be pickled; tooth outlines that are local functions cannot."""
+        """Return whether the function can be pickled; local functions cannot."""
         try:
             pickle.dumps(work)
         except (AttributeError, TypeError, pickle.PicklingError):
@@ -54,7 +54,7 @@ class ProcessPool(WorkerPool):
         return True
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Submit a call, as `Executor.submit`; use a new pool after the death of a worker."""
+        """Submit a call, as `Executor.submit` does; a new pool is started after the death of a worker."""
         if self._shut:
             raise RuntimeError("cannot schedule new futures after shutdown")
         try:
@@ -80,7 +80,9 @@ class ProcessPool(WorkerPool):
         return theirs
 
     def _discard_pool(self) -> None:
-        """Discard the broken pool and fail its futures; one submitted at that moment would otherwise never complete."""
+        """Discard a broken pool and fail its futures, because a future submitted at that moment would never
+        complete.
+        """
         pool, self._pool = self._pool, None
         if pool is not None:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -90,7 +92,7 @@ class ProcessPool(WorkerPool):
         self._open.clear()
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Stop the pool, as `Executor.shutdown`; with `wait` all workers have ended on return."""
+        """Stop the pool, as `Executor.shutdown` does; with `wait` all workers have ended on return."""
         if self._pool is not None:
             self._pool.shutdown(wait, cancel_futures=cancel_futures)
         self._shut = True
@@ -142,13 +144,13 @@ def _interrupts_blocked() -> Iterator[None]:
 
 
 def _start_worker(leash: Connection) -> None:
-    """Prepare a new worker: ignore SIGINT and watch the leash."""
+    """Prepare a new worker: ignore SIGINT, and watch the pipe to the parent process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_watch_leash, args=(leash,), daemon=True).start()
 
 
 def _watch_leash(leash: Connection) -> None:
-    """Exit the process when the other end of the leash is closed."""
+    """Exit this process when the parent's end of the pipe is closed."""
     with suppress(OSError, EOFError):
         leash.poll(None)
     os._exit(1)

@@ -45,7 +45,7 @@ def run(
     journal: Journal | None = None,
     tell: ProgressReport | None = None,
 ) -> Iterator[Any]:
-    """Yield `work(task)` for each task, in their order.
+    """Yield `work(task)` for each task, in the order of the tasks.
 
     The death of a worker loses only its unfinished tasks, which are repeated. A task that repeatedly kills workers is
     run without others before it is reported. Pending tasks are cancelled however the iterator ends.
@@ -53,18 +53,21 @@ def run(
     Parameters
     ----------
     work : callable
-        A function at the top of a module, so that other processes can import it. Its results are plain JSON data and
+        Function at the top level of a module, so that other processes can import it. Its results are plain JSON data
+        and
         depend only on the task.
     tasks : iterable
         Any number of tasks. They are read when needed, and only results ahead of a missing one are stored (at most 64
         per worker).
     executor : concurrent.futures.Executor, optional
-        Any executor; default this process. An executor from `open_executor` survives the death of its workers.
+        Any executor; by default tasks run in this process. An executor from `open_executor` survives the death of its
+        workers.
     journal : Journal, optional
         Stored results, which are not computed again; new results are added.
     tell : callable, optional
-        Called with (tasks done, total number of tasks, 0 if `tasks` has no length), at most ten times a second and at
-        the end.
+        Progress function, called with (tasks done, total number of tasks, 0 if `tasks` has no length), at most ten
+        times
+        a second and at the end.
 
     Yields
     ------
@@ -105,15 +108,15 @@ class Execution:
     journal: Journal | None = None
     """Journal of finished results, by which a run can be resumed."""
     tell: ProgressReport | None = None
-    """Progress report, called with (tasks done, total number), at most ten times a second and at the end."""
+    """Progress function, called with (tasks done, total number), at most ten times a second and at the end."""
 
     def run(self, work: Callable[[Any], Any], tasks: Iterable[Any]) -> Iterator[Any]:
-        """Yield results in the order of the tasks, as `geartrain.numerics.run`.
+        """Yield results in the order of the tasks, as `geartrain.numerics.run` does.
 
         Parameters
         ----------
         work : callable
-            A function at the top of a module.
+            Function at the top level of a module.
         tasks : iterable
             Arguments of the function, one per call.
         """
@@ -121,7 +124,7 @@ class Execution:
 
 
 def _run_here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Progress) -> Iterator[Any]:
-    """Yield the results of all tasks, computed in this process one after another."""
+    """Yield the results of all tasks, computed in this process."""
     pace.step(0)
     for index, task in enumerate(tasks):
         mark = mark_of(task) if journal is not None else ""
@@ -136,7 +139,7 @@ def _run_here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None,
 
 
 class _Progress:
-    """Counter of finished tasks that limits the rate of progress reports."""
+    """Counter of finished tasks, which limits the rate of progress reports."""
 
     def __init__(self, tell: ProgressReport | None, total: int) -> None:
         self.tell, self.total, self.done = tell, total, 0
@@ -144,7 +147,7 @@ class _Progress:
         self._at = -_REPORT_INTERVAL
 
     def step(self, count: int = 1) -> None:
-        """Count further tasks as done and report if due."""
+        """Count further tasks as done, and report if the last report is old enough."""
         self.done += count
         if self.tell and (monotonic() - self._at >= _REPORT_INTERVAL or self.done == self.total):
             self._report(self.tell)
@@ -161,7 +164,7 @@ class _Progress:
 
 @dataclass(slots=True)
 class _Submission:
-    """A submitted task; `deaths` counts the workers that died while it was running or queued."""
+    """Submitted task; `deaths` counts the workers that died while it was running or queued."""
 
     index: int
     task: Any
@@ -170,7 +173,7 @@ class _Submission:
 
 
 class _Run:
-    """Run of tasks by an executor. Futures report to a queue when they end, and only this thread acts on them."""
+    """Run of tasks by an executor. Futures report to a queue when they end; only this thread reads the queue."""
 
     def __init__(
         self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Progress
@@ -230,7 +233,7 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Submit as many tasks as the limits allow; tasks during which workers died come first, a few at a time."""
+        """Submit as many tasks as the limits allow; tasks during which workers died are first, a few at a time."""
         width = self._width
         while self.again:
             careful = self.again[0].deaths >= _DEATHS_ALONE
@@ -248,7 +251,7 @@ class _Run:
             self._submit(submission)
 
     def _next_task(self) -> _Submission | None:
-        """Return the next task that is not in the journal; None if there is none yet or none at all."""
+        """Return the next task that is not in the journal; None if no task may be submitted now, or none is left."""
         for index, task in self.tasks:
             self.issued = index + 1
             mark = mark_of(task) if self.journal is not None else ""
@@ -353,20 +356,20 @@ def _killer_error(submission: _Submission) -> GearTrainError:
 
 @dataclass(frozen=True, slots=True)
 class RemoteFailure:
-    """An exception raised in a worker, in a form that can always be transferred.
+    """Exception raised in a worker, in a form that can always be transferred to another process.
 
     A process pool treats an exception that it cannot unpickle as a dead worker. An exception whose `__init__` takes
     arguments other than its text is corrupted by pickling.
     """
 
     trace: str
-    """Traceback in the worker."""
+    """Traceback in the worker, as text."""
     kind: type[GearTrainError] | None = None
     """Class of the exception if it is a `GearTrainError`, else None."""
     problems: tuple[Problem, ...] = ()
     """Problems of a `GearTrainError`."""
     pickled: bytes = b""
-    """Any other exception, pickled; empty if it cannot be pickled without loss."""
+    """Pickled form of any other exception; empty if it cannot be pickled without loss."""
 
     def error(self) -> Exception:
         """Return the exception, with the traceback of its worker as a note."""
@@ -387,7 +390,7 @@ class RemoteFailure:
 
 
 def as_text(result: Any) -> str:
-    """Format a result as one line of JSON. Raises `TypeError` if it is not plain data."""
+    """Return a result as one line of JSON. Raises `TypeError` if it is not plain data."""
     return json.dumps(result, separators=(",", ":"))
 
 
@@ -400,7 +403,7 @@ def carry(work: Callable[[Any], Any], task: Any) -> str | RemoteFailure:
 
 
 def raised(error: Exception) -> RemoteFailure:
-    """Pack an exception for its transfer to another process."""
+    """Return an exception in a form that can be transferred to another process."""
     trace = "".join(traceback.format_exception(error))
     if isinstance(error, GearTrainError):
         return RemoteFailure(trace, type(error), error.problems)

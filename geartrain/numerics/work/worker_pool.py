@@ -13,7 +13,7 @@ Announcement = Callable[[int, int], None]
 
 
 class WorkerDiedError(BrokenExecutor):
-    """Workers died during a task, `times` of them in succession."""
+    """Workers died during a task, `times` of them one after another."""
 
     def __init__(self, text: str, times: int = 1) -> None:
         super().__init__(text)
@@ -21,10 +21,10 @@ class WorkerDiedError(BrokenExecutor):
 
 
 class WorkerPool(Executor, ABC):
-    """An executor that survives the death of workers: a future fails with `BrokenExecutor`, and the next submit works.
+    """Executor that survives the death of workers: the future fails with `BrokenExecutor`, and the next submit works.
 
     announce   function called before the first task is submitted; None afterwards
-    waits      whether the first second of work is done in this process, in case that is sufficient
+    waits      True to do the first second of work in this process, which may be sufficient
     """
 
     announce: Announcement | None = None
@@ -36,18 +36,18 @@ class WorkerPool(Executor, ABC):
         """Number of tasks that run at the same time, at least 1."""
 
     def carries(self, work: Callable[[Any], Any]) -> bool:
-        """Return whether workers can receive this function; otherwise this process does the work."""
+        """Return whether workers can receive this function; if not, tasks run in this process."""
         del work
         return True
 
     def begin(self, tasks: int) -> None:
-        """Report that other processes will do `tasks` tasks (0 if unknown), the first time only."""
+        """Report at the first call that other processes will do `tasks` tasks (0 if unknown)."""
         announce, self.announce, self.waits = self.announce, None, False
         if announce is not None:
             announce(tasks, min(self.width, tasks or self.width))
 
     def check(self) -> None:
-        """Raise `GearTrainError` if no task can finish any more; called every few seconds during a wait."""
+        """Raise `GearTrainError` if no pending task can finish; called every few seconds while waiting."""
 
     @abstractmethod
     def dismiss(self) -> None:
@@ -55,7 +55,7 @@ class WorkerPool(Executor, ABC):
 
 
 def follow(theirs: Future[Any], translate: Callable[[BaseException], BaseException]) -> Future[Any]:
-    """Return a future that ends as `theirs` does, with its exception translated; cancelling it cancels `theirs`."""
+    """Return a future that ends as `theirs` does, with its exception translated; its cancellation cancels `theirs`."""
     ours: Future[Any] = Future()
 
     def ended(_: Future[Any]) -> None:

@@ -55,7 +55,7 @@ class FlexibleCup:
         band = Band(low, high, self.reach, self.reach - self.wall)
         return TurnedPart(self.link, f"{self.link} wall", KIND, self.at, (band,), f"one piece with {self.wheel}")
 
-    def told(self) -> Iterator[Problem]:
+    def notices(self) -> Iterator[Problem]:
         """Yield a notice on the properties that no drawing can show."""
         what = f"'{self.wheel}' and the wall of '{self.link}' are one thin part, which cannot be cut from sheet"
         why = f"a wave generator deforms it, and its wall is {self.wall:.3g} mm thick"

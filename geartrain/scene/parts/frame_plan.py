@@ -439,7 +439,7 @@ class FramePlan:
         return tuple(self._problems())
 
     def _problems(self) -> Iterator[Problem]:
-        yield from self.stack.left_out()
+        yield from self.stack.omitted()
         for column in self.all_columns:
             if column.tangled:
                 one, other = column.tangled

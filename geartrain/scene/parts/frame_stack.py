@@ -310,7 +310,7 @@ class FrameStack:
             shifts.append(rise)
         return replace(self, layout=self.raised(lambda height: shifts[max(bisect_right(starts, height) - 1, 0)]))
 
-    def left_out(self) -> Iterator[Problem]:
+    def omitted(self) -> Iterator[Problem]:
         """Yield problems for axes without bearings."""
         for label, axis in self.layout.axes.items():
             used = any(place.axis == label for place in self.layout.wheels.values())

@@ -71,8 +71,8 @@ class ManufacturingSizes(Shown):
         problems = []
         if self.arms is not None and self.arms < 3:
             what = f"a wheel cannot have {self.arms} spokes"
-            why, fix = "a web with windows has at least 3 spokes", "pass 3 or more, or omit --arms for solid webs"
-            problems.append(Problem(what, why, fix, "--arms"))
+            why, fix = "a web with windows has at least 3 spokes", "pass 3 or more, or omit --spokes for solid webs"
+            problems.append(Problem(what, why, fix, "--spokes"))
         for name, bounds in _MADE.items():
             value = getattr(self, name)
             if value is not None and not (value == 0 and name in ("bore", "backlash")):

@@ -32,7 +32,7 @@ from geartrain.scene.solids.standing_pins import (
     side_bars,
     standing_pins,
 )
-from geartrain.scene.solids.triangle_solids import likeness_solid, wheel_solid
+from geartrain.scene.solids.triangle_solids import approximation_solid, wheel_solid
 from geartrain.scene.solids.wheel_blanks import Blanks, bored, crossed_out, find_blanks, with_seats
 from geartrain.teeth.outlines.contour import Contour
 
@@ -250,7 +250,7 @@ class _Parts:
         turn, place = wheel_frame(wheel)
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
-            drawn = likeness_solid(
+            drawn = approximation_solid(
                 wheel, self.scene.profiles[wheel.profile], self.work.bores_of_wheels.get(wheel.id, 0.0)
             )
             return SolidPart(wheel.body, wheel.id, "wheel", turn, place, wheel.status, drawn=drawn)

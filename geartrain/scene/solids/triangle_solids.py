@@ -309,7 +309,7 @@ _RIDGE = 0.01  # minimum half width of a crown's tooth in pitches, or its flanks
 _SIDES = 720  # sides of a wheel drawn without teeth
 
 
-def likeness_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
+def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
     """Return an approximate wheel of the scene, centred at the origin, its first tooth along x, its axis along z.
 
     bore   diameter of its hole, unless it is a ring (mm)

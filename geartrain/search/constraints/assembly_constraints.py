@@ -1,4 +1,4 @@
-"""Constraints on the tooth counts of a declared train: assembly, positions of axes, interference.
+"""Constraints on the tooth counts of a declared train from assembly, positions of axes, and interference.
 
 `find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
 solved for the count of a wheel, a `Condition` can only be tested. Both are evaluated for many candidates at once.
@@ -19,7 +19,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly, corresponding
-from geartrain.kinematics.buildability.pitch_distances import tip_room
+from geartrain.kinematics.buildability.pitch_distances import tip_margin
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing import MeshPhasing, find_phasing
 from geartrain.numerics.graphs import joined_groups
@@ -46,7 +46,7 @@ from geartrain.search.constraints.count_conditions import (
     teeth_of,
     whole,
 )
-from geartrain.search.constraints.planet_constraints import PlanetRoom, equal_planets, reason
+from geartrain.search.constraints.planet_constraints import PlanetClearance, equal_planets, reason
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -60,19 +60,19 @@ if TYPE_CHECKING:
 
 
 BACKLASH = 0.05
-"""Tolerance of a distance between declared positions [half modules]: positions are rounded, and teeth have backlash."""
+"""Tolerance of a distance between declared positions [half modules], for rounded positions and backlash."""
 
 
 def find_constraints(
     train: Train, free: Mapping[str, Counts], requested: ConstraintOptions
 ) -> tuple[CountConstraint, ...]:
-    """Return the constraints on the free wheels of a train, those with the lowest cost first.
+    """Return the constraints on the wheels of a train whose tooth counts are varied, those with the lowest cost first.
 
     free   wheel -> admissible counts; all other wheels have their declared counts
 
     The order is: bounds of single wheels; equations; conditions on pairs, on sets of planets, on positions and loops.
-    Constraints without a free wheel are omitted, because the search cannot change them. `QuestionError` is raised if a
-    requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
+    Constraints that involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is
+    raised if a requested constraint cannot be evaluated for this train or cannot be satisfied by any counts.
     """
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
@@ -82,14 +82,13 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train; in `fitting` its free wheels have placeholder counts."""
+    """Builder of the constraints of one train. In `fitting` its varied wheels have placeholder counts."""
 
     declared: Train
     fitting: TrainAssembly
     requested: ConstraintOptions
 
     def rules(self) -> Iterator[CountConstraint]:
-        """Yield all constraints in order."""
         yield from self._limits()
         linear = [*self._coaxial(), *self._equal()]
         yield from sorted(linear, key=lambda rule: not isinstance(rule, CountEquation))
@@ -112,9 +111,9 @@ class _ConstraintBuilder:
                     (name,),
                     CountBounds(name, minimum=requested.minimum),
                 )
-            if requested.most_teeth is not None:
-                what = f"'{name}' has at most {requested.most_teeth} teeth"
-                yield Condition(what, (name,), CountBounds(name, most=requested.most_teeth))
+            if requested.maximum_teeth is not None:
+                what = f"'{name}' has at most {requested.maximum_teeth} teeth"
+                yield Condition(what, (name,), CountBounds(name, most=requested.maximum_teeth))
             if requested.largest_radius is not None:
                 plain = "" if requested.largest_radius.unit else " modules"
                 what = f"'{name}' has a radius of at most {requested.largest_radius}{plain}"
@@ -124,7 +123,8 @@ class _ConstraintBuilder:
                 yield Condition(what, (name,), CountBounds(name, minimum=rack))
 
     def _most(self, wheel: str, radius: Quantity) -> int:
-        """Return the maximum count for which the pitch radius, m z/2, is within the bound."""
+        """Return the maximum tooth count z for which the pitch radius m z/2 does not exceed `radius`."""
+        # measure: m for lengths, plain for numbers, empty if not declared
         measure, module = self.fitting.module(wheel)
         if (measure == "m") != (radius.unit is not None) or module is None:
             declared = "a length" if measure == "m" else "a plain number" if measure else "not declared"
@@ -141,7 +141,9 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Yield the equality of centre distances for meshes between the same axes with the same measure."""
+        """Yield the equality of the centre distances of all meshes between the same axes whose modules have the same
+        unit.
+        """
         if self.requested.coaxial is False:
             return
         first: dict[object, AssemblyMesh] = {}
@@ -153,10 +155,11 @@ class _ConstraintBuilder:
 
     def _one_distance(self, before: AssemblyMesh, mesh: AssemblyMesh) -> Iterator[CountConstraint]:
         total = distance_of(before) - distance_of(mesh)
+        # half modules in the unit of the distances
         shift = self.requested.shift * min(before.module or 1, mesh.module or 1)
         if not (before.is_free or mesh.is_free) or self._is_broken(total, shift):
             return
-        # the free counts cancel, so the constraint depends on fixed counts only
+        # the varied counts cancel, so the constraint depends on fixed counts only
         if not total.terms:
             if abs(total.constant) > shift:
                 raise QuestionError(_unequal_distances(before, mesh))
@@ -172,7 +175,7 @@ class _ConstraintBuilder:
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
         """Return whether the declared counts violate a constraint that was not requested explicitly.
 
-        Modules then differ, or profiles are shifted.
+        In that case the modules differ or the profiles are shifted, so the constraint is not applied.
         """
         counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
@@ -181,7 +184,7 @@ class _ConstraintBuilder:
         )
 
     def _declared_count(self, wheel: str) -> int | None:
-        """Return the declared count, or None if it is to be searched for, in which case its value is only a
+        """Return the declared tooth count; None if it is to be searched for, because its value is then only a
         placeholder.
         """
         teeth = self.declared.wheels[wheel][1].teeth
@@ -210,7 +213,7 @@ class _ConstraintBuilder:
         return self.requested.addendum if self.requested.ring_addendum is None else self.requested.ring_addendum
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield the conditions between each free wheel and all fixed counts, then between each two free wheels."""
+        """Yield the conditions between each varied wheel and all fixed counts, then between each two varied wheels."""
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
         groups = joined_groups(self.fitting.train.wheels, copied)
@@ -222,6 +225,7 @@ class _ConstraintBuilder:
             if others:
                 yield Condition(words, (wheel,), DifferentCount(wheel, tuple(dict.fromkeys(others))))
         for first, second in combinations(free, 2):
+            # copies of one planet have equal counts by construction
             if alike[first] != alike[second]:
                 yield Condition(words, (first, second), DifferentCount(first, (second,)))
 
@@ -233,7 +237,7 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Yield each set of planets with its number of equal planets: the requested number, or that of `copies`."""
+        """Yield each set of planets with its number of equal planets, as requested or as declared by `copies`."""
         requested = self.requested.planets
         if requested is None:
             for one in self.fitting.sets:
@@ -254,11 +258,11 @@ class _ConstraintBuilder:
             yield one, number
 
     def _declared_sets(self, one: PlanetSet) -> int:
-        """Return the number of equal sets that are declared, by `copies` or individually."""
+        """Return the number of equal planet sets that are declared, by `copies` or individually."""
         return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
 
     def _equal(self) -> Iterator[CountConstraint]:
-        """Yield the equations that give individually declared equal planets the same counts."""
+        """Yield the equations of the tooth counts of equal planets that are declared individually."""
         for one, _ in self._planet_sets():
             for first, other in self._copied(one):
                 found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
@@ -282,14 +286,14 @@ class _ConstraintBuilder:
                 )
             )
         for one, number in numbered:
-            room = PlanetRoom(number, self.requested.addendum, self._ring_addendum, self.requested.clearance)
+            room = PlanetClearance(number, self.requested.addendum, self._ring_addendum, self.requested.clearance)
             yield from room.conditions(one, self.fitting)
 
 
 def _unequal_distances(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
     return Problem(
         f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
-        "they connect the same two axes, and their free counts cancel",
+        "they connect the same two axes, and the counts of varied wheels cancel",
         "correct a fixed count, allow a `shift`, or do not require `coaxial`",
     )
 
@@ -322,8 +326,9 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
 
 @dataclass(frozen=True, slots=True)
 class CentreDistanceMatch:
-    """Condition that a sum of teeth is within `most` of a multiple of another: centre distances are proportional to the
-    distances between positions.
+    """Condition that two centre distances have the ratio of the distances between the declared positions.
+
+    The difference `teeth` - `ratio` x `other` must be within +-`most` [half modules].
     """
 
     teeth: WholeSum
@@ -332,24 +337,24 @@ class CentreDistanceMatch:
     most: float
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which the distances match, (candidates,)."""
+        """Return whether the distances match for each candidate, shape (candidates,)."""
         return np.asarray(np.abs(self.teeth.of(columns) - self.ratio * self.other.of(columns)) <= self.most)
 
 
 @dataclass(frozen=True)
 class LoopPhasing:
-    """Condition that the teeth of all loops mesh, tested for each candidate (about a millisecond each)."""
+    """Condition that the teeth of all loops mesh, tested candidate by candidate (about a millisecond each)."""
 
     train: Train
-    """Train with placeholder counts; those of `wheels` are replaced."""
+    """Train in which the counts of `wheels` are placeholders."""
     tree: Tree
-    """Tree with placeholder counts; those of `wheels` are replaced."""
+    """Tree of joints of that train."""
     circuits: tuple[Circuit, ...]
-    """Circuits with placeholder counts; those of `wheels` are replaced."""
+    """Fundamental circuits in which the counts of `wheels` are placeholders."""
     wheels: tuple[str, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which no loop fails or is undecided, (candidates,)."""
+        """Return whether all loops certainly close for each candidate, shape (candidates,)."""
         rows = np.stack([columns[wheel] for wheel in self.wheels], axis=1)
         # each distinct combination of counts is tested once
         each, back = np.unique(rows, axis=0, return_inverse=True)
@@ -363,19 +368,19 @@ class LoopPhasing:
 
 @dataclass(frozen=True)
 class DeclaredPositions:
-    """Constraints from the declared positions of axes: wheels must reach each other, and their teeth must mesh."""
+    """Constraints from the declared positions of axes: meshing wheels must reach each other, and loops must close."""
 
     fitting: TrainAssembly
     shift: int = 0
-    """Deviation of a centre distance that profile shift compensates [half modules]."""
+    """Deviation of a centre distance that profile shift can compensate [half modules]."""
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Phase closure with the placeholder counts."""
+        """Phase closure of the loops with the placeholder counts."""
         return find_phasing(self.fitting.train, self.fitting.tree, self.fitting.circuits)
 
     def conditions(self) -> Iterator[Condition]:
-        """Yield the conditions on distances, then on loops; `QuestionError` if the positions of no loop are known."""
+        """Yield the conditions on distances, then on loops. Raise `QuestionError` if no loop has known positions."""
         found = self.closure
         if found.kind == "open" and not found.rigid:
             raise QuestionError(_no_positions(self.fitting.train))
@@ -383,7 +388,7 @@ class DeclaredPositions:
         yield from self._loop_condition()
 
     def _distance_conditions(self) -> Iterator[Condition]:
-        """Yield the conditions on distances. Meshes with a common wheel or measure of modules share a unit."""
+        """Yield the conditions on centre distances, by groups of meshes that have the same module."""
         groups: dict[int, list[AssemblyMesh]] = {}
         for mesh in self.fitting.meshes:
             if mesh.spur and self._length(mesh):
@@ -400,14 +405,14 @@ class DeclaredPositions:
     def _by_each_other(self, meshes: Sequence[AssemblyMesh]) -> Iterator[Condition]:
         fixed = [mesh for mesh in meshes if not mesh.is_free]
         for mesh in meshes:
-            first = (fixed or meshes)[0]
+            first = (fixed or meshes)[0]  # the unit is a mesh with fixed counts if there is one
             if mesh is not first:
                 yield from self._match(
                     mesh, teeth_of(first), self._length(mesh) / self._length(first), f"that of '{first.name}'"
                 )
 
     def _is_sized(self, mesh: AssemblyMesh) -> bool:
-        """Return whether the module of a mesh and the positions of its axes have the same measure."""
+        """Return whether the module of a mesh and the positions of its axes are both lengths, or both plain numbers."""
         if not mesh.measure or mesh.module is None:
             return False
         places = [self.fitting.train.axes[label].position for label in mesh.axes]
@@ -423,7 +428,7 @@ class DeclaredPositions:
             yield Condition(name, wheels, CentreDistanceMatch(one, two, ratio, BACKLASH + self.shift))
 
     def _length(self, mesh: AssemblyMesh) -> float:
-        """Return the distance between the two axes of a mesh [m, or plain]; 0 if a position is not declared."""
+        """Return the distance between the two axes of a mesh [m, or plain number]; 0 if a position is not declared."""
         axes = self.fitting.train.axes
         ends = [axes[label].position for label in mesh.axes if label in axes]
         if len(ends) < 2 or ends[0] is None or ends[1] is None:
@@ -435,7 +440,9 @@ class DeclaredPositions:
         return sqrt(max(sum(x * x for x in arm) - along, 0.0))
 
     def _loop_condition(self) -> Iterator[Condition]:
-        """Yield one condition on all loops: their divisibility rule if known, otherwise a test of each candidate."""
+        """Yield one condition on all loops: their divisibility rule if it is known, otherwise a test of each
+        candidate.
+        """
         wheels = free_of(*(self.fitting.part(wheel) for wheel in self._in_loops()))
         if not wheels:
             return
@@ -458,7 +465,7 @@ class DeclaredPositions:
         return total
 
     def _in_loops(self) -> Sequence[str]:
-        """Return the wheels of all pairs in loops, both closing and rigid ones."""
+        """Return the wheels of all pairs that are in loops, whether these move or are rigid."""
         problem = self.closure.problem
         meshes = {mesh for condition in problem.conditions for mesh in condition.row}
         pairs = {problem.circuits[mesh].id for mesh in meshes}
@@ -506,8 +513,8 @@ def external_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[An
 
 
 def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, ...]:
-    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 without interference of the ring's
-    tip.
+    """Return the terms of z1 (2 z2 - z1) sin(alpha)^2 - 4 h (z2 - h), which is >= 0 if the ring's tip does not
+    interfere.
 
     h is the addendum of the ring. The formula equals that of an external pair with z2 and h negative, and was derived
     independently: the ring's tip circle must intersect the line of action beyond the point where that touches the base
@@ -516,18 +523,18 @@ def ring_terms(root: Any, z1: Any, z2: Any, square: Any, h: Any) -> tuple[Any, .
     return z1 * (2 * z2 - z1) * square, -4 * h * (z2 - h)
 
 
-def tip_rooms(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
-    """Return the clearance `tip_room` of each candidate [rad]; tooth counts are arrays that broadcast to one shape."""
+def tip_margins(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
+    """Return the angular clearance `tip_margin` of each planet and ring [rad]; tooth counts broadcast to one shape."""
     planets, rings = np.broadcast_arrays(np.asarray(z1, dtype=np.int64), np.asarray(z2, dtype=np.int64))
     # many candidates share the same few pairs of counts
     pairs, which = np.unique(np.stack((planets.ravel(), rings.ravel())), axis=1, return_inverse=True)
-    rooms = np.array([tip_room(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
+    rooms = np.array([tip_margin(planet, ring, pressure, h1, h2) for planet, ring in pairs.T.tolist()], dtype=float)
     return np.asarray(rooms[which.ravel()].reshape(planets.shape))
 
 
 @dataclass(frozen=True, slots=True)
 class OnInvolute:
-    """Condition that the tips of an external pair do not interfere: each meets the involute of its mate; exact."""
+    """Exact condition that the tips of an external pair do not interfere: each meets the involute of its mate."""
 
     first: CountRef
     second: CountRef
@@ -535,7 +542,7 @@ class OnInvolute:
     addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates without interference, (candidates,)."""
+        """Return whether each candidate is free of interference, shape (candidates,)."""
         z1, z2 = counts_of(columns, self.first), counts_of(columns, self.second)
         constants = _square(self.pressure), decimal(self.addendum)
         one = is_positive(external_terms, [z1, z2], constants, False)
@@ -544,7 +551,7 @@ class OnInvolute:
 
 @dataclass(frozen=True, slots=True)
 class InRing:
-    """Condition that the tips of a planet and a ring do not interfere with each other's flanks or tips.
+    """Condition that the tips of a planet and a ring interfere neither with flanks nor with each other.
 
     Tips that pass each other with a clearance of less than 1e-9 rad count as interfering.
     """
@@ -556,12 +563,13 @@ class InRing:
     ring_addendum: Fraction
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates without interference, (candidates,)."""
+        """Return whether each candidate is free of interference, shape (candidates,)."""
         z1, z2 = counts_of(columns, self.planet), counts_of(columns, self.ring)
+        # the planet is smaller, and the ring's tip circle has a positive radius
         fits = np.asarray((z2 > z1) & (z2 > float(2 * self.ring_addendum)))
         fits &= is_positive(ring_terms, [z1, z2], [_square(self.pressure), decimal(self.ring_addendum)], False)
         angle = float(self.pressure) * 2 * pi
-        return np.asarray(fits & (tip_rooms(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
+        return np.asarray(fits & (tip_margins(z1, z2, angle, float(self.addendum), float(self.ring_addendum)) > 1e-9))
 
 
 def _square(pressure: Fraction) -> Decimal:
@@ -572,7 +580,11 @@ def _square(pressure: Fraction) -> Decimal:
 def interference(
     mesh: AssemblyMesh, pressure: Fraction, addendum: Fraction, ring_addendum: Fraction
 ) -> Iterator[Condition]:
-    """Yield the interference condition of a spur pair with a free count; angle in turns, addenda in modules."""
+    """Yield the interference condition of a spur pair with a varied wheel; nothing for other pairs.
+
+    pressure   pressure angle [turns]
+    addendum, ring_addendum   addenda of external wheels and of rings [modules]
+    """
     wheels = free_of(*mesh.parts)
     if not wheels or not mesh.spur:
         return

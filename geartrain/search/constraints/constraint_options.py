@@ -17,11 +17,11 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, slots=True)
 class ConstraintOptions:
-    """Constraints on tooth counts in addition to ratios. By default only coaxial centre distances are required.
+    """Constraints on tooth counts in addition to ratios. By default only equal coaxial centre distances are required.
 
     See Also
     --------
-    search_train : takes them.
+    search_train : Search with these constraints.
 
     Examples
     --------
@@ -30,15 +30,17 @@ class ConstraintOptions:
     """
 
     coaxial: bool | None = None
-    """Requirement that spur wheels of the same module between the same two axes have equal centre distances. Wheels
-    without a declared module are assumed to have the same one. None requires it unless declared counts, none of them
-    searched for, already violate it; modules then differ, or profiles are shifted.
+    """Requirement that spur wheels of the same module between the same two axes have equal centre distances.
+
+    Wheels without a declared module are assumed to have the same one. None requires it unless declared counts that are
+    not varied already violate it, because the modules then differ or the profiles are shifted.
     """
     shift: int = 0
-    """Maximum difference between such distances [half modules], to be compensated by profile shift."""
+    """Maximum difference between coaxial centre distances, to be compensated by profile shift [half modules]."""
     planets: int | Mapping[str, int] | None = None
     """Number of equal, equally spaced planets on every carrier that moves planets, or a mapping carrier -> number.
-    Equal planets also have the same relative orientation of the wheels on their arbors.
+
+    The wheels of equal planets also have the same relative orientation on their arbors.
     """
     clearance: Fraction | None = None
     """Minimum clearance between the tips of neighbouring planets [modules], exclusive."""
@@ -53,17 +55,18 @@ class ConstraintOptions:
     addendum 1 at 20 deg, 18 teeth in a ring of 60 interfere.
     """
     minimum: int | None = None
-    """Minimum tooth count of every free wheel, inclusive; worms are exempt."""
-    most_teeth: int | None = None
-    """Maximum tooth count of every free wheel, inclusive; worms are exempt."""
+    """Minimum tooth count of every varied wheel, inclusive; worms are exempt."""
+    maximum_teeth: int | None = None
+    """Maximum tooth count of every varied wheel, inclusive; worms are exempt."""
     largest_radius: Quantity | None = None
-    """Maximum pitch radius of every free wheel: a length, or a plain number of modules; worms are exempt."""
+    """Maximum pitch radius of every varied wheel: a length, or a plain number of modules; worms are exempt."""
     different: bool = False
-    """Requirement that no free wheel has as many teeth as another wheel, except equal planets."""
+    """Requirement that no varied wheel has the same tooth count as another wheel, except equal planets."""
     hunting: bool = False
     """Requirement that the tooth counts of meshing wheels are coprime."""
     closure: bool = False
-    """Requirement that the wheels reach each other at the declared positions of axes and the teeth of every loop mesh.
+    """Requirement that meshing wheels reach each other at the declared positions of axes and that the teeth of loops
+    mesh.
     """
 
     def to_dict(self) -> dict[str, Any]:
@@ -94,10 +97,9 @@ def read_constraint_options(
     clearance, addendum, ring_addendum   numbers of modules: "0.5", "4/5"
     undercut, interference               pressure angles: "20 deg"
     largest_radius                       "60 mm", or "30" modules
-    others          as in `ConstraintOptions`: coaxial, shift, minimum, most_teeth, different, hunting, closure
+    others          as in `ConstraintOptions`: coaxial, shift, minimum, maximum_teeth, different, hunting, closure
 
-    The options of a command have the same names, and `--no-coaxial` turns `coaxial` off. `QuestionError` is raised with
-    all texts that cannot be parsed.
+    `QuestionError` is raised with all texts that cannot be parsed, at the options of `geartrain teeth train`.
     """
     problems: list[Problem] = []
 
@@ -116,7 +118,7 @@ def read_constraint_options(
         "addendum": number("addendum", addendum),
         "ring_addendum": number("ring-addendum", ring_addendum),
         "largest_radius": _read(
-            problems, "largest-radius", largest_radius, lambda raw: Quantity.parse(raw, "length", plain=True)
+            problems, "max-radius", largest_radius, lambda raw: Quantity.parse(raw, "length", plain=True)
         ),
     }
     if problems:
@@ -125,14 +127,14 @@ def read_constraint_options(
 
 
 def _read(problems: list[Problem], option: str, text: str | None, parse: Callable[[str], Read]) -> Read | None:
-    """Parse a text; append a problem if it is invalid."""
+    """Parse the text of an option; return None and append a problem if it is invalid."""
     if text is None:
         return None
     try:
         return parse(text)
     except PydanticCustomError as error:
         fix = (error.context or {}).get("fix", "")
-        problems.append(Problem(f"--{option}: {error.message()}", "", str(fix)))
+        problems.append(Problem(error.message(), "", str(fix), f"--{option}"))
         return None
 
 

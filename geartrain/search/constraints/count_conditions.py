@@ -28,46 +28,46 @@ _NEAR = 1e-7  # relative to the terms: bound of the float error, which a root of
 _EQUAL = Decimal("1e-25")  # relative to the terms: values that agree to 25 digits are equal
 
 CandidateColumns = Mapping[str, "Ints"]
-"""Wheel -> tooth counts of many candidates, int64 arrays of equal length."""
+"""Tooth counts of many candidates by wheel, int64 arrays of equal length."""
 
 
 class CandidateTest(Protocol):
-    """Predicate on candidates; an immutable object that can be pickled."""
+    """Predicate on candidates, an immutable object that can be pickled."""
 
     def __call__(self, columns: CandidateColumns, /) -> Bools:
-        """Return the candidates that pass, (candidates,)."""
+        """Return whether each candidate passes, shape (candidates,)."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountEquation:
-    """Linear equation of tooth counts: the sum of coefficient times count, plus a constant, is 0."""
+    """Linear equation of tooth counts: the sum of coefficients times counts, plus a constant, is 0."""
 
     name: str
     """Description of the constraint in reports."""
     coefficients: Mapping[str, int]
-    """Free wheel -> nonzero integer; at least one wheel."""
+    """Nonzero integer coefficient of each varied wheel; at least one wheel."""
     constant: int
     """Contribution of the wheels with fixed counts."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Free wheels of the equation."""
+        """Varied wheels of the equation."""
         return tuple(self.coefficients)
 
     def left(self, columns: CandidateColumns) -> Ints:
-        """Return the left side of the equation, (candidates,); 0 if it is satisfied. Sums above 2^63 overflow."""
+        """Return the left side of the equation, shape (candidates,); 0 if it is satisfied. Sums above 2^63 overflow."""
         terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
         return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates that satisfy the equation, (candidates,)."""
+        """Return whether each candidate satisfies the equation, shape (candidates,)."""
         return np.asarray(self.left(columns) == 0)
 
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
-        """Return the count of one wheel from those of the others, and whether it is an integer; both (candidates,).
+        """Return the count of one wheel from the counts of the others, and whether it is an integer.
 
-        `columns` need not include `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer.
-        If the equation has only one wheel, both arrays have one entry.
+        Both arrays have shape (candidates,), or (1,) if the equation has only one wheel. `columns` need not include
+        `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer.
         """
         others = [factor * columns[name] for name, factor in self.coefficients.items() if name != wheel]
         total = reduce(np.add, others, np.array(self.constant, dtype=np.int64))
@@ -77,18 +77,19 @@ class CountEquation:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """Constraint that can be tested but not solved for a wheel."""
+    """Constraint that can be tested but not solved for the count of a wheel."""
 
     name: str
     """Description of the constraint in reports; several conditions may share it."""
     wheels: tuple[str, ...]
-    """Free wheels of the condition, at least one."""
+    """Varied wheels of the condition, at least one."""
     test: CandidateTest
     """Predicate on the candidates."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates that satisfy the condition, (candidates,), read-only. Columns of other wheels are
-        ignored.
+        """Return whether each candidate satisfies the condition, shape (candidates,), read-only.
+
+        Columns of other wheels are ignored.
         """
         return np.broadcast_to(self.test(columns), columns[self.wheels[0]].shape)
 
@@ -98,12 +99,12 @@ CountConstraint = CountEquation | Condition
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
-    """Return the counts of a part: the column of a free wheel, or a single number that broadcasts to all candidates."""
+    """Return the counts of a wheel for all candidates: its column if it is varied, otherwise its fixed count."""
     return columns[part] if isinstance(part, str) else np.asarray(part, dtype=np.int64)
 
 
 def free_of(*parts: CountRef) -> tuple[str, ...]:
-    """Return the distinct free wheels among parts, in order."""
+    """Return the distinct ids of varied wheels among ids and fixed counts, in order."""
     return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
 
 
@@ -112,14 +113,14 @@ def free_of(*parts: CountRef) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class LinearSum:
-    """Sum of weight times count over free wheels, plus a constant; weights are never 0."""
+    """Sum of weights times counts over varied wheels, plus a constant. Weights are never 0."""
 
     terms: Mapping[str, Fraction]
     constant: Fraction = Fraction(0)
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Build the sum of weights times parts, where a part is the id of a free wheel or a fixed count."""
+        """Build the sum of weights times parts, where a part is the id of a varied wheel or a fixed count."""
         total = cls({})
         for weight, part in parts:
             total = total + (
@@ -149,18 +150,20 @@ class LinearSum:
 
 @dataclass(frozen=True, slots=True)
 class WholeSum:
-    """Sum of integer weights times counts, plus an integer constant."""
+    """Sum of integer weights times counts over varied wheels, plus an integer constant."""
 
     terms: tuple[tuple[str, int], ...]
     constant: int
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Free wheels of the sum."""
+        """Varied wheels of the sum."""
         return tuple(wheel for wheel, _ in self.terms)
 
     def of(self, columns: CandidateColumns) -> Ints:
-        """Return the values of the sum, (candidates,), or one number without free wheels. Sums above 2^63 overflow."""
+        """Return the values of the sum, shape (candidates,), or one number if it has no varied wheel. Sums above 2^63
+        overflow.
+        """
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
             total = total + weight * columns[wheel]
@@ -168,7 +171,7 @@ class WholeSum:
 
 
 def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
-    """Multiply sums by the smallest positive number, the same for all, that makes all their weights integers."""
+    """Multiply several sums by the smallest common positive factor that makes all their weights integers."""
     scale = lcm(*(number.denominator for one in sums for number in (*one.terms.values(), one.constant)))
     return tuple(
         WholeSum(tuple((wheel, int(weight * scale)) for wheel, weight in one.terms.items()), int(one.constant * scale))
@@ -177,7 +180,7 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """Return the primitive integer multiple of a sum, its first weight positive; it is 0 exactly where the sum is 0."""
+    """Return the integer multiple of a sum whose coefficients are coprime and whose first weight is positive."""
     (found,) = whole(one)
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
     if found.terms and found.terms[0][1] < 0:
@@ -186,7 +189,7 @@ def plainest(one: LinearSum) -> WholeSum:
 
 
 def equality(one: WholeSum) -> str:
-    """Format the equation that a sum is 0, with plus signs only: `s + 2 p = r`."""
+    """Format the equation that a sum is 0, without minus signs: `s + 2 p = r`."""
     pieces = [(one.constant, str(abs(one.constant)))] if one.constant else []
     pieces += [(weight, f"{abs(weight)} {wheel}" if abs(weight) != 1 else wheel) for wheel, weight in one.terms]
     left, right = ([text for weight, text in pieces if weight * side > 0] for side in (1, -1))
@@ -198,14 +201,14 @@ def equality(one: WholeSum) -> str:
 
 @dataclass(frozen=True, slots=True)
 class CountBounds:
-    """Bounds of the count of a wheel, inclusive; None for no bound."""
+    """Bounds of the tooth count of a wheel, inclusive; None for no bound."""
 
     wheel: str
     minimum: int | None = None
     most: int | None = None
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates within the bounds, (candidates,)."""
+        """Return whether each candidate is within the bounds, shape (candidates,)."""
         counts = columns[self.wheel]
         found = np.ones(counts.shape, dtype=bool)
         if self.minimum is not None:
@@ -223,19 +226,19 @@ class Coprime:
     second: CountRef
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose gcd is 1, (candidates,)."""
+        """Return whether the two counts of each candidate are coprime, shape (candidates,)."""
         return np.asarray(np.gcd(counts_of(columns, self.first), counts_of(columns, self.second)) == 1)
 
 
 @dataclass(frozen=True, slots=True)
 class DifferentCount:
-    """Condition that the count of a wheel differs from other counts."""
+    """Condition that the tooth count of a wheel differs from several other counts."""
 
     wheel: str
     others: tuple[CountRef, ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose count differs from all others, (candidates,)."""
+        """Return whether the count of each candidate differs from all others, shape (candidates,)."""
         found = np.ones(columns[self.wheel].shape, dtype=bool)
         for other in self.others:
             found &= columns[self.wheel] != counts_of(columns, other)
@@ -244,24 +247,24 @@ class DifferentCount:
 
 @dataclass(frozen=True, slots=True)
 class NearZero:
-    """Condition that the absolute value of a sum is at most a given integer."""
+    """Condition that the absolute value of a sum is at most `most`."""
 
     total: WholeSum
     most: int
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose sum is within the bound, (candidates,)."""
+        """Return whether the sum of each candidate is within the bound, shape (candidates,)."""
         return np.asarray(np.abs(self.total.of(columns)) <= self.most)
 
 
 @dataclass(frozen=True, slots=True)
 class Divisible:
-    """Condition that each sum is a multiple of its modulus: pairs (modulus, sum)."""
+    """Condition that each sum is a multiple of its modulus. `sums` has pairs (modulus, sum)."""
 
     sums: tuple[tuple[int, WholeSum], ...]
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which all sums are multiples, (candidates,)."""
+        """Return whether all sums of each candidate are multiples of their moduli, shape (candidates,)."""
         found = np.asarray(True)
         for modulus, total in self.sums:
             found = found & (total.of(columns) % modulus == 0)
@@ -274,7 +277,7 @@ def teeth_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair with one module, in units of its measure."""
+    """Return twice the centre distance of a spur pair whose wheels have the same module [m, or plain number]."""
     assert mesh.module is not None
     return teeth_of(mesh).times(mesh.module)
 
@@ -283,7 +286,7 @@ def distance_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 Kernel = Callable[..., Sequence[Any]]
-"""Function that returns the terms of a margin, `kernel(root, *numbers)`, for arrays of floats or of decimals.
+"""Function `kernel(root, *numbers)` that returns the terms of a clearance, for arrays of floats or for decimals.
 
 `root` is the square root of the number type, with 0 for negative arguments.
 """
@@ -301,6 +304,7 @@ def sine(turns: Fraction) -> Decimal:
         x = 2 * _PI * decimal(turns)
         term = total = x
         order = 1
+        # alternating series: the error is below the first omitted term
         while abs(term) > Decimal(10) ** -_DIGITS:
             order += 2
             term = -term * x * x / (order * (order - 1))
@@ -314,18 +318,19 @@ def cosine(turns: Fraction) -> Decimal:
 
 
 def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Decimal], strictly: bool) -> Bools:
-    """Return whether the sum of the terms is above 0 (or >= 0 unless `strictly`), for each candidate.
+    """Return for each candidate whether the sum of the terms is above 0 (or >= 0 unless `strictly`).
 
     counts     integers, arrays that broadcast to one shape, (candidates,)
     constants  numbers that are the same for all candidates
 
-    Floats decide unless the sum is near 0; fifty digits decide the rest. Terms may include roots of differences of
-    products.
+    The sum is evaluated in floats, and with fifty digits where the result in floats is near 0. Terms may include roots
+    of differences of products.
     """
     spread = np.broadcast_arrays(*counts)
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))
     margin, scale = _total(terms), _total([np.abs(term) for term in terms])
     found = np.broadcast_to(margin > 0, spread[0].shape).copy()
+    # the float result is within its error bound of 0
     for at in np.flatnonzero(np.broadcast_to(np.abs(margin) <= _NEAR * scale, found.shape)):
         found.flat[at] = _decide(kernel, [int(column.flat[at]) for column in spread], constants, strictly)
     return found

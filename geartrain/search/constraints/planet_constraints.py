@@ -45,14 +45,14 @@ if TYPE_CHECKING:
 class EqualPlanets:
     """Condition that n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
 
-    The condition is that n divides every number of `phase_numbers`, where it is derived.
+    The condition is that n divides each number of `phase_numbers`, which derives it.
     """
 
     number: int
     first: PlanetArm
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates for which the planets can be assembled, (candidates,)."""
+        """Return whether the planets of each candidate can be assembled, shape (candidates,)."""
         n = self.number
         # b is only needed modulo n; reduced, so that products of counts fit int64
         kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda number: number % n)
@@ -63,7 +63,9 @@ class EqualPlanets:
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the gcd g of arrays of numbers >= 0, and u, v with u a + v b = g, by the extended Euclidean algorithm."""
+    """Return the gcd g of two arrays of numbers >= 0, and u, v with u a + v b = g, by the extended Euclidean
+    algorithm.
+    """
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
         done = r2 == 0
@@ -77,7 +79,11 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
-    """Return the assembly condition of a set of planets; None if it has no free count or constrains nothing."""
+    """Return the assembly condition of a set of planets.
+
+    Return None if no wheel is varied or the planets mesh with fewer than two central wheels, because any number can
+    then be assembled.
+    """
     assert found.planets is not None
     first = planet_arm(found.planets)
     if sum(len(planet.central) for planet in found.planets.walk()) < 2:
@@ -87,7 +93,7 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
 
 
 def reason(found: PlanetSet, number: int) -> str:
-    """Describe the assembly condition, with its formula if that is short."""
+    """Return the assembly condition as text, with its formula if there are two central wheels."""
     head = f"{number} equal planets on '{found.carrier}'"
     planet = found.planets
     if planet is None or planet.outward or len(planet.central) != 2:
@@ -104,9 +110,10 @@ def reason(found: PlanetSet, number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class NeighbourClearance:
-    """Condition that the clearance of the tip circles of neighbouring planets exceeds the required one, exactly.
+    """Exact condition that the tip circles of neighbouring planets have more than the required clearance.
 
-    The arguments are those of `neighbour_terms`.
+    `reach` is twice the distance of a planet's axis from the central axis, `tips` the tip diameter plus the clearance;
+    see `neighbour_terms`.
     """
 
     number: int
@@ -114,15 +121,17 @@ class NeighbourClearance:
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates with sufficient clearance, (candidates,)."""
+        """Return whether each candidate has sufficient clearance, shape (candidates,)."""
         chord = sine(Fraction(1, 2 * self.number))
         return is_positive(neighbour_terms, [self.reach.of(columns), self.tips.of(columns)], [chord], True)
 
 
 @dataclass(frozen=True, slots=True)
 class PassingClearance:
-    """Condition that two meshing planets can be placed on their circles, and that each clears the mates of its
-    neighbours.
+    """Condition that two meshing planets can be placed on their circles, and that each clears the other planets'
+    partners.
+
+    A, B and D are twice the radii of the two circles and twice the centre distance; see `passing_terms`.
     """
 
     number: int
@@ -132,7 +141,7 @@ class PassingClearance:
     tips: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates that satisfy both, (candidates,); the arguments are those of `passing_terms`."""
+        """Return whether each candidate satisfies both conditions, shape (candidates,)."""
         A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
         # the triangle of the central axis and the two planets must close
         found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
@@ -144,18 +153,18 @@ class PassingClearance:
 
 
 @dataclass(frozen=True, slots=True)
-class PositiveRoom:
-    """Condition that a sum is positive."""
+class PositiveClearance:
+    """Condition that the clearance `room` is positive."""
 
     room: WholeSum
 
     def __call__(self, columns: CandidateColumns) -> Bools:
-        """Return the candidates whose sum is positive, (candidates,)."""
+        """Return whether the clearance of each candidate is positive, shape (candidates,)."""
         return np.asarray(self.room.of(columns) > 0)
 
 
 @dataclass(frozen=True, slots=True)
-class PlanetRoom:
+class PlanetClearance:
     """Required clearance between planets: number of planets, addenda of wheels and rings, and minimum clearance
     [modules].
     """
@@ -166,9 +175,10 @@ class PlanetRoom:
     clearance: Fraction
 
     def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
-        """Yield the conditions of one set of planets: tips of neighbouring equal wheels, then of planets that mesh.
+        """Yield the clearance conditions of one set of planets: of neighbouring equal wheels, then of planets that
+        mesh.
 
-        Wheels of planets are as far apart as their axes. In a set of two planets, if one meshes only with external
+        The wheels of a planet are as far apart as the axes. In a set of two planets, if one meshes only with external
         central wheels and the other only with rings, these are assumed to lie in one plane with both planets.
         """
         assert found.planets is not None
@@ -202,16 +212,16 @@ class PlanetRoom:
                 yield from self._gap_conditions(inner, outer)
 
     def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """Yield the clearance of the outer planet to the inner one's central wheels, and of the inner one to the
-        outer's rings.
+        """Yield the clearance of the outer planet from the inner one's central wheels, and of the inner one from the
+        rings.
         """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
                 name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
-                yield from _condition(name, PositiveRoom(*whole(self._gap(planet, other, mesh))))
+                yield from _condition(name, PositiveClearance(*whole(self._gap(planet, other, mesh))))
 
     def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
-        """Return twice the clearance between a planet and the central wheel of another one, minus the required
+        """Return twice the clearance of a planet from the central wheel of another one, minus twice the required
         clearance.
         """
         reach, own = _reach(planet), planet.central[0]
@@ -224,23 +234,23 @@ class PlanetRoom:
 
 
 def _is_plain(planet: Planet, external: bool) -> bool:
-    """Return whether a planet is a single wheel at the end of its set, with only external (or only ring) central
-    wheels.
+    """Return whether a planet is one wheel at the end of its set and meshes only with external central wheels (or
+    rings).
     """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Return twice the distance of a planet's axis from the central axis: by a mesh of a wheel, else by an external
-    mesh.
+    """Return twice the distance of a planet's axis from the central axis; None if it meshes with no central wheel.
+
+    It is the centre distance of a mesh of `wheel` if there is one, otherwise of an external mesh.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None
 
 
 def _wheel_meshes(planet: Planet) -> list[AssemblyMesh]:
-    """Return one mesh for each wheel of a planet."""
     inward = [planet.inward] if planet.inward else []
     meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
@@ -251,7 +261,7 @@ def _meshes(found: PlanetSet) -> list[AssemblyMesh]:
     return [mesh for planet in found.planets.walk() for mesh in _wheel_meshes(planet)]
 
 
-def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveRoom) -> Iterator[Condition]:
+def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveClearance) -> Iterator[Condition]:
     sums = [one for one in (getattr(test, field) for field in test.__slots__) if not isinstance(one, int)]
     wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))
     if wheels:
@@ -263,7 +273,7 @@ def _shown(number: Fraction) -> str:
 
 
 def _check(found: PlanetSet) -> None:
-    """Raise `QuestionError` for sets whose clearance cannot be computed."""
+    """Raise `QuestionError` if the clearance of a set of planets cannot be computed."""
     meshes = _meshes(found)
     if not all(mesh.spur for mesh in meshes):
         why, fix = "the tips of bevel wheels are not on circles about parallel axes", "omit the clearance"

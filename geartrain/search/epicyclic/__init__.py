@@ -1,1 +1,1 @@
-"""Search for epicyclic gear sets of a given ratio, in all their modes."""
+"""Search for epicyclic gear sets of a given ratio in all their operating modes."""

@@ -1,8 +1,9 @@
 """Types of epicyclic gear sets, results of their search, and their declarations.
 
 Relative to the carrier, every central wheel turns `f = sign P / z` times as fast as the reference wheel of the planets,
-where P is the tooth count of the planet wheel with which it meshes (Willis 1841, with a fixed carrier). This table
-defines a type: ratios of all modes, positions of equal planets and the coaxial equations follow from it.
+where z is its own tooth count and P is the tooth count of the planet wheel with which it meshes (Willis 1841, with a
+fixed carrier). The signs and meshes define a type: ratios of all modes, positions of equal planets and the coaxial
+equations follow from them.
 """
 
 from __future__ import annotations
@@ -28,15 +29,16 @@ class CentralWheel:
     """Sun or ring of an epicyclic set."""
 
     link: str
-    """Name of its link."""
+    """Name of the link that the wheel belongs to."""
     wheel: str
     """Name of the wheel."""
     mesh: str
-    """Planet wheel with which it meshes."""
+    """Name of the planet wheel with which it meshes."""
     sign: int
     """Sign of its speed relative to the reference wheel of the planets, with a fixed carrier."""
     step: str = ""
-    """Planet wheel P in f = sign P / z; empty if it is the same for all central wheels of the type, so that it cancels.
+    """Name of the planet wheel whose count is P in f = sign P / z; "" if all central wheels have the same, which
+    cancels.
     """
     internal: bool = False
     """True for a ring."""
@@ -44,7 +46,7 @@ class CentralWheel:
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicMode:
-    """Operating mode of a set: its input, output and fixed member."""
+    """Operating mode of an epicyclic set: its driving, driven and fixed member."""
 
     input: str
     """Driving member."""
@@ -55,7 +57,7 @@ class EpicyclicMode:
 
     @property
     def key(self) -> str:
-        """Text form of the mode, input:output:held, such as `sun:carrier:ring`."""
+        """Text form of the mode, input:output:held, for example `sun:carrier:ring`."""
         return f"{self.input}:{self.output}:{self.held}"
 
     def __str__(self) -> str:
@@ -63,52 +65,53 @@ class EpicyclicMode:
 
 
 def mode_key(mode: EpicyclicMode) -> str:
-    """Return the text form of a mode."""
+    """Return the text form of an operating mode, input:output:held."""
     return mode.key
 
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicKind(Result):
-    """Type of epicyclic set."""
+    """Type of epicyclic gear set, for example sun, planet and ring."""
 
     KEYS = ("title", "wheels", Key("modes", to=mode_key))
 
     name: str
-    """Name by which it is requested."""
+    """Name of the type, for example "planetary"."""
     title: str
     """Description of the type."""
     members: tuple[CentralWheel, ...]
     """Central wheels of the type."""
     planets: tuple[tuple[str, ...], ...]
-    """Wheels of each planet link."""
+    """Names of the wheels on each planet link."""
     free: tuple[str, ...]
-    """Wheels whose counts are independent; the coaxial equations give the counts of the other central wheels."""
+    """Wheels with independent tooth counts; the coaxial equations give the counts of the other central wheels."""
     between: tuple[tuple[str, str], ...] = ()
-    """Meshes of planets with each other."""
+    """Pairs of planet wheels that mesh with each other."""
     idle: tuple[str, ...] = ()
-    """Planet wheels that occur in no ratio and no equation; the smallest count that fits is used."""
+    """Planet wheels that are in no ratio and no equation; they get the minimum count that fits."""
     with_carrier: bool = True
-    """True if the carrier may be input, output or fixed member in `modes`."""
+    """True if the carrier may be the input, the output or the fixed member of a mode."""
     mirrored: tuple[tuple[str, str], ...] = ()
-    """Pairs of links whose exchange gives the same set, so that half of the modes are sufficient."""
+    """Pairs of links whose exchange gives the same set, so that half of the modes suffice."""
     bevel: bool = False
     """True if the axes of the planets intersect the central axis."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """All central and planet wheels, in the usual order."""
+        """Names of all central and planet wheels, in the usual order."""
         planets = [wheel for link in self.planets for wheel in link]
         return tuple(sorted([*(member.wheel for member in self.members), *planets], key=_ORDER.index))
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Links that a mode may name."""
+        """Links that can be a member of a mode."""
         return (*(member.link for member in self.members), CARRIER)
 
     @property
     def modes(self) -> tuple[EpicyclicMode, ...]:
-        """All modes; only the first of two that are mirror images."""
+        """All operating modes, without those that are mirror images of another mode."""
         links = self.links if self.with_carrier else self.links[:-1]
+        # exchange of mirrored links in both directions
         swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}
         found: dict[EpicyclicMode, None] = {}
         for mode in (EpicyclicMode(*three) for three in permutations(links, 3)):
@@ -117,11 +120,13 @@ class EpicyclicKind(Result):
         return tuple(found)
 
     def member(self, link: str) -> CentralWheel | None:
-        """Return the central wheel of a link; None for the carrier."""
+        """Return the central wheel on a link; None for the carrier."""
         return next((member for member in self.members if member.link == link), None)
 
     def chosen(self, modes: str | Iterable[str | EpicyclicMode]) -> tuple[EpicyclicMode, ...]:
-        """Return modes by name: "all", or `input:output:held` each; `QuestionError` if a member does not exist."""
+        """Return the modes given by "all" or by texts `input:output:held`. Raise `QuestionError` if a member does not
+        exist.
+        """
         if isinstance(modes, str):
             if modes == "all":
                 return self.modes
@@ -244,7 +249,7 @@ def kinds() -> Mapping[str, EpicyclicKind]:
 
 
 def epicyclic_kind(name: str) -> EpicyclicKind:
-    """Return a type of epicyclic set by name; `QuestionError` if it does not exist."""
+    """Return a type of epicyclic set by name. Raise `QuestionError` if it does not exist."""
     if name in kinds():
         return kinds()[name]
     raise QuestionError(
@@ -263,11 +268,11 @@ SetOrder = Literal["error", "total", "largest"]
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicSet(CountSizes, Result):
-    """Tooth counts of an epicyclic set in one mode.
+    """Tooth counts and ratio of an epicyclic set in one operating mode.
 
     See Also
     --------
-    find_sets : finds them.
+    find_sets : Search for epicyclic sets.
     """
 
     KEYS = (
@@ -292,11 +297,11 @@ class EpicyclicSet(CountSizes, Result):
     mode: EpicyclicMode
     """Driving, driven and fixed member."""
     teeth: Mapping[str, int]
-    """Wheel -> tooth count."""
+    """Tooth count of each wheel."""
     ratio: Fraction
     """Speed of the input over speed of the output, exact; negative if they turn in opposite senses."""
     error: Fraction
-    """Relative error: magnitude of the ratio (as defined by `ratio_is`) over the requested one, minus 1; exact."""
+    """Relative error: magnitude of the ratio, as defined by `ratio_is`, over the requested ratio, minus 1; exact."""
     planets: int
     """Requested number of planets."""
     places: int
@@ -324,8 +329,9 @@ class EpicyclicSet(CountSizes, Result):
         return self.places % self.planets == 0
 
     def to_train(self) -> dict[str, Any]:
-        """Return a declaration as plain data: the set with one planet, input speed 1, and the exact output speed as
-        expected.
+        """Return a declaration of the set as plain data.
+
+        The train has one planet, input speed 1, and the exact output speed as its expected value.
         """
         kind, mode = epicyclic_kind(self.kind), self.mode
         return {
@@ -348,11 +354,11 @@ class EpicyclicSet(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class SetFindings(Tabular, Result):
-    """Best epicyclic sets of a type, best first.
+    """Best epicyclic sets of one type for a ratio, best first.
 
     See Also
     --------
-    find_sets : returns it.
+    find_sets : Search for epicyclic sets.
     """
 
     ROWS = "search.tooth_numbers_report:set_rows"
@@ -390,13 +396,13 @@ class SetFindings(Tabular, Result):
     tolerance: Fraction | None
     """Maximum absolute relative error; None for no limit."""
     complete: bool
-    """True, because all sets within the bounds are examined."""
+    """True; the search always examines all sets within the bounds."""
     count: int
-    """Number of sets within the tolerance, over all modes; number of all sets that run if `tolerance` is None."""
+    """Number of sets within the tolerance, over all modes; without a tolerance, number of sets that transmit motion."""
     solutions: tuple[EpicyclicSet, ...]
     """Best sets, best first."""
     shortfall: Shortfall
-    """Numbers of rejected sets by reason. A set in each mode counts as one candidate."""
+    """Number of rejected sets by reason. Each combination of a set and a mode is one candidate."""
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
@@ -407,7 +413,7 @@ class SetFindings(Tabular, Result):
 
 
 def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
-    """Return the exact sort key of an order: primary criterion, error, total, largest wheel, mode, counts."""
+    """Return the exact sort key of a set in an order: primary criterion, error, total, largest wheel, mode, counts."""
     counts = tuple(found.teeth.values())
     measures: dict[SetOrder, Any] = {"error": abs(found.error), "total": sum(counts), "largest": max(counts)}
     return (measures[by], *measures.values(), mode, counts)
@@ -416,12 +422,14 @@ def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
 # ---------------------------------------------------------------------------------------------- a set as a declaration
 
 
+# a bevel planet turns about an axis across the central axis
 _AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}
 
 
 def _links(kind: EpicyclicKind, teeth: Mapping[str, int]) -> dict[str, Any]:
     links: dict[str, Any] = {"frame": {}}
     for at, member in enumerate(kind.members):
+        # the second side wheel faces the first
         facing = {"facing": -1} if kind.bevel and at else {}
         links[member.link] = {"wheels": {member.wheel: _wheel(kind, teeth[member.wheel], member.internal) | facing}}
     links[CARRIER] = {}

@@ -1,11 +1,11 @@
-"""Search for epicyclic sets of a requested ratio: every tooth set of a type within bounds, in every mode.
+"""Search for epicyclic sets of a requested ratio: every set of tooth counts of a type within bounds, in every mode.
 
-The coaxial equations leave at most three independent counts, so all sets are enumerated and the result is complete.
-Integers determine the ratio; floats only select the few candidates that are compared as Fractions.
+The coaxial equations leave at most three independent counts, so all sets are enumerated and the result is complete. The
+ratio is determined in integers; floats only select the few candidates that are compared as Fractions.
 
-The exact join of `search.join` could answer the same question, but for one mode and 12 to 120 teeth it takes 2 to 30
+The exact join of `search.join` could solve the same problem, but for one mode and 12 to 120 teeth it takes 2 to 30
 times as long (Wolfrom sets 22 to 110 times). Only from about 200 teeth on is it as fast for types with two central
-wheels. One enumeration serves all modes, and counts every rejected set under one reason in a fixed order.
+wheels. One enumeration covers all modes, and counts every rejected set under one reason in a fixed order.
 
 The ratio of a set is input over output, the convention of gear manufacturers: a reduction is above 1, and it is
 negative if the output turns in the opposite sense. `ratio_is` selects the reciprocal.
@@ -47,23 +47,23 @@ if TYPE_CHECKING:
 
     Columns = Mapping[str, Ints]
 
-MOST_SETS = 4 * 10**8
+MOST_SETS = 4 * 10**8  # maximum number of sets that are enumerated
 MOST_TEETH = 100_000
-"""Maximum tooth count; the numerators, of third degree in the counts, then stay below 2^53."""
+"""Maximum tooth count. The numerators, of third degree in the counts, then stay below 2^53."""
 
 SetBounds = Mapping[str, tuple[int, ...]]
-"""Wheel -> admissible counts, ascending."""
+"""Admissible tooth counts of each wheel, ascending."""
 
 TIPS = 2.0
-"""Twice the addendum [modules]: tip diameter minus pitch diameter."""
+"""Tip diameter minus pitch diameter, twice the addendum [modules]."""
 _BEVEL = 1e-9  # [modules] float error of a clearance that equals the required one
 _NEAR = 1e-6  # [modules] bound of the float error of a clearance
 _MARGIN = 1e-12
-"""Relative margin of float comparisons; values within it are compared exactly. Rounding errors are below 1e-15."""
+"""Relative margin of float comparisons, within which values are compared exactly. Rounding errors are below 1e-15."""
 
-_FARTHEST = Fraction(10**18)
+_FARTHEST = Fraction(10**18)  # far beyond the ratios of all sets
 _FINEST = 10**6
-"""Maximum denominator of a clearance, so that lengths in these fractions of a module are int64."""
+"""Maximum denominator of a clearance, so that lengths in these fractions of a module fit in int64."""
 
 NO_PLACE = "count out of bounds, planet that does not fit, or equal steps"
 NO_SPACING = "planets that cannot be equally spaced"
@@ -89,8 +89,7 @@ def find_sets(
     clearance: Fraction | float = 0.0,
     slack: int = 0,
 ) -> SetFindings:
-    """Find the best tooth counts of an epicyclic type for a ratio over all modes, by enumeration of all sets within
-    bounds.
+    """Find the best tooth counts of a type of epicyclic set for a ratio, by enumeration of all sets in all modes.
 
     The coaxial equations leave at most three independent counts (Willis 1841; Mueller, Epicyclic Drive Trains, 1982).
     All modules are equal.
@@ -115,11 +114,11 @@ def find_sets(
     sense : {-1, 0, 1}
         Sense of rotation of the output: 1 for that of the input, -1 for the opposite, 0 for either.
     ratio_is : {"input/output", "output/input"}
-        Definition of the ratio `wanted`.
+        Definition of the ratio `wanted`: input over output, or output over input.
     by : {"error", "total", "largest"}
         Primary criterion: minimum error, minimum sum of counts, or minimum largest count.
     spaced : bool
-        True to require that the planets can be equally spaced and clear each other; otherwise this is only reported.
+        True to require that the planets can be equally spaced and clear each other. With False it is only reported.
     clearance : Fraction or float
         Minimum clearance between the tips of neighbouring planets [modules] if `spaced`.
     slack : int
@@ -133,7 +132,7 @@ def find_sets(
     Raises
     ------
     QuestionError
-        If the type, a mode or the order does not exist, or if the ratio is beyond all sets.
+        If the type, a mode or the order does not exist, or if the ratio is not from 1e-18 to 1e18.
     RangeError
         If there are more than 4 10^8 sets.
 
@@ -151,6 +150,7 @@ def find_sets(
         tolerance = Fraction(tolerance)
     _check(requested.value, planets, tolerance, best, slack)
     _check_words(by, ratio_is, clearance)
+    # a float clearance becomes a simple fraction
     minimum = Fraction(clearance).limit_denominator(_FINEST)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
     search = _Search(kind, requested.value, tolerance, best, ratio_is, by, planets, sense or requested.sense)
@@ -173,15 +173,15 @@ def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int
             "it must be from 1e-18 to 1e18",
             "give a ratio in this range",
         ),
-        (planets < 1, f"planets is {planets}", "a set has at least one planet", "give 1 or more"),
+        (planets < 1, f"planets is {planets}", "a set has at least one planet", "give planets >= 1"),
         (
             tolerance is not None and tolerance < 0,
             f"the tolerance is {tolerance}",
             "a tolerance must not be negative",
             "give 0 or more",
         ),
-        (best < 1, f"best is {best}", "a list has at least one solution", "give 1 or more"),
-        (slack < 0, f"slack is {slack}", "it must not be negative", "give 0 or more"),
+        (best < 1, f"best is {best}", "a list has at least one solution", "give best >= 1"),
+        (slack < 0, f"slack is {slack}", "it is the magnitude of a difference of centre distances", "give slack >= 0"),
     ):
         if bad:
             raise QuestionError(Problem(what, why, fix))
@@ -194,10 +194,14 @@ def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
     ):
         if word not in words:
             raise QuestionError(
-                Problem(f"'{word}' is not a valid {what}", "the value must match exactly", f"use {' or '.join(words)}")
+                Problem(
+                    f"'{word}' is not a valid {what}", "only predefined names are accepted", f"use {' or '.join(words)}"
+                )
             )
     if not isfinite(clearance):
-        raise QuestionError(Problem(f"the clearance is {clearance}", "it must be finite", "give a number of modules"))
+        raise QuestionError(
+            Problem(f"the clearance is {clearance}", "it must be finite", "give a number of modules such as 0.5")
+        )
 
 
 def _length(columns: Columns) -> int:
@@ -205,7 +209,7 @@ def _length(columns: Columns) -> int:
 
 
 class _Search:
-    """Accumulated result of the enumeration; rejected sets are counted under the first reason that applies."""
+    """Results of the enumeration so far. A rejected set is counted under the first reason that applies."""
 
     def __init__(
         self, kind: EpicyclicKind, wanted: Fraction, tolerance: Fraction | None, best: int, ratio_is: RatioIs,
@@ -220,12 +224,13 @@ class _Search:
         self.nearest: EpicyclicSet | None = None
 
     def charge(self, reason: str, number: int) -> None:
-        """Add a number of rejected sets to a reason."""
         if number:
             self.removed[reason] = self.removed.get(reason, 0) + number
 
     def assembled(self, columns: Columns, clearance: Fraction, modes: int) -> Columns:
-        """Return the sets whose planets can be assembled with equal spacing and sufficient clearance."""
+        """Return the sets whose planets can be assembled with equal spacing and at least the given clearance
+        [modules].
+        """
         even = places(self.kind, columns) % self.planets == 0
         self.charge(NO_SPACING, int((~even).sum()) * modes)
         columns = _select(columns, even)
@@ -234,7 +239,7 @@ class _Search:
         return _select(columns, clear)
 
     def judge(self, columns: Columns, at: int, mode: EpicyclicMode) -> None:
-        """Evaluate all sets of a block in one mode."""
+        """Compare the ratios of all sets of a block in one mode with the requested ratio, and keep the best."""
         top, beneath = ratio_terms(self.kind, mode, columns)
         runs = (top != 0) & (beneath != 0)
         right = runs if self.sense == 0 else runs & (np.sign(top) * np.sign(beneath) == self.sense)
@@ -266,7 +271,7 @@ class _Search:
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
 
     def _inside(self, columns: Columns, mode: EpicyclicMode, errors: Floats) -> NDArray[np.bool_]:
-        """Return the sets within the tolerance; floats decide, and Fractions near its bound."""
+        """Return whether each set is within the tolerance. Floats decide except near the bound, where Fractions do."""
         if self.tolerance is None:
             return np.ones(len(errors), dtype=bool)
         limit, margin = float(self.tolerance), _MARGIN * (1 + float(self.tolerance))
@@ -276,14 +281,14 @@ class _Search:
         return inside
 
     def _first(self, columns: Columns, errors: Floats) -> Floats:
-        """Return the primary criterion of the order."""
+        """Return the primary sort criterion of each set: error, sum of counts, or largest count."""
         if self.by == "error":
             return errors
         stack = np.stack(list(columns.values()))
         return np.asarray(stack.sum(axis=0) if self.by == "total" else stack.max(axis=0), dtype=np.float64)
 
     def _worst(self, first: Floats) -> float:
-        """Return an upper bound of the primary criterion of the best sets."""
+        """Return an upper bound of the primary sort criterion of the best sets."""
         worst = np.inf if len(self.found) < self.best else float(self.found[-1][0][0])
         if len(first) > self.best:
             # the n-th best of this block is a bound for the n-th best of all
@@ -291,7 +296,7 @@ class _Search:
         return worst + _MARGIN * (1 + worst) if np.isfinite(worst) else np.inf
 
     def _set(self, columns: Columns, row: int, mode: EpicyclicMode) -> EpicyclicSet:
-        """Build the exact result of one set."""
+        """Build the result for one set with its exact ratio and error."""
         one = {wheel: columns[wheel][row : row + 1] for wheel in self.kind.wheels}
         top, beneath = (int(term[0]) for term in ratio_terms(self.kind, mode, one))
         ratio = Fraction(top, beneath)
@@ -308,7 +313,6 @@ class _Search:
         )
 
     def findings(self, bounds: SetBounds, modes: tuple[EpicyclicMode, ...]) -> SetFindings:
-        """Build the findings with the explanation of rejected sets."""
         shortfall = Shortfall(self.considered, dict(self.removed), *self._miss())
         found = tuple(item for _, item in self.found)
         return SetFindings(
@@ -316,7 +320,7 @@ class _Search:
         )
 
     def _miss(self) -> tuple[str, str]:
-        """Describe the nearest miss and the constraints to relax; both empty if there is a solution."""
+        """Return the nearest miss and suggestions as text; both "" if there is a solution."""
         if self.count:
             return "", ""
         if self.nearest is None and NO_SENSE in self.removed:
@@ -336,8 +340,9 @@ class _Search:
 
 
 def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> SetBounds:
-    """Return the admissible counts of every wheel, from counts for all or by wheel; `QuestionError` if they are
-    invalid.
+    """Return the admissible counts of every wheel, from counts for all wheels or by wheel.
+
+    Raise `QuestionError` if they are invalid.
     """
     if isinstance(counts, Mapping):
         unknown = [wheel for wheel in counts if wheel not in kind.wheels]
@@ -370,10 +375,10 @@ def blocks(
     """Yield all sets in blocks: the number of sets of a block, and those with admissible integer counts that fit.
 
     planets    number of equal planets between which an idle wheel must have clearance
-    clearance  that clearance [modules], or None if it is not required
+    clearance  minimum clearance between these planets [modules]; None if it is not required
     slack      maximum difference of centre distances [half modules], to be compensated by profile shift
 
-    `RangeError` is raised for more than `MOST_SETS` sets.
+    Raise `RangeError` for more than `MOST_SETS` sets.
     """
     total = size(kind, bounds, slack)
     if total > MOST_SETS:
@@ -393,7 +398,9 @@ def blocks(
 
 
 def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
-    """Return pairs of central wheels on the same planet link, where the count of the second follows from the first."""
+    """Return pairs of central wheels on the same planet link. The coaxial equation gives the second count from the
+    first.
+    """
     if kind.bevel:
         return []
     found = []
@@ -424,7 +431,7 @@ def _add_dependent_counts(
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return False for stepped planets that are equivalent to a planet with one wheel.
+    """Return False for each set whose stepped planet is equivalent to a planet with one wheel.
 
     Equal steps differ from one wheel only if they mesh with two suns, or two rings, of different counts, which `slack`
     permits.
@@ -442,7 +449,7 @@ def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
-    """Add the smallest count of the idle wheels that fits, and remove the sets without one."""
+    """Add the minimum count of the idle wheels that fits, and remove the sets without such a count."""
     # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
     found: Ints = np.zeros_like(columns[kind.free[0]])
@@ -469,10 +476,10 @@ def _select(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]
 
 
 def ratio_terms(kind: EpicyclicKind, mode: EpicyclicMode, columns: Columns) -> tuple[Ints, Ints]:
-    """Return numerator and denominator of the ratio of input to output speed, exact and not reduced.
+    """Return the numerator and denominator of the ratio of input to output speed, exact and not reduced.
 
     The ratio is (f_in - f_held) / (f_out - f_held) by Willis, with f = sign P / z for central wheels and 0 for the
-    carrier. If one of them is 0 the mode does not run: the output is at rest, or the input is locked.
+    carrier. If one of the terms is 0 the mode does not transmit motion: the output is at rest, or the input is locked.
     """
     (n1, d1), (n2, d2), (n0, d0) = (
         _relative(kind.member(link), columns) for link in (mode.input, mode.output, mode.held)
@@ -490,7 +497,7 @@ def _relative(member: CentralWheel | None, columns: Columns) -> tuple[Ints | int
 
 
 def places(kind: EpicyclicKind, columns: Columns) -> Ints:
-    """Return the number of equally spaced positions at which identical planets can be assembled, for columns of counts.
+    """Return the number of equally spaced positions at which identical planets can be assembled, for each set.
 
     n equal planets, equally spaced, can be assembled exactly if n divides this number; 0 permits any position.
 
@@ -511,10 +518,10 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
 
 
 def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return the sets in which one planet (or pair of planets) fits between the central wheels.
+    """Return whether one planet (or pair of planets) fits between the central wheels, for each set.
 
     Planets are smaller than their ring. Planets in mesh extend from wheel to wheel and clear all wheels with which they
-    do not mesh. Cones of bevel wheels open outwards. The addendum is one module; interference of flanks is not tested
+    do not mesh. Cones of bevel wheels open outwards. The addendum is one module. Interference of flanks is not tested
     here.
     """
     good = np.ones(columns[kind.members[0].wheel].shape, dtype=bool)
@@ -535,15 +542,15 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 
 
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
-    """Return the clearance between the tips of equally spaced neighbouring planets [modules]; negative if they overlap.
+    """Return the clearance between the tips of equally spaced neighbouring planets [modules], for each set.
 
-    It is (s + p) sin(pi/n) - p - 2 for planets on one circle. Planets in mesh with each other are placed by the law of
-    cosines. It is infinite for one planet.
+    It is negative if they overlap, and infinite for one planet. For planets on one circle it is (s + p) sin(pi/n) - p -
+    2. Planets in mesh with each other are placed by the law of cosines.
     """
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
     if kind.bevel:
-        return _bevel_room(columns, planets)
+        return _bevel_clearance(columns, planets)
     distances = [_distance(kind, columns, link).astype(np.float64) for link in kind.planets]
     tips = [np.maximum.reduce([columns[wheel] for wheel in link]) + TIPS for link in kind.planets]
     own: list[Floats] = [d * sin(pi / planets) - tip for d, tip in zip(distances, tips, strict=True)]
@@ -562,8 +569,7 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
 
 
 def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
-    """Return the sets in which the clearance between the tips of neighbouring planets is at least `clearance`
-    [modules].
+    """Return whether the tips of neighbouring planets have at least a clearance [modules], for each set.
 
     Near ties are decided exactly, as for the clearance of a declared train. For bevel wheels, whose clearance is an
     angle, floats decide.
@@ -600,7 +606,7 @@ def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> I
 
 
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:
-    """Return the cosine of the pitch cone angle of a side wheel if both side wheels mesh with one planet.
+    """Return the cosine of the pitch cone angle of a side wheel, if both side wheels mesh with one bevel planet.
 
     The cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi. They are
     the angles of a triangle with the sides a, b and 2 p cos g_p, so that cos^2 g_p = (a + b)^2 / 4(p^2 + ab).
@@ -614,14 +620,15 @@ def _planet_cosine(columns: Columns) -> Floats:
     return np.asarray(np.sqrt(np.minimum(1, (a + b) ** 2 / (4 * (p**2 + a * b)))), dtype=np.float64)
 
 
-def _bevel_room(columns: Columns, planets: int) -> Floats:
-    """Return the clearance of bevel planets: the angle between neighbouring axes minus their tip cones, times the
-    radius.
+def _bevel_clearance(columns: Columns, planets: int) -> Floats:
+    """Return the clearance of bevel planets [modules]: angle between neighbouring axes minus pitch cones, times the
+    radius, minus the addenda.
     """
     cone = np.arccos(_planet_cosine(columns))
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = columns["p"] / (2 * np.sin(cone))
         shaft = cone + np.arccos(np.clip(_side_cosine(columns, "s1", "s2"), -1, 1))
+        # angle between the axes of neighbours on the cone of axes
         between = 2 * np.arcsin(np.clip(np.sin(shaft) * sin(pi / planets), 0, 1))
         found = radius * (between - 2 * cone) - TIPS
     return np.where(np.isfinite(found), found, -np.inf)

@@ -6,13 +6,12 @@ from typing import Annotated, Any
 
 import typer
 
-from geartrain.cli.common import Force, Json, Out, give
+from geartrain.cli.common import Force, Json, Out, give, option_error
 from geartrain.cli.option_values import decimal
 from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,
-    Csv,
     Per,
     Pick,
     Range,
@@ -29,7 +28,7 @@ def run(
     context: typer.Context,
     kind: Annotated[str, typer.Option("--kind", help="Kind of set; 'list' prints the kinds.")],
     ratio: Annotated[
-        str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="[RATIO]")
+        str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="RATIO")
     ] = None,
     counts: Range = ANY_COUNT,
     mode: Annotated[str, typer.Option("--mode", help="Modes input:output:held, separated by commas, or all.")] = "all",
@@ -39,35 +38,37 @@ def run(
     planets: Annotated[int | None, typer.Option("--planets", help="Number of equal, equally spaced planets.")] = None,
     clearance: Annotated[
         str | None,
-        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
     ] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
+        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances, in half modules.")
     ] = 0,
     tolerance: Tolerance = None,
     best: Best = 20,
-    by: Annotated[str, typer.Option("--by", help="Order of the solutions: error, total, largest.")] = "error",
+    by: Annotated[str, typer.Option("--sort", help="Order of the solutions: error, total, largest.")] = "error",
     per: Per = None,
     pick: Pick = 1,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find epicyclic sets of one type for a ratio that can be assembled with equal planets."""
+    """Find epicyclic sets of one type for a ratio that can be assembled with equal planets.
+
+    Example: `geartrain teeth set 7/2 --kind planetary --planets 3`.
+    """
     from geartrain.search.epicyclic.set_search import find_sets
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_sets, set_rows
 
-    answer = SearchAnswer.of(csv, json, out, force, pick)
+    answer = SearchAnswer.of(json, out, force, pick)
     if kind == "list":
         _list(answer)
         return
     if ratio is None:
-        raise typer.BadParameter("the ratio is missing", param_hint="RATIO")
+        raise option_error("RATIO", "the ratio is missing", "give one, or list the kinds by --kind list")
     if clearance is not None and planets is None:
-        raise typer.BadParameter("the clearance between planets requires --planets", param_hint="--clearance")
+        raise option_error("--clearance", "the number of planets is missing", "give --planets too")
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
     chosen: Any = "all" if mode == "all" else tuple(mode.split(","))
     found = find_sets(

@@ -5,8 +5,8 @@ Fractions.
 
 product_lists           distinct products with the number of assignments of each, and partial assignments as columns
 wheel_monomials         constraints on functions of tooth counts, and the monomials by which functions depend on wheels
-polynomial_constraints  constraints as signs of polynomials, and windows of the last free item
-join_plan               order in which items are assigned, by expected cost
+polynomial_constraints  constraints as signs of polynomials, and windows of the last free variable
+join_plan               order in which variables are assigned, by expected cost
 exact_join              the join: bucket elimination (Dechter 1999)
 inside_outside          sums over all assignments of a recorded join, and its best assignments (A* search)
 """

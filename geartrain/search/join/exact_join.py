@@ -21,7 +21,7 @@ from geartrain.search.join.polynomial_constraints import (
 )
 from geartrain.search.join.product_lists import BLOCK, Item, ItemMonomial, PartialAssignments, Tallies, find_item
 
-# Monomials through which some constraints depend on items: assignments with equal values of all these monomials are
+# Monomials through which some constraints depend on variables: assignments with equal values of all these monomials are
 # equivalent. Once x and y are assigned, an output that depends only on x y cannot distinguish 2 x 6 from 3 x 4. Rows
 # are merged accordingly as soon as possible (bucket elimination, Dechter 1999).
 
@@ -32,14 +32,14 @@ _LARGEST = 1 << 62  # products below this are exact in int64
 def find_item_monomials(
     items: Sequence[int], constraints: Sequence[CountConstraint | PolynomialConstraint], lists: Sequence[Item]
 ) -> Iterator[ItemMonomial]:
-    """Yield the minimum number of monomials of some items that determine the constraints, each exact in int64.
+    """Yield the minimum number of monomials of some variables that determine the constraints, each exact in int64.
 
-    Items that no constraint depends on are in no monomial. Items are combined if their powers, relative to the first
-    term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of rules on counts
-    are not combined.
+    Variables that no constraint depends on are in no monomial. Variables are combined if their powers, relative to the
+    first term of each polynomial and listed over all terms of all polynomials, are proportional. Wheels of constraints
+    on counts are not combined.
 
-    items   assigned items of the constraints
-    lists   all items
+    items   assigned variables of the constraints
+    lists   all variables
     """
     alone = {
         item
@@ -56,7 +56,6 @@ def find_item_monomials(
 
 
 def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[ItemMonomial]:
-    """Split a monomial into parts whose values fit into int64."""
     # greedy: combine factors as long as numerator and denominator stay below 2^62
     held: list[tuple[int, int]] = []
     largest = [1, 1]
@@ -75,24 +74,24 @@ def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[It
 
 
 Slices = Mapping[int, tuple[int, int]]
-"""Item -> range (first, last) of its values in this part of the work; missing items have all values."""
+"""Half-open range of values of each variable in this part of the work; variables that are missing have all values."""
 AssignmentColumns = dict[str, Ints]
 
 
 class BudgetSpentError(Exception):
-    """Error of a join that exceeds its budget of steps."""
+    """Error of a join that exceeds its maximum number of steps."""
 
 
 @dataclass
 class RefusalCounts:
-    """Numbers of assignments that each constraint rejects, for each row."""
+    """Number of assignments that each constraint rejects, for each row."""
 
     size: int
     dtype: Any
     by: dict[int, Tallies] = field(default_factory=dict)
 
     def charge(self, constraint: int, rows: Ints, numbers: Tallies) -> None:
-        """Add numbers to the given rows of a constraint; rows may be repeated."""
+        """Add numbers of rejected assignments to the given rows of a constraint. Rows may be repeated."""
         if constraint not in self.by:
             self.by[constraint] = np.zeros(self.size, dtype=self.dtype)
         # `+=` would add only one number to a repeated row
@@ -103,7 +102,7 @@ class ExactJoin:
     """Exact join by bucket elimination (Dechter 1999), with the lists of a problem.
 
     slices   part of the work
-    budget   maximum number of steps; `BudgetSpentError` beyond it
+    budget   maximum number of steps, beyond which `BudgetSpentError` is raised
     """
 
     def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
@@ -124,16 +123,16 @@ class ExactJoin:
         self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
-        """Select another part of the work, and reset the steps."""
+        """Select another part of the work, and reset the number of steps to 0."""
         self.slices, self.budget, self.steps = slices, budget, 0
         self._full: dict[int, int] = {}
 
     def start(self) -> PartialAssignments:
-        """Return the single row without assigned items."""
+        """Return one row without assigned variables, from which a join starts."""
         return PartialAssignments(self.items, {}, 1)
 
     def full(self, node: PlanNode) -> int:
-        """Return the number of assignments of the wheels of a node and its subtree, without constraints."""
+        """Return the number of assignments of the variables of a node and its subtree, without constraints."""
         if id(node) not in self._full:
             first, last = self._run(node.item)
             total = int(self.items[node.item].sums[last] - self.items[node.item].sums[first])
@@ -143,11 +142,11 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, dict[int, Tallies]]:
-        """Return the numbers of accepted assignments below each row, and of those that each constraint rejects."""
+        """Return the number of accepted assignments below each row, and the numbers that each constraint rejects."""
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
         at, alive = self.pruned(node, rows, removed)
-        # a last item with only a guide is counted from the ends of its windows, without a row for each value
+        # a last variable with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
             total[at] = self._count_windows(node, at, alive, removed)
             return total, removed.by
@@ -157,7 +156,9 @@ class ExactJoin:
         return total, removed.by
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
-        """Yield all assignments of the items of some nodes and their subtrees that extend the rows, block by block."""
+        """Yield all assignments that extend the rows by the variables of some nodes and their subtrees, block
+        by block.
+        """
         if not nodes:
             yield rows
             return
@@ -170,7 +171,7 @@ class ExactJoin:
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Yield every assignment of wheels that the rows represent, block by block."""
+        """Yield every assignment of tooth counts that the rows represent, block by block."""
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
             sizes = sizes * self.items[item].times[column]
@@ -192,14 +193,16 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def seen(self, node: PlanNode, rows: PartialAssignments) -> tuple[PartialAssignments, Ints | None]:
-        """Return the rows that a node and its subtree can distinguish, and the index of each row among them."""
+        """Return the distinct rows as seen by the constraints of a node and its subtree, and the index of each row
+        among them.
+        """
         if id(node) not in self._views:
             reached = [self.constraints[number] for number in node.reach]
             self._views[id(node)] = tuple(find_item_monomials(node.interface, reached, self.items))
         return rows.distinct(node.interface, self._views[id(node)])
 
     def spend(self, steps: int) -> None:
-        """Add steps, and raise `BudgetSpentError` beyond the budget."""
+        """Add to the number of steps. Raise `BudgetSpentError` beyond the budget."""
         self.steps += steps
         if self.steps > self.budget:
             raise BudgetSpentError
@@ -210,7 +213,11 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """Return the indices and rows that no constraint certainly rejects for all values of the free items."""
+        """Return the indices and rows that remain after pruning by relaxed constraints.
+
+        Rows are removed if a constraint rejects them for all values of the free variables. They are counted in
+        `removed`.
+        """
         at = np.arange(rows.size)
         for number, reaches in self._prunes(node):
             hopeful = possible(reaches, rows)
@@ -223,7 +230,7 @@ class ExactJoin:
         return at, rows
 
     def _prunes(self, node: PlanNode) -> list[tuple[int, list[list[RelaxedInequality]]]]:
-        """Return the constraints that can prune rows at a node, relaxed over the items of its subtree."""
+        """Return the constraints that can prune rows at a node, relaxed over the variables of its subtree."""
         if id(node) not in self._reaches:
             found = []
             below = set(node.below())
@@ -236,7 +243,9 @@ class ExactJoin:
         return self._reaches[id(node)]
 
     def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the values of a last item with one constraint by its windows, without a row for each value."""
+        """Count the admissible values of a last variable with one constraint from its windows, without a row for each
+        value.
+        """
         constraint, item = self.constraints[node.guide], self.items[node.item]
         assert isinstance(constraint, PolynomialConstraint)
         self.spend(rows.size)
@@ -252,9 +261,11 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the rows extended by the item of a node that satisfy its constraints, with their original rows."""
+        """Yield the rows extended by the variable of a node that satisfy its constraints, with the indices of their
+        original rows.
+        """
         times, total = self.items[node.item].times, self._total(node.item)
-        below = self.full(node) // total
+        below = self.full(node) // total  # assignments of the subtree for each value of the variable
         polynomial = node.guide >= len(self.question.rules)
         # all assignments are charged here; those that the guide accepts are subtracted below
         if node.guide >= 0 and removed is not None:
@@ -276,7 +287,7 @@ class ExactJoin:
                 yield at[parents], grown
 
     def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
-        """Yield pairs (row, value) that the guide of a node does not exclude, block by block."""
+        """Yield pairs (row, value) that the guide constraint of a node does not exclude, block by block."""
         first, last = self._run(node.item)
         if node.guide < 0:
             whole = np.zeros(rows.size, dtype=np.int64)
@@ -301,7 +312,9 @@ class ExactJoin:
     def _solved(
         self, equation: CountEquation, item: int, rows: PartialAssignments, first: int, last: int
     ) -> tuple[Ints, Ints]:
-        """Return the rows, and the single value of an item that an equation determines for each of them."""
+        """Return the rows for which an equation has an admissible solution for a variable, and the index of its value
+        in each.
+        """
         counts, whole = equation.solve_for(self.question.recipes[item].wheels[0], self._counts(equation, rows))
         tops = self.items[item].tops
         indices = np.minimum(np.searchsorted(tops, counts), len(tops) - 1)
@@ -309,7 +322,7 @@ class ExactJoin:
         return found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
-        """Return the tooth counts of the assigned wheels of a rule."""
+        """Return the tooth counts of those wheels of a constraint that are assigned."""
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
         return {wheel: rows.top(item) for wheel, item in items.items() if item in rows.columns}
 
@@ -320,7 +333,9 @@ class ExactJoin:
         return constraint.holds(self._counts(constraint, rows))
 
     def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the assignments below each extended row; rejections by the subtree are charged to `parents`."""
+        """Count the assignments below each extended row. Rejections in the subtree are charged to the rows
+        `parents`.
+        """
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)
         later = self.full(node) // self._total(node.item)
@@ -332,11 +347,12 @@ class ExactJoin:
                 spread_out = numbers if which is None else numbers[which]
                 removed.charge(number, parents[alive], counts[alive] * spread_out * later)
             counts[alive] = counts[alive] * (found if which is None else found[which])
+            # rows without solutions in one child need no other child
             alive = alive[counts[alive] > 0]
         return counts
 
     def _with_solutions(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
-        """Select the rows that have assignments in every subtree."""
+        """Return the rows that have at least one assignment in the subtree of every child."""
         for child in node.children:
             distinct, which = self.seen(child, grown)
             found, _ = self.count(child, distinct)

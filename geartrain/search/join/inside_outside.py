@@ -24,19 +24,19 @@ from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import Item, PartialAssignments, ProductStep, Tallies
 from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
 
-# Recorded join: the values of each item that are compatible with the assignments above, and the counts that produce
+# Recorded join: the values of each variable that are compatible with the assignments above, and the counts that produce
 # each value. Every transition leads to at least one complete assignment. Sums over all assignments are then sums over
 # the tree, which can be repeated with other weights.
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Index of a graded constraint in `JoinProblem.requested` -> function from its values to misfits."""
+"""Function from the values of a graded constraint to misfits, by its index in `JoinProblem.requested`."""
 CountWeights = Mapping[str, Tallies]
-"""Wheel -> array of the weights of its counts, all of one dtype."""
+"""Weights of the tooth counts of each wheel, arrays of one dtype."""
 
 
 class RecordedItem:
-    """Values of an item, and the tooth counts that produce them.
+    """Values of a variable, and the tooth counts that produce them.
 
     size    number of values
     sides   numerator, and denominator if there is one: the last product step, and the product of each value
@@ -56,13 +56,13 @@ class RecordedItem:
         return sum(len(step.choices) for last, _ in self.sides for step in last.chain())
 
     def ways(self, value: int) -> Iterator[dict[str, int]]:
-        """Yield each assignment that produces a value, as wheel -> index of its count."""
+        """Yield each assignment of tooth counts that produces a value, as the index of the count by wheel."""
         for sides in product(*(list(_ways(last, int(rows[value]))) for last, rows in self.sides)):
             yield {wheel: index for own in sides for wheel, index in own.items()}
 
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Yield each sequence of counts that leads through the steps to a row."""
+    """Yield each sequence of counts that leads through the product steps to a product."""
     if last is None:
         yield {}
         return
@@ -73,26 +73,26 @@ def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
 
 @dataclass(frozen=True, eq=False)
 class RecordedNode:
-    """Recorded node of the plan of a join."""
+    """Node of the plan of a join, with all transitions that lead to complete assignments."""
 
     size: int
-    """Number of rows, which are the distinct states of the node."""
+    """Number of rows, which are the distinct states before the node."""
     parents: Ints
     """Row of each transition, ascending."""
     places: Ints
     """Index in `values` of the value that each transition assigns."""
     values: RecordedItem
-    """Values of the item that occur."""
+    """Values of the variable that occur."""
     misfit: Floats | None
-    """Misfit that each transition adds by the graded constraints complete here; None if there are none."""
+    """Misfit that each transition adds by graded constraints that are complete at this node; None if there are none."""
     children: tuple[tuple[RecordedNode, Ints], ...]
-    """Child nodes, each with the row to which each transition leads."""
+    """Child nodes, each with the index of the row to which each transition leads."""
 
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
-    """Record the tree of a problem without late rules, and return it with its number of steps.
+    """Record the tree of a problem without late constraints, and return it with its number of steps.
 
-    Raises `BudgetSpentError` beyond `limit` partial assignments.
+    Raise `BudgetSpentError` beyond `limit` partial assignments.
     """
     join = ExactJoin(question, budget=limit)
     return _Recorder(join, misfits).record(question.plan, join.start()), join.steps
@@ -104,7 +104,6 @@ class _Recorder:
     misfits: Misfits
 
     def record(self, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
-        """Record a node and its subtree for some distinct rows."""
         at, alive = self.join.pruned(node, rows, None)
         blocks = list(self.join.grown(node, alive, at, None))
         # rows without any block still need columns
@@ -130,7 +129,7 @@ class _Recorder:
         return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
     def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats | None:
-        """Return the misfit of the graded constraints that are complete at a node; None if it has none."""
+        """Return the misfit of the graded constraints that are complete at a node; None if there are none."""
         found: Floats | None = None
         for number in (node.guide, *node.checks):
             demand = number - len(self.join.question.rules)
@@ -143,7 +142,6 @@ class _Recorder:
 
 
 def _joined(blocks: Sequence[PartialAssignments]) -> PartialAssignments:
-    """Join the rows of several blocks over the same items."""
     first = blocks[0]
     columns = {item: np.concatenate([block.columns[item] for block in blocks]) for item in first.columns}
     return PartialAssignments(first.items, columns, sum(block.size for block in blocks))
@@ -153,7 +151,7 @@ _Table = RecordedNode | RecordedItem | ProductStep
 
 
 class AssignmentSums:
-    """Sums over the assignments of a recorded join.
+    """Weighted sums over the assignments of a recorded join.
 
     graded   True if the weight of an assignment, the product of the weights of its counts, is multiplied by
              exp(-misfit / 2)
@@ -167,7 +165,7 @@ class AssignmentSums:
         return self._sums(weights).total.sum()
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
-        """Return wheel -> array of the total weights of the assignments with each of its counts."""
+        """Return for each wheel the total weight of the assignments with each of its tooth counts."""
         return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
 
     def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
@@ -176,8 +174,8 @@ class AssignmentSums:
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
         """Return the rows of a table as alternatives.
 
-        A row of a node continues with a value of its item and a row of each child, a value or a product with its
-        factors.
+        A row of a node continues with a value of its variable and a row of each child; a value continues with its
+        products, and a product with its factors.
         """
         if isinstance(table, RecordedNode):
             grade = 1 if not self.graded or table.misfit is None else np.exp(-table.misfit / 2)
@@ -190,7 +188,7 @@ class AssignmentSums:
         return AlternativeRows(own[table.choices], table.size, table.children, before, facts)
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
-        """Return the covariance of the counts of each pair of wheels, in the order of `counts`, up to rounding.
+        """Return the covariance of the tooth counts of each pair of wheels, in the order of `counts`, up to rounding.
 
         weights   arrays of float64, not negative
         """
@@ -202,6 +200,7 @@ class AssignmentSums:
             # relative to the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
             steps[wheel] = sizes - float((marginals[wheel] * sizes).sum()) / total
         for at, first in enumerate(wheels):
+            # marginals of the others are then sums of (z - mean) of the first wheel
             tilted = self.marginals({**weights, first: weights[first] * steps[first]})
             for second in wheels[at + 1 :]:
                 found[first, second] = float((tilted[second] * steps[second]).sum()) / total
@@ -210,7 +209,7 @@ class AssignmentSums:
 
 @dataclass(frozen=True, slots=True)
 class GradedAssignment:
-    """Assignment of tooth counts with its misfit, up to rounding."""
+    """Assignment of tooth counts with its misfit, which is accurate up to rounding."""
 
     misfit: float
     teeth: Mapping[str, int]
@@ -219,7 +218,7 @@ class GradedAssignment:
 class BestFirst:
     """Iterator over the assignments of a recorded join in ascending order of misfit (A* search).
 
-    counts   wheel -> its counts
+    counts   tooth counts of each wheel
     """
 
     def __init__(self, root: RecordedNode, counts: Mapping[str, Sequence[int]]) -> None:
@@ -243,7 +242,9 @@ class BestFirst:
         return at
 
     def __iter__(self) -> Iterator[GradedAssignment]:
-        """Yield the assignments; the heap stores open rows as (node, row) and assigned values as (node, place)."""
+        """Yield the assignments. The heap stores open rows as (node, row) and assigned values as (node, index of the
+        value).
+        """
         heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
         if np.isfinite(self._ahead[0][0]):
             heappush(heap, (float(self._ahead[0][0]), 0, 0.0, ((0, 0),), ()))
@@ -265,7 +266,7 @@ class BestFirst:
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
-        """Yield all assignments of tooth counts that produce some values."""
+        """Yield all assignments of tooth counts that produce the given values of variables."""
         if not taken:
             yield {}
             return

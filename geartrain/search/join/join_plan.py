@@ -1,4 +1,5 @@
-"""Order in which a join assigns its items: a tree, because assigned items separate the others into independent parts.
+"""Order in which a join assigns its variables: a tree, because assigned variables separate the others into independent
+parts.
 
 Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are then counted
 separately for each distinct assignment of the common wheels, and the counts are multiplied.
@@ -38,25 +39,25 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """Item of the plan, assigned after all items above it."""
+    """Node of a plan: a variable that is assigned after all variables above it."""
 
     item: int
-    """Index of the item."""
+    """Index of the variable."""
     interface: tuple[int, ...]
-    """Items above that a constraint of this node or of its subtree depends on."""
+    """Variables above the node that a constraint of the node or of its subtree depends on."""
     guide: int
-    """Constraint that selects the values to try; -1 for all values."""
+    """Number of the constraint that selects the values to try; -1 if all values are tried."""
     checks: tuple[int, ...]
-    """Other constraints that are complete with this item, in the order of evaluation."""
+    """Numbers of the other constraints that are complete with this variable, in the order of evaluation."""
     prunes: tuple[int, ...]
-    """Polynomial constraints with at least two free items. Rows that they certainly reject are dropped here."""
+    """Numbers of polynomial constraints with at least two free variables, by which rows are pruned here."""
     children: tuple[PlanNode, ...]
-    """Nodes that follow. No two of them have a common constraint."""
+    """Child nodes, no two of which have a common constraint."""
     reach: tuple[int, ...]
-    """All constraints of this node and its subtree."""
+    """Numbers of all constraints of this node and its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """Yield the constraints that are complete with this node, then those of its subtree."""
+        """Yield the numbers of the constraints that are complete with this node, then of those in its subtree."""
         if self.guide >= 0:
             yield self.guide
         yield from self.checks
@@ -64,7 +65,7 @@ class PlanNode:
             yield from child.decided()
 
     def below(self) -> Iterator[int]:
-        """Yield the items of this node and its subtree."""
+        """Yield the variables of this node and its subtree."""
         yield self.item
         for child in self.children:
             yield from child.below()
@@ -72,27 +73,27 @@ class PlanNode:
 
 @dataclass(frozen=True)
 class JoinProblem:
-    """Complete description of a join as picklable data, for worker processes."""
+    """Complete description of a join as data that can be pickled for worker processes."""
 
     domains: Domains
-    """Wheel -> its counts, ascending."""
+    """Admissible tooth counts of each wheel, ascending."""
     requested: tuple[IntervalConstraint, ...]
     rules: tuple[CountConstraint, ...]
-    """Constraints on counts. Constraints are numbered in the order `rules`, `requested`."""
+    """Constraints on tooth counts. Constraints are numbered in the order `rules`, `requested`."""
     late: tuple[CountConstraint, ...]
-    """Rules that are evaluated last, on assignments of all wheels."""
+    """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
     recipes: tuple[ItemRecipe, ...]
-    """Definitions of the items."""
+    """Definitions of the variables."""
     plan: PlanNode
-    """Root of the plan, which is the first item."""
+    """Root of the plan, which assigns the first variable."""
     steps: float
-    """Expected number of partial assignments."""
+    """Expected number of partial assignments to examine."""
     weights: Weights = field(default_factory=dict)
-    """Wheel -> an integer weight for each count, if assignments are weighed instead of counted."""
+    """Integer weight of each tooth count by wheel, if assignments are weighted instead of counted."""
 
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
-        """Requested constraints as polynomial constraints in items."""
+        """Constraints `requested`, converted to polynomial constraints in variables."""
         return tuple(find_polynomial_constraints(self.requested, self.recipes, self.domains))
 
     @property
@@ -107,13 +108,13 @@ class JoinProblem:
 
     @property
     def order(self) -> tuple[int, ...]:
-        """Indices of the constraints in the order of evaluation, late rules last."""
+        """Numbers of the constraints in the order of evaluation, with `late` at the end."""
         found = list(self.plan.decided())
         return (*found, *(at for at in range(len(self.reasons)) if at not in found))
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Names of the constraints, late rules last."""
+        """Names of the constraints, with `late` at the end."""
         return tuple(one.name for one in (*self.rules, *self.polynomial_constraints, *self.late))
 
 
@@ -121,16 +122,18 @@ def find_join_problem(
     domains: Domains,
     requested: Sequence[IntervalConstraint],
     rules: Sequence[CountConstraint],
-    chances: Mapping[str, float],
+    probabilities: Mapping[str, float],
     weights: Weights | None = None,
 ) -> JoinProblem:
-    """Return the join with the minimum expected cost, over combinations of wheels, late rules and orders of items.
+    """Return the join with the minimum expected cost.
 
-    chances   name of a rule or constraint -> approximate share of the assignments that satisfy it
-    weights   weights of `JoinProblem`
+    Combinations of wheels, choices of late constraints and orders of variables are compared.
+
+    probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
+    weights         weights of `JoinProblem`
     """
     found = [
-        _planned(domains, requested, early, late, recipes, chances)
+        _planned(domains, requested, early, late, recipes, probabilities)
         for early, late in _rule_partitions(rules)
         for recipes in find_recipes(
             find_wheel_monomials(tuple(domains), requested, frozenset(w for rule in early for w in rule.wheels)),
@@ -143,10 +146,12 @@ def find_join_problem(
 def _rule_partitions(
     rules: Sequence[CountConstraint],
 ) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Yield partitions of the rules into those evaluated as soon as possible and those evaluated last."""
+    """Yield partitions of the constraints on counts into those evaluated as soon as possible and those
+    evaluated last.
+    """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
-    # a rule evaluated early makes its wheels separate items, which may cost more than it saves
+    # a rule evaluated early makes its wheels separate variables, which may cost more than it saves
     yield tuple(rules), ()
     if conditions:
         yield equations, conditions
@@ -160,28 +165,28 @@ def _planned(
     early: tuple[CountConstraint, ...],
     late: tuple[CountConstraint, ...],
     recipes: tuple[ItemRecipe, ...],
-    chances: Mapping[str, float],
+    probabilities: Mapping[str, float],
 ) -> JoinProblem:
     polynomials = find_polynomial_constraints(requested, recipes, domains)
-    planner = _Planner(domains, recipes, early, polynomials, chances)
+    planner = _Planner(domains, recipes, early, polynomials, probabilities)
     node, steps = min((planner.plan(*way) for way in planner.ways()), key=lambda found: found[1])
     steps += sum(planner.sizes)
     steps += sum(forecast(side, domains)[1] / 4 for recipe in recipes for side in (recipe.top, recipe.bottom))
     if late:
         left = prod(len(counts) for counts in domains.values())
-        steps += 3 * left * prod(chances.get(one.name, 1.0) for one in (*early, *polynomials))
+        steps += 3 * left * prod(probabilities.get(one.name, 1.0) for one in (*early, *polynomials))
     return JoinProblem(domains, tuple(requested), early, late, recipes, node, steps)
 
 
 @dataclass
 class _Planner:
-    """Generator of plans, with their expected cost in partial assignments."""
+    """Generator of plans with their expected cost, the number of partial assignments."""
 
     domains: Domains
     recipes: Sequence[ItemRecipe]
     rules: Sequence[CountConstraint]
     polynomial_constraints: Sequence[PolynomialConstraint]
-    chances: Mapping[str, float]
+    probabilities: Mapping[str, float]
     sizes: list[int] = field(init=False)
     scopes: list[Items] = field(init=False)
     likely: list[float] = field(init=False)
@@ -191,18 +196,19 @@ class _Planner:
         at = {wheel: item for item, recipe in enumerate(self.recipes) for wheel in recipe.wheels}
         self.scopes = [frozenset(at[wheel] for wheel in rule.wheels) for rule in self.rules]
         self.scopes += [frozenset(one.items) for one in self.polynomial_constraints]
-        self.likely = [self.chances.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
+        self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
 
     def ways(self) -> Iterator[tuple[int, bool]]:
-        """Yield pairs (constraint to complete first, True if items in many constraints come before small items)."""
+        """Yield pairs: constraint to complete first, and True if variables in many constraints precede variables with
+        few values.
+        """
         order = sorted(range(len(self.scopes)), key=lambda one: (len(self.scopes[one]), one))
-        # six first constraints and two orders of items are tried, so that planning takes milliseconds
+        # six first constraints and two orders of variables are tried, so that planning takes milliseconds
         yield from product(order[:6] or [-1], (True, False))
 
     def plan(self, first: int, shared: bool) -> tuple[PlanNode, float]:
-        """Return the plan over all items, and its expected cost."""
         node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0, first, shared)
-        # constraints without items are evaluated at the root
+        # constraints without variables are evaluated at the root
         converged = tuple(at for at, scope in enumerate(self.scopes) if not scope)
         return replace(node, checks=converged + node.checks, reach=converged + node.reach), cost
 
@@ -213,6 +219,7 @@ class _Planner:
         guide = self._guide(item, complete)
         checks = [at for at in complete if at != guide]
         interface = sorted({other for at in active for other in self.scopes[at] & known})
+        # equal rows on the interface are merged
         rows = min(rows, prod(self.sizes[other] for other in interface))
         examined = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
         kept = examined * prod((self.likely[at] for at in checks), start=1.0)
@@ -223,6 +230,7 @@ class _Planner:
             child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
             children.append(child)
             cost += more
+        # small subtrees first, because they may reject rows early
         children.sort(key=lambda child: len(list(child.below())))
         prunes = [at for at in active if len(self.scopes[at] & open_) > 1 and at >= len(self.rules)]
         node = PlanNode(
@@ -231,11 +239,13 @@ class _Planner:
         return node, cost
 
     def _share(self, item: int, guide: int) -> float:
-        """Return the expected share of the values of an item that its guide selects."""
+        """Return the expected fraction of the values of a variable that its guide constraint selects."""
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int], first: int, shared: bool) -> int:
-        """Select the next item: one that an equation determines, else one of the cheapest constraint."""
+        """Select the next variable: one that an equation determines, otherwise one of the constraint with the lowest
+        cost.
+        """
         for at in active:
             left = self.scopes[at] & open_
             if at < len(self.rules) and len(left) == 1 and isinstance(self.rules[at], CountEquation):
@@ -254,7 +264,11 @@ class _Planner:
         return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Select the equation that determines the item, else the most selective constraint with windows in it."""
+        """Select the equation that determines the variable, otherwise the most selective constraint that has windows in
+        it.
+
+        Return -1 if there is neither.
+        """
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
                 return at
@@ -267,7 +281,7 @@ class _Planner:
 
 
 def extents(question: JoinProblem) -> list[tuple[float, float]]:
-    """Return the minimum and maximum value of each item."""
+    """Return the minimum and maximum value of each variable."""
     return [extent(recipe, question.domains) for recipe in question.recipes]
 
 
@@ -281,28 +295,28 @@ _EXACT = 1e-7  # width of an exact value in logarithms
 
 @dataclass(frozen=True, slots=True)
 class SelectivitySample:
-    """Random sample of assignments with a fixed seed."""
+    """Random sample of assignments with a fixed seed, for estimates of selectivity."""
 
     domains: Domains
     columns: Mapping[str, Ints]
-    """Wheel -> counts, (drawn,)."""
+    """Sampled tooth counts of each wheel, shape (drawn,)."""
 
     @classmethod
     def of(cls, domains: Domains) -> SelectivitySample:
-        """Draw the sample from the domains."""
+        """Draw the sample, uniformly from the admissible counts."""
         draw = np.random.default_rng(0)
         return cls(domains, {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()})
 
     def of_rule(self, rule: CountConstraint) -> float:
-        """Estimate the share of assignments that satisfy a rule."""
+        """Estimate the fraction of assignments that satisfy a constraint on tooth counts."""
         if isinstance(rule, CountEquation):
             return 1 / max(len(self.domains[wheel]) for wheel in rule.wheels)
         return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
 
     def of_demand(self, requested: IntervalConstraint) -> float:
-        """Estimate the share of assignments that satisfy a constraint.
+        """Estimate the fraction of assignments that satisfy an interval constraint.
 
-        If few hits are drawn, the estimate is based on the density of nearby values.
+        If few sampled assignments do, the estimate is based on the density of nearby values.
         """
         speeds = self.speeds(requested.function)
         minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)
@@ -317,7 +331,7 @@ class SelectivitySample:
 
 
 def _as_float64(value: Fraction) -> float:
-    """Convert a number to float64; infinite if it is out of range."""
+    """Convert a fraction to float64; the result is infinite if it is out of range."""
     number = as_float(value)
     if number is None:
         number = 0.0 if abs(value) < 1 else inf if value > 0 else -inf

@@ -1,13 +1,13 @@
-"""Constraints on outputs as signs of polynomials in items, and whether they can be satisfied with free items.
+"""Constraints on outputs as signs of polynomials in variables, and whether they can be satisfied with free variables.
 
 |N/D - w| <= t w is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is
-a set of inequalities sense * polynomial >= 0. With one free item each case leaves one window of its values. Entries
+a set of inequalities sense * polynomial >= 0. With one free variable each case leaves one window of its values. Entries
 that floats cannot decide are decided by exact signs.
 
-With more free items, these lie between bounds, and rows are dropped that no values within the bounds can satisfy. If a
-polynomial has at most two powers of each free item, it is monotone in each after division by the lower powers, and its
-extremes are at the corners of the box. If no free item is in two of its terms, each term has its own extremes.
-Otherwise, or with too many corners, the extremes of the terms are still valid bounds.
+With more free variables, these lie between bounds, and rows are dropped that no values within the bounds can satisfy.
+If a polynomial has at most two powers of each free variable, it is monotone in each after division by the lower powers,
+and its extremes are at the corners of the box of bounds. If no free variable is in two of its terms, each term has its
+own extremes. Otherwise, or with too many corners, the extremes of the terms are still valid bounds.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.integer_columns import spread
 from geartrain.search.join.product_lists import Item, PartialAssignments
 
-# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the items: N/D
-# <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all points. At the
-# others the value is small compared with its terms. Arithmetic modulo 2^64 is then exact if the magnitude is certainly
-# below 2^63; Python integers decide the rest.
+# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the
+# variables: N/D <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all
+# points. At the others the value is small compared with its terms. Arithmetic modulo 2^64 is then exact if the
+# magnitude is certainly below 2^63; Python integers decide the rest.
 
 
 Signs = NDArray[np.int8]
@@ -42,13 +42,13 @@ _WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Sum of integer coefficients times monomials in the items, with all powers at least 1."""
+    """Polynomial with integer coefficients in the variables, whose sign is computed exactly. Powers are 1 or more."""
 
     terms: tuple[tuple[int, Monomial], ...]
 
     @classmethod
     def of(cls, terms: Iterable[tuple[int, Monomial]]) -> SignPolynomial:
-        """Sum terms, combining equal monomials."""
+        """Build a polynomial from terms, with equal monomials combined."""
         total: dict[Monomial, int] = {}
         for coefficient, monomial in terms:
             total[monomial] = total.get(monomial, 0) + coefficient
@@ -56,7 +56,7 @@ class SignPolynomial:
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """Items that the polynomial depends on, ascending."""
+        """Variables that the polynomial depends on, ascending."""
         return tuple(sorted({item for _, monomial in self.terms for item, _ in monomial}))
 
     @cached_property
@@ -66,18 +66,18 @@ class SignPolynomial:
 
     @cached_property
     def rounding(self) -> float:
-        """Bound of the rounding error of `values`, relative to their `sizes`."""
+        """Upper bound of the rounding error of `values`, relative to the sum of the magnitudes of their terms."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
-        # an item has at most three roundings and each product one; the factor of two covers squares and the bound
+        # a variable has at most three roundings and each product one; the factor of two covers squares and the bound
         # itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
 
     def degree(self, item: int) -> int:
-        """Return the highest power of an item."""
+        """Return the highest power of a variable."""
         return max((dict(monomial).get(item, 0) for _, monomial in self.terms), default=0)
 
     def powers(self, item: int) -> tuple[int, ...]:
-        """Return the powers of an item that occur, ascending."""
+        """Return the powers of a variable that occur, ascending."""
         return tuple(sorted({dict(monomial).get(item, 0) for _, monomial in self.terms}))
 
     @property
@@ -87,7 +87,9 @@ class SignPolynomial:
         return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
     def split(self, item: int) -> Mapping[int, SignPolynomial]:
-        """Return power of an item -> its factor, a polynomial in the other items."""
+        """Return the polynomial by powers of a variable: each power with its factor, a polynomial in the other
+        variables.
+        """
         parts: dict[int, list[tuple[int, Monomial]]] = {}
         for coefficient, monomial in self.terms:
             power = dict(monomial).get(item, 0)
@@ -96,13 +98,13 @@ class SignPolynomial:
         return {power: SignPolynomial(tuple(terms)) for power, terms in sorted(parts.items())}
 
     def plus(self, other: SignPolynomial, factor: Fraction) -> SignPolynomial:
-        """Return a positive multiple of self + factor * other."""
+        """Return a positive multiple of `self` + `factor` * `other` with integer coefficients."""
         mine = ((factor.denominator * coefficient, monomial) for coefficient, monomial in self.terms)
         theirs = ((factor.numerator * coefficient, monomial) for coefficient, monomial in other.terms)
         return SignPolynomial.of((*mine, *theirs))
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
-        """Return the values divided by `scale`, and the sums of the magnitudes of their terms, at some rows."""
+        """Return for each row the value divided by `scale`, and the sum of the magnitudes of its terms."""
         over = scale or self.scale
         return sum_and_size(
             (_term(float(Fraction(coefficient, over)), monomial, rows) for coefficient, monomial in self.terms),
@@ -110,7 +112,7 @@ class SignPolynomial:
         )
 
     def signs(self, rows: PartialAssignments) -> Signs:
-        """Return the exact signs at some rows, (rows,)."""
+        """Return the exact sign of the polynomial at each row, shape (rows,)."""
         value, size = self.values(rows)
         bound = self.rounding * size
         found: Signs = np.sign(value).astype(np.int8)
@@ -120,7 +122,7 @@ class SignPolynomial:
         return found
 
     def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
-        """Return the exact signs of values whose magnitude is at most twice `bounds`, relative to the scale."""
+        """Return the exact signs of values whose magnitude, relative to the scale, is at most twice `bounds`."""
         # times all denominators: a bound of the integer computed below
         minimum: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
         for item in self.items:
@@ -155,7 +157,7 @@ class SignPolynomial:
         return total.view(np.int64)
 
     def _sign(self, row: PartialAssignments) -> int:
-        """Return the sign at one row in Python integers."""
+        """Return the sign at one row, computed in Python integers."""
         total = 0
         for coefficient, monomial in self.terms:
             powers = dict(monomial)
@@ -176,10 +178,10 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
     return term
 
 
-# The values of the free item for which a polynomial keeps its sign are a ray of the sorted values, found by binary
-# search. After division by the lowest power of the item the polynomial is A y + B, where y is a power of the item, and
-# changes its sign at -B/A. Rounding makes values close to -B/A uncertain: a window separates the values that certainly
-# satisfy the inequalities from those that may.
+# The values of the free variable for which a polynomial keeps its sign are a ray of the sorted values, found by
+# binary search. After division by the lowest power of the variable the polynomial is A y + B, where y is a power of
+# the variable, and changes its sign at -B/A. Rounding makes values close to -B/A uncertain: a window separates the
+# values that certainly satisfy the inequalities from those that may.
 
 
 @dataclass(frozen=True)
@@ -191,26 +193,28 @@ class PolynomialInequality:
     strict: bool = False
 
     def met(self, signs: Signs) -> Bools:
-        """Test for which exact signs of the polynomial the inequality is satisfied."""
+        """Return whether each exact sign of the polynomial satisfies the inequality."""
         found: Bools = (signs * self.sense > 0) if self.strict else (signs * self.sense >= 0)
         return found
 
 
 @dataclass(frozen=True)
 class SolutionWindow:
-    """Range of the values of an item that may satisfy a case, and the inner range that certainly does, for each row."""
+    """Range of the values of a variable that may satisfy a case, and the inner range that certainly does, for
+    each row.
+    """
 
     start: Ints
-    """Start of the outer range. Values before it certainly fail."""
+    """Start of the outer range. Values before it certainly violate the case."""
     end: Ints
-    """End of the outer range, exclusive. Values from it on certainly fail."""
+    """End of the outer range, exclusive. Values from it on certainly violate the case."""
     sure_start: Ints
     """Start of the inner range."""
     sure_end: Ints
     """End of the inner range, exclusive. The range is empty if sure_end <= sure_start."""
 
     def clipped(self, first: int, last: int) -> SolutionWindow:
-        """Restrict the ranges to the values from `first` to `last`, exclusive; ends are never before starts."""
+        """Return the window restricted to the values with indices from `first` to `last`, exclusive."""
         start, end = np.maximum(self.start, first), np.minimum(self.end, last)
         end = np.maximum(start, end)
         sure_start, sure_end = np.clip(self.sure_start, start, end), np.clip(self.sure_end, start, end)
@@ -218,7 +222,7 @@ class SolutionWindow:
 
 
 def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Return the window of a case in its free item, which is the intersection of the rays of its inequalities."""
+    """Return the window of a case in its free variable, the intersection of the windows of its inequalities."""
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
     sure_start, sure_end = start.copy(), end.copy()
     for inequality in case:
@@ -229,9 +233,9 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> SolutionWindow:
-    """Return the window of sense * (A y + B) >= 0, where y is a power of the item.
+    """Return the window of one inequality, sense * (A y + B) >= 0, where y is a power of the variable.
 
-    The polynomial is divided by the lowest power of the item.
+    The polynomial has been divided by the lowest power of the variable.
     """
     parts = inequality.polynomial.split(item)
     most = len(rows.items[item])
@@ -256,11 +260,11 @@ def _certain_ray(
     slope: tuple[Floats, Floats],
     rest: SignPolynomial,
 ) -> SolutionWindow:
-    """Return the ray for a certain sign of A, which ends at -B/A up to rounding."""
+    """Return the window if the sign of A is certain. It ends at -B/A up to rounding."""
     a, off_a = slope
     b, size = rest.values(rows, inequality.polynomial.scale)
     end = -b / a
-    # first-order bound of the error of -b/a, and the rounding error of the power of the item
+    # first-order bound of the error of -b/a, and the rounding error of the power of the variable
     off = (rest.rounding * size + np.abs(end) * off_a) / (np.abs(a) - off_a)
     off += np.abs(end) * (8 * power + 8) * ROUNDING
     minimum, maximum, y = end - off, end + off, item.powers(power)
@@ -279,17 +283,18 @@ def _certain_ray(
 
 
 def _rising(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
-    """Return the window of all y from a value between `minimum` and `maximum` on."""
+    """Return the window of all y above a threshold that is between `minimum` and `maximum`."""
     start = np.searchsorted(y, minimum, side="left")
     end = np.full(len(start), len(y))
     sure = start.copy()
     near = np.flatnonzero((start < len(y)) & (y[np.minimum(start, len(y) - 1)] <= maximum))
+    # values between the bounds of the threshold are uncertain
     sure[near] = np.searchsorted(y, maximum[near], side="right")
     return SolutionWindow(start, end, sure, end)
 
 
 def _falling(y: Floats, minimum: Floats, maximum: Floats) -> SolutionWindow:
-    """Return the window of all y up to a value between `minimum` and `maximum`."""
+    """Return the window of all y below a threshold that is between `minimum` and `maximum`."""
     end = np.searchsorted(y, maximum, side="right")
     start = np.zeros(len(end), dtype=np.int64)
     sure = end.copy()
@@ -311,9 +316,9 @@ def _uncertain_ray(
     known: Bools,
     parts: tuple[SignPolynomial, SignPolynomial],
 ) -> SolutionWindow:
-    """Return the ray if rounding hides the sign of A in some rows.
+    """Return the window if the sign of A is uncertain in some rows.
 
-    B decides the rows with A = 0; the others remain uncertain for all values.
+    In rows with A = 0 the sign of B decides. The other rows remain uncertain for all values.
     """
     A, B = parts
     found = np.zeros((4, rows.size), dtype=np.int64)
@@ -331,7 +336,7 @@ def _uncertain_ray(
 
 
 Corners = Mapping[int, tuple[float, float]]
-"""Free item -> its minimum and maximum value."""
+"""Minimum and maximum value of each free variable."""
 
 _MOST_CORNERS = 64  # maximum number of corners of a box; beyond it, terms are bounded separately
 _SHORT = 4096
@@ -340,25 +345,27 @@ _SHORT = 4096
 
 @dataclass(frozen=True, slots=True)
 class RelaxedInequality:
-    """Inequality with some free items, relaxed over the box of their bounds."""
+    """Inequality with some free variables, relaxed over the box of their bounds."""
 
     sense: int
     """Sense of the inequality, 1 or -1."""
     rest: tuple[SignPolynomial, ...]
-    """Factor of each term in the assigned items."""
+    """Factor of each term that depends on the assigned variables."""
     lows: Floats
-    """Minimum factor of each term in the free items, (terms,)."""
+    """Minimum over the box of each term's factor in the free variables, shape (terms,)."""
     highs: Floats
-    """Maximum factor of each term in the free items, (terms,)."""
+    """Maximum over the box of each term's factor in the free variables, shape (terms,)."""
     points: Floats | None
-    """Factor of each term at each corner of the box, (terms, corners); None if terms are bounded separately."""
+    """Factor of each term at each corner of the box, shape (terms, corners); None if terms are bounded separately."""
     slack: float
-    """Rounding error relative to the sum of the magnitudes of the terms."""
+    """Upper bound of the rounding error, relative to the sum of the magnitudes of the terms."""
     scale: int
-    """Scale of the polynomial."""
+    """Number by which the coefficients of the polynomial are divided."""
 
     def possible(self, rows: PartialAssignments) -> Bools:
-        """Test which rows can satisfy the inequality; False only if it fails for all values of the free items."""
+        """Return whether each row can satisfy the inequality; False only if it fails for all values of the free
+        variables.
+        """
         factors = [self.sense * one.values(rows, self.scale)[0] for one in self.rest]
         minimum = np.zeros(rows.size)
         for factor, high in zip(factors, self.highs, strict=True):
@@ -380,7 +387,7 @@ class RelaxedInequality:
 
 
 def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """Return an inequality relaxed over the items in `corners`; its other items are assigned."""
+    """Return an inequality relaxed over the variables in `corners`; its other variables are assigned."""
     polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
@@ -397,13 +404,13 @@ def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> Rela
 
 
 def _is_in_one_term(polynomial: SignPolynomial, item: int) -> bool:
-    """Return whether at most one term has more than the lowest power of an item."""
+    """Return whether at most one term has more than the lowest power of a variable."""
     powers = [dict(monomial).get(item, 0) for _, monomial in polynomial.terms]
     return sum(power > min(powers) for power in powers) <= 1
 
 
 def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[float]) -> Floats:
-    """Return the factor of each term at given values of the free items, divided by their lowest powers."""
+    """Return each term's factor in the free variables at given values, divided by the lowest power of each variable."""
     minimum = {item: polynomial.powers(item)[0] for item in inside}
     factors = []
     for _, monomial in polynomial.terms:
@@ -414,17 +421,17 @@ def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[
 
 @dataclass(frozen=True)
 class PolynomialConstraint:
-    """Disjunction of mutually exclusive cases, each a conjunction of inequalities."""
+    """Constraint as a disjunction of mutually exclusive cases, each a conjunction of polynomial inequalities."""
 
     name: str
     """Description of the constraint."""
     cases: tuple[tuple[PolynomialInequality, ...], ...]
     function: tuple[SignPolynomial, SignPolynomial] | None = None
-    """Numerator and denominator of the constrained function, if its value is also required."""
+    """Numerator and denominator of the constrained function; None unless its value is required too."""
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """Items that the constraint depends on, ascending."""
+        """Variables that the constraint depends on, ascending."""
         polynomials = [*(inequality.polynomial for inequality in self._inequalities), *(self.function or ())]
         return tuple(sorted({item for polynomial in polynomials for item in polynomial.items}))
 
@@ -433,7 +440,7 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def steps(self, item: int) -> Iterator[int]:
-        """Yield the powers of an item in all terms, relative to the first term of each polynomial."""
+        """Yield the powers of a variable in all terms, relative to the first term of each polynomial."""
         sums = [inequality.polynomial.terms for inequality in self._inequalities]
         if self.function is not None:
             sums.append(self.function[0].terms + self.function[1].terms)
@@ -442,11 +449,13 @@ class PolynomialConstraint:
             yield from (power - powers[0] for power in powers)
 
     def opens(self, item: int) -> bool:
-        """Return whether windows exist for an item: each polynomial has at most two powers of it."""
+        """Return whether windows can be computed in a variable, which requires at most two powers of it in each
+        polynomial.
+        """
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 
     def holds(self, rows: PartialAssignments) -> Bools:
-        """Test exactly which rows satisfy the constraint; all its items must be assigned."""
+        """Return whether each row satisfies the constraint, exactly. All its variables must be assigned."""
         known: dict[SignPolynomial, Signs] = {}
         found: Bools = np.zeros(rows.size, dtype=np.bool_)
         for case in self.cases:
@@ -454,22 +463,23 @@ class PolynomialConstraint:
         return found
 
     def value(self, rows: PartialAssignments) -> Floats:
-        """Return the values of the function, up to rounding."""
+        """Return the values of the constrained function, up to rounding."""
         assert self.function is not None, "the demand is graded"
         scale = max(side.scale for side in self.function)
         (above, _), (below, _) = (side.values(rows, scale) for side in self.function)
         return np.asarray(above / below)
 
     def reaches(self, corners: Corners) -> list[list[RelaxedInequality]]:
-        """Return the inequalities of each case, relaxed over the free items, for `possible`."""
+        """Return the inequalities of each case relaxed over the free variables, as arguments of `possible`."""
         return [[relax_inequality(inequality, corners) for inequality in case] for case in self.cases]
 
     def windows(self, rows: PartialAssignments, item: int) -> list[SolutionWindow]:
-        """Return the window of each case in the values of the free item."""
+        """Return the window of the admissible values of the free variable, for each case."""
         return [find_window(case, rows, item) for case in self.cases]
 
     def fringe(self, at: int, rows: PartialAssignments, item: int, window: SolutionWindow) -> tuple[Ints, Ints]:
-        """Return the rows and values in the uncertain part of a window of case `at` that satisfy the case."""
+        """Return the rows and values in the uncertain part of a window that satisfy case number `at`."""
+        # without an inner range the whole window is uncertain
         none = window.sure_end <= window.sure_start
         starts = np.concatenate([window.start, np.where(none, window.end, window.sure_end)])
         ends = np.concatenate([np.where(none, window.end, window.sure_start), window.end])
@@ -492,7 +502,7 @@ def _case_holds(
 
 
 def possible(reaches: Sequence[Sequence[RelaxedInequality]], rows: PartialAssignments) -> Bools:
-    """Test which rows can satisfy a constraint, from its relaxed inequalities `reaches`."""
+    """Return whether each row can satisfy a constraint, from its relaxed inequalities `reaches`."""
     found: Bools = np.zeros(rows.size, dtype=np.bool_)
     for case in reaches:
         met: Bools = np.ones(rows.size, dtype=np.bool_)

@@ -1,8 +1,8 @@
-"""Items of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
+"""Variables of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
 
-An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns items
-instead of wheels: a list of products of counts, or of quotients of two such products. A wheel in a constraint on counts
-is an item of its own.
+An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns variables
+instead of wheels. A variable (class `Item`) is a list of products of counts, or of quotients of two such products. A
+wheel in a constraint on counts is a variable by itself.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Floats, Ints
 
 Tallies = NDArray[Any]
-"""Numbers or weights of assignments: int64 if all of them fit, else Python integers."""
+"""Numbers or weights of assignments: int64 if all of them fit, otherwise Python integers."""
 Domains = Mapping[str, tuple[int, ...]]
 Weights = Mapping[str, tuple[int, ...]]
-"""Wheel -> an integer weight for each of its counts. Missing wheels have weights 1, which counts assignments."""
+"""Integer weight of each tooth count by wheel. Wheels that are missing have weights 1, which counts assignments."""
 
 BLOCK = 1 << 18
-"""Number of rows in a block, which limits the memory of a join to about 50 MB besides its lists."""
+"""Number of rows in a block, which limits the memory of a join to about 50 MB in addition to its lists."""
 _LONGEST = 1 << 23  # maximum number of products in one table: 64 MB of int64
 _TRIED = 4_000_000  # maximum number of products formed for a forecast, which is extrapolated beyond it
 _REMEMBERED = 20_000_000  # maximum number of values in all cached lists
@@ -34,7 +34,7 @@ _REMEMBERED = 20_000_000  # maximum number of values in all cached lists
 
 @dataclass(frozen=True, slots=True)
 class ItemRecipe:
-    """Definition of an item as plain data: the wheels of its numerator and denominator."""
+    """Definition of a variable as plain data: the wheels of its numerator and denominator."""
 
     top: tuple[tuple[str, int], ...]
     """Wheels of the numerator, each with its positive power."""
@@ -43,12 +43,14 @@ class ItemRecipe:
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """All wheels of the item."""
+        """All wheels of the variable."""
         return tuple(wheel for wheel, _ in self.top + self.bottom)
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """Return the number of distinct products, and of products formed to list them; estimated if large."""
+    """Return the number of distinct products, and the number of products formed to list them; estimates if they are
+    large.
+    """
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
 
@@ -100,7 +102,7 @@ class ListCache(Generic[Made]):
         self._kept: OrderedDict[Hashable, Made] = OrderedDict()
 
     def get(self, key: Hashable, make: Callable[[], Made]) -> Made:
-        """Return the cached entry of a key, and make it if it is missing."""
+        """Return the cached entry of a key, or the result of `make` if there is none."""
         if key not in self._kept:
             self._kept[key] = make()
         self._kept.move_to_end(key)
@@ -115,7 +117,7 @@ class ProductStep:
 
     wheel: str
     choices: Ints
-    """Index of the count of the wheel, for each transition."""
+    """Index of the tooth count of the wheel, for each transition."""
     children: Ints
     """Index of the product after each transition."""
     parents: Ints
@@ -133,10 +135,10 @@ class ProductStep:
 
 
 class CountProducts:
-    """Distinct products of one count of each wheel to its power.
+    """Distinct products of one tooth count of each wheel, raised to its power.
 
-    values   products, ascending, (m,) int64
-    times    total weight of each product, (m,) of the given dtype
+    values   products, ascending, shape (m,) int64
+    times    total weight of each product, shape (m,) of the given dtype
     """
 
     def __init__(self, wheels: Sequence[tuple[str, int]], domains: Domains, weights: Weights, dtype: Any) -> None:
@@ -149,9 +151,9 @@ class CountProducts:
         self.values = self.levels[-1]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment that produces some products.
+        """Return every assignment of tooth counts that produces one of some products.
 
-        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
+        The result is (owner, wheel -> counts), where owner is the index in `indices` of the product, ascending.
         """
         owner, rest = np.arange(len(indices)), self.values[indices]
         found: dict[str, Ints] = {}
@@ -163,7 +165,9 @@ class CountProducts:
         return owner, found
 
     def last_step(self, indices: Ints) -> ProductStep | None:
-        """Return the last step from the empty product to some distinct products; None without wheels."""
+        """Return the last of the steps that lead from the empty product to some distinct products; None without
+        wheels.
+        """
         return self._step(len(self.wheels) - 1, self.values[indices])
 
     def _step(self, level: int, values: Ints) -> ProductStep | None:
@@ -177,7 +181,7 @@ class CountProducts:
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Multiply two lists, and return the distinct products with their weights, block by block to save memory."""
+    """Return the distinct products of two lists with their weights, computed block by block to save memory."""
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
     for at in range(0, len(factors), step):
@@ -201,7 +205,7 @@ def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
 
 
 def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return all divisions of products by one factor, as (index into rest, index of the factor, quotient)."""
+    """Return all exact divisions of products by a factor, as (index in `rest`, index of the factor, quotient)."""
     found = []
     step = max(1, _LONGEST // len(factors))
     for at in range(0, max(len(rest), 1), step):
@@ -214,7 +218,7 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
 
 
 def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return the result of `_divided` for distinct ascending products, by the cheaper method."""
+    """Return the result of `_divided` for distinct ascending products, by the faster of two methods."""
     if len(values) <= len(shorter):
         return _divided(values, factors, shorter)
     found = []
@@ -229,13 +233,13 @@ def _factored(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, I
 
 
 class Item:
-    """Values of a recipe, numerator over denominator, ascending, with the total weight of each.
+    """Values of a variable, numerator over denominator, ascending, with the total weight of each.
 
-    x               values, (m,) float64, ascending, accurate to a few roundings
-    tops, bottoms   exact numerators and denominators, (m,) int64; `bottoms` is None if all are 1. Equal quotients may
-                    be repeated
-    times           weights, (m,)
-    sums            cumulative weights, (m + 1,), from 0
+    x               values, shape (m,) float64, ascending, accurate to a few roundings
+    tops, bottoms   exact numerators and denominators, shape (m,) int64; `bottoms` is None if all are 1. Equal quotients
+                    may be repeated
+    times           weights, shape (m,)
+    sums            cumulative weights, shape (m + 1,), from 0
     """
 
     def __init__(self, recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> None:
@@ -265,21 +269,21 @@ class Item:
         self.times = self._top.times[self._at[0]] * bottom.times[self._at[1]]
 
     def powers(self, power: int) -> Floats:
-        """Return x to a power, ascending."""
+        """Return the values raised to a power, ascending."""
         if power not in self._powers:
             self._powers[power] = reduce(np.multiply, [self.x] * power)
         return self._powers[power]
 
     def sides(self, indices: Ints) -> list[tuple[CountProducts, Ints]]:
-        """Return the products of numerator and denominator, each with their indices at some values."""
+        """Return the products of numerator and denominator, each with the index of its product for some values."""
         if self._bottom is None or self._at is None:
             return [(self._top, indices)]
         return [(self._top, self._at[0][indices]), (self._bottom, self._at[1][indices])]
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment that produces some values.
+        """Return every assignment of tooth counts that produces one of some values.
 
-        The result is (owner, wheel -> counts), where owner indexes `indices` and ascends.
+        The result is (owner, wheel -> counts), where owner is the index in `indices` of the value, ascending.
         """
         if self._bottom is None or self._at is None:
             return self._top.ways(indices)
@@ -293,22 +297,22 @@ _ITEMS: ListCache[Item] = ListCache()
 
 
 def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the item of a recipe from the cache."""
+    """Return the variable of a definition, from the cache if possible."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel in recipe.wheels), dtype is object
     return _ITEMS.get(key, lambda: Item(recipe, domains, weights, dtype))
 
 
-# --------------------------------------------------------------- rows over some items, each with the index of its value
+# ----------------------------------------------------------- rows over some variables, each with the index of its value
 
 
 ItemMonomial = tuple[tuple[int, int], ...]
-"""Pairs (item, power) with powers of either sign, never 0."""
+"""Pairs (variable, power) with powers of either sign, never 0."""
 
 
 class PartialAssignments:
-    """Rows of assigned items.
+    """Partial assignments as rows of the values of the variables that are assigned.
 
-    columns   item -> index of its value, (size,)
+    columns   variable -> index of its value, shape (size,)
     """
 
     __slots__ = ("_x", "columns", "items", "size")
@@ -318,35 +322,38 @@ class PartialAssignments:
         self._x: dict[int, Floats] = {}
 
     def x(self, item: int) -> Floats:
-        """Return the values of an item, float64."""
+        """Return the values of a variable as float64, one for each row."""
         if item not in self._x:
             self._x[item] = self.items[item].x[self.columns[item]]
         return self._x[item]
 
     def top(self, item: int) -> Ints:
-        """Return the numerators of the values of an item."""
+        """Return the numerators of the values of a variable."""
         return self.items[item].tops[self.columns[item]]
 
     def bottom(self, item: int) -> Ints | None:
-        """Return the denominators of the values of an item; None if all are 1."""
+        """Return the denominators of the values of a variable; None if all are 1."""
         bottoms = self.items[item].bottoms
         return None if bottoms is None else bottoms[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Select rows by mask or by index."""
+        """Return the rows selected by a mask or by indices."""
         columns = {item: column[where] for item, column in self.columns.items()}
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return PartialAssignments(self.items, columns, size)
 
     def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
-        """Return rows extended by one item: `parents` are the original rows, `indices` the values of the item."""
+        """Return rows extended by one variable: `parents` are the original rows, `indices` the values of the
+        variable.
+        """
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int], seen: Sequence[ItemMonomial]) -> tuple[PartialAssignments, Ints | None]:
-        """Return the distinct rows on some items, and the index of each row among them; None if the rows are unchanged.
+        """Return the distinct rows on some variables, and the index of each row among them; None if the rows are
+        unchanged.
 
-        seen   monomials of these items that matter; rows with equal values of all of them are merged
+        seen   monomials of these variables that constraints depend on; rows with equal values of all of them are merged
         """
         if len(seen) == len(items) == len(self.columns):
             return self, None
@@ -355,13 +362,13 @@ class PartialAssignments:
             if most * codes >= 1 << 62:  # renumber the codes before they overflow
                 _, key = np.unique(key, return_inverse=True)
                 most = self.size
-            key = key * codes + code
+            key = key * codes + code  # mixed-radix number of the codes
             most *= codes
         _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
 
     def _codes(self, monomial: ItemMonomial) -> Iterator[tuple[Ints, int]]:
-        """Yield integer codes that distinguish the values of a monomial, each with an upper bound."""
+        """Yield integer codes that distinguish the values of a monomial, each with an upper bound of the code."""
         if len(monomial) == 1:
             ((item, _),) = monomial
             yield self.columns[item], len(self.items[item])
@@ -381,7 +388,7 @@ class PartialAssignments:
             yield code, max(len(values), 1)
 
     def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
-        """Yield ranges of rows whose `sizes` sum to about `BLOCK`; a larger row has a range of its own."""
+        """Yield ranges of rows whose `sizes` add up to about `BLOCK`. A larger row is a range by itself."""
         ends = np.cumsum(sizes)
         at = 0
         while at < self.size:

@@ -1,4 +1,6 @@
-"""Conversion of wheels to items: wheels in common monomials of all outputs, and constraints in terms of items."""
+"""Conversion of wheels to variables: wheels in common monomials of all outputs, and constraints in terms of
+variables.
+"""
 
 from __future__ import annotations
 
@@ -24,9 +26,9 @@ Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum), with None for an infinite end."""
 _MOST_VALUES = 10**7
-"""Maximum number of values of one item, which need half a gigabyte with all their arrays."""
-_MOST_QUOTIENTS = 1 << 22  # maximum number of values of an item with numerator and denominator
-_MOST_WORK = 2 * 10**8  # maximum number of products formed to list one item
+"""Maximum number of values of one variable, which need half a gigabyte with all their arrays."""
+_MOST_QUOTIENTS = 1 << 22  # maximum number of values of a variable with numerator and denominator
+_MOST_WORK = 2 * 10**8  # maximum number of products formed to list one variable
 _LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
 
@@ -47,7 +49,7 @@ class Function(Protocol):
         """Terms of the denominator."""
 
     def value(self, counts: Mapping[str, int], /) -> Fraction | None:
-        """Return the exact value; None if the train is locked or free."""
+        """Return the exact value for some tooth counts; None if the train is locked or the speed is undetermined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,12 +63,12 @@ class IntervalConstraint:
     strict: bool = False
     """True if the ends of the intervals are excluded."""
     graded: bool = False
-    """True if the value within the intervals matters, so that all wheels of the function must be known."""
+    """True if the value itself is required, so that all wheels of the function must be assigned."""
 
 
 @dataclass(frozen=True, slots=True)
 class WheelMonomial:
-    """Wheels that all functions depend on through one monomial, each with its power, which is not 0."""
+    """Monomial through which all functions depend on some wheels. The power of each wheel is not 0."""
 
     powers: Mapping[str, int]
 
@@ -77,14 +79,14 @@ class WheelMonomial:
 
     @property
     def bottom(self) -> tuple[tuple[str, int], ...]:
-        """Wheels with negative powers, with the sign removed."""
+        """Wheels with negative powers, each with the magnitude of its power."""
         return tuple((wheel, -power) for wheel, power in self.powers.items() if power < 0)
 
 
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """Return the largest possible monomials; wheels in `alone` are monomials of their own with power 1.
+    """Return the largest possible monomials. Each wheel in `alone` is a monomial by itself with power 1.
 
     Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
     functions, are proportional.
@@ -107,8 +109,11 @@ def _inverted(powers: Mapping[str, int]) -> dict[str, int]:
 
 
 def find_recipes(bundles: Sequence[WheelMonomial], domains: Domains) -> Iterator[tuple[ItemRecipe, ...]]:
-    """Yield definitions of items for the monomials: whole quotients, or numerator and denominator as separate items."""
+    """Yield definitions of variables for the monomials: whole quotients, or numerator and denominator as separate
+    variables.
+    """
     choices = [list(_item_cuts(bundle, domains)) for bundle in bundles]
+    # too many combinations to plan: all quotients, or all separate
     if math.prod(map(len, choices)) > 8:
         yield from dict.fromkeys(tuple(recipe for choice in choices for recipe in choice[kind]) for kind in (0, -1))
     else:
@@ -124,12 +129,12 @@ def _item_cuts(bundle: WheelMonomial, domains: Domains) -> Iterator[tuple[ItemRe
 
 
 def quotients(top: Factors, bottom: Factors, domains: Domains) -> int:
-    """Estimate the number of values of an item."""
+    """Estimate the number of values of a variable with this numerator and denominator."""
     return forecast(top, domains)[0] * forecast(bottom, domains)[0]
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Split wheels into the minimum number of groups of similar size whose products can be listed."""
+    """Split wheels into groups of similar size whose products can be listed, as few as possible."""
     if not wheels:
         return
     short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
@@ -150,7 +155,7 @@ def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
 def find_polynomial_constraints(
     requested: Sequence[IntervalConstraint], recipes: Sequence[ItemRecipe], domains: Domains
 ) -> list[PolynomialConstraint]:
-    """Convert interval constraints to polynomial constraints in items."""
+    """Convert interval constraints to polynomial constraints in variables."""
     extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
     constraints = []
     for one in requested:
@@ -171,7 +176,7 @@ def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
 
 
 def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
-    """Return the minimum and maximum value of an item as floats, accurate to a few roundings."""
+    """Return the minimum and maximum value of a variable as floats, accurate to a few roundings."""
     above, below = ([domains[wheel] for wheel, _ in side] for side in (recipe.top, recipe.bottom))
     ends = []
     for up, down in ((0, -1), (-1, 0)):
@@ -182,7 +187,7 @@ def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
 
 
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
-    """Return the monomials in items of some terms, up to one common monomial."""
+    """Return each term as a monomial in variables, divided by a common monomial."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe.top[0] if recipe.top else recipe.bottom[0]
@@ -201,6 +206,7 @@ def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Seque
 def _cases(
     N: SignPolynomial, D: SignPolynomial, requested: IntervalConstraint
 ) -> Iterator[tuple[PolynomialInequality, ...]]:
+    # multiplication by D reverses the inequalities if D < 0
     for sense in (D.definite,) if D.definite else (1, -1):
         for low, high in requested.intervals or (_NOTHING,):
             inequalities = [] if D.definite else [PolynomialInequality(D, sense, strict=True)]
@@ -214,7 +220,10 @@ def _cases(
 def _feasible(
     cases: Sequence[tuple[PolynomialInequality, ...]], extremes: Mapping[int, tuple[float, float]]
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Drop the cases that no counts satisfy; keep the first if none is left, so that the constraint keeps its items."""
+    """Return the cases that some tooth counts can satisfy; the first case if there are none.
+
+    One case is kept so that the constraint still depends on its variables.
+    """
     nothing = PartialAssignments((), {}, 1)
     kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]
     return tuple(kept or cases[:1])

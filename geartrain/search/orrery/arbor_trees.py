@@ -1,7 +1,7 @@
-"""Trees of arbors that show given periods: reach of one gear pair, minimum number of wheels, enumeration up to a size.
+"""Trees of arbors that show given periods, with the minimum number of wheels and the enumeration up to a size.
 
-A table contains the distinct ratios of two wheels. The wheels of a tree are shared by branch and bound over the
-multiples of its ratios. Trees are enumerated up to a number of additional arbors, which do not show a period.
+A table contains the distinct ratios of two wheels. The number of wheels of a tree is minimised by branch and bound over
+the multiples of its ratios. Trees are enumerated up to a number of additional arbors, which do not show a period.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 ROUNDING = 1e-12
-"""Error bound of logarithms of periods and ratios whose magnitude is below 100."""
+"""Upper bound of the error of logarithms of periods and ratios whose magnitude is below 100."""
 _MOST_PAIRS = 2 * 10**7  # maximum number of pairs of counts in the table
 _MOST_STEPS = 4000  # maximum for one tree; a first complete assignment is always found
 
@@ -34,21 +34,21 @@ class PeriodTargets:
     """Requested periods [revolutions of the first arbor] and their tolerances."""
 
     names: tuple[str, ...]
-    """Names of the periods."""
+    """Names of the requested periods."""
     periods: tuple[Fraction, ...]
-    """Periods, exact and positive."""
+    """Requested periods, exact and positive [revolutions of the first arbor]."""
     tolerances: tuple[Fraction, ...]
     """Maximum absolute relative error of each speed, exact, below 1."""
 
     @cached_property
     def bounds(self) -> tuple[tuple[Fraction, Fraction], ...]:
-        """Minimum and maximum of each period."""
+        """Minimum and maximum admissible value of each period [revolutions of the first arbor]."""
         both = zip(self.periods, self.tolerances, strict=True)
         return tuple((period / (1 + slack), period / (1 - slack)) for period, slack in both)
 
     @cached_property
     def logs(self) -> tuple[tuple[float, float], ...]:
-        """Logarithms of `bounds`, extended by the rounding error."""
+        """Natural logarithms of `bounds`, widened by the rounding error."""
         return tuple((math.log(low) - ROUNDING, math.log(high) + ROUNDING) for low, high in self.bounds)
 
     @property
@@ -57,19 +57,21 @@ class PeriodTargets:
         return (1 << len(self.periods)) - 1
 
     def meets(self, target: int, ratio: Fraction) -> bool:
-        """Return whether an arbor of this period shows target number `target`; exact."""
+        """Return whether an arbor with this period shows target number `target`, compared exactly."""
         low, high = self.bounds[target]
         return low <= ratio <= high
 
     def error(self, target: int, ratio: Fraction) -> Fraction:
-        """Return the relative speed error, speed / requested speed - 1; positive if fast."""
+        """Return the relative speed error of an arbor with this period, speed / requested speed - 1; positive
+        if fast.
+        """
         return self.periods[target] / ratio - 1
 
 
 def read_period_targets(
     periods: Mapping[str, Fraction], tolerance: Fraction | float | Mapping[str, Fraction | float]
 ) -> PeriodTargets:
-    """Build the targets from periods by name and one tolerance for all or one for each."""
+    """Build the targets from periods by name, and one relative tolerance for all or one for each."""
     if not periods:
         raise QuestionError(
             Problem("no periods are given", "an orrery shows at least one period", "give one, such as moon=29.53")
@@ -80,7 +82,7 @@ def read_period_targets(
         )
     slack = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(periods, tolerance)
     problems = [
-        Problem(f"period {name!r} is {value}", "a period must be positive", "give its magnitude")
+        Problem(f"period {name!r} is {value}", "a period must be positive", "give a number above 0")
         for name, value in periods.items()
         if value <= 0
     ]
@@ -117,29 +119,32 @@ def members(bits: int) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class PairRatios:
-    """Distinct ratios driven over driver of two wheels, ascending."""
+    """Table of the distinct ratios (driven over driver) of two wheels, ascending."""
 
     counts: tuple[int, ...]
     """Admissible tooth counts, ascending."""
     driven: Ints
-    """Numerators of the ratios in lowest terms, (n,)."""
+    """Numerators of the ratios in lowest terms, shape (n,)."""
     driver: Ints
-    """Denominators of the ratios in lowest terms, (n,)."""
+    """Denominators of the ratios in lowest terms, shape (n,)."""
     logs: Floats
-    """Natural logarithms of the ratios, (n,)."""
+    """Natural logarithms of the ratios, shape (n,)."""
     _choices: dict[tuple[int, int], tuple[tuple[int, int], ...]] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
         return len(self.logs)
 
     def terms(self, at: int) -> tuple[int, int]:
-        """Return driven and driver of one ratio, in lowest terms."""
+        """Return the driven and driver count of one ratio, in lowest terms."""
         return int(self.driven[at]), int(self.driver[at])
 
     def choices(self, driven: int, driver: int) -> tuple[tuple[int, int], ...]:
-        """Return all admissible (driven, driver) wheels of a ratio given in lowest terms, fewest teeth first."""
+        """Return all admissible pairs of counts (driven, driver) with a ratio given in lowest terms, fewest teeth
+        first.
+        """
         found = self._choices.get((driven, driver))
         if found is None:
+            # largest multiple of the ratio within the admissible counts
             most = self.counts[-1] // max(driven, driver)
             admissible = set(self.counts)
             wheels = ((driven * times, driver * times) for times in range(1, most + 1))
@@ -155,7 +160,7 @@ class PairRatios:
 
 
 def pair_ratios(counts: Sequence[int]) -> PairRatios:
-    """Build the table of ratios by enumeration; time and memory grow with the square of the number of counts."""
+    """Build the table of ratios of two wheels. Time and memory grow with the square of the number of counts."""
     admissible = tuple(sorted(set(counts)))
     if not admissible or admissible[0] < 1:
         raise QuestionError(
@@ -185,20 +190,20 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 
 @dataclass(frozen=True)
 class ReachablePeriods:
-    """Targets that can be reached from one arbor by two gear pairs, for each intermediate arbor."""
+    """Targets that two gear pairs in series can drive from one arbor, for each of m intermediate arbors."""
 
     requested: int
     """Bit mask of the targets that were searched for."""
     first: Ints
-    """Index of the ratio to the intermediate arbor, (m,)."""
+    """Index of the ratio of the pair to the intermediate arbor, shape (m,)."""
     next: Ints
-    """Index of the ratio from there to each target, (m, targets); -1 if there is none."""
+    """Index of the ratio of the pair from there to each target, shape (m, targets); -1 if no pair reaches it."""
     sets: Ints
-    """Bit masks of the targets reached, (m,)."""
+    """Bit mask of the targets that can be driven from the intermediate arbor, shape (m,)."""
 
 
 def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
-    """Find all intermediate arbors from which one pair reaches at least one requested target.
+    """Find all intermediate arbors from which one pair can drive at least one requested target.
 
     If several ratios lead to a target, one of them is returned. Floats select with a margin; ratios are compared
     exactly where they are used. The table and the queries are sorted, so one target costs one pass over the table.
@@ -221,7 +226,9 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
 
 
 def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """Return the bit mask of the targets one pair beyond the arbor that each ratio of the table leads to, (n,)."""
+    """Return the targets that one pair can drive from the arbor behind each ratio of the table, as bit masks, shape
+    (n,).
+    """
     sets = np.zeros(len(table), dtype=np.int64)
     found = reach(table, targets, log_period, requested)
     sets[found.first] = found.sets
@@ -232,13 +239,14 @@ def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, r
 
 
 Edge = tuple[int, int, int, int]
-"""Gear pair: driving arbor, driven arbor, and the ratio driven over driver in lowest terms."""
+"""Gear pair: index of the driving arbor, index of the driven arbor, ratio driven over driver in lowest terms."""
 Meshes = tuple[tuple[int, int], ...]
-"""Tooth counts (driver, driven) of each edge."""
+"""Tooth counts (driver, driven) of each gear pair."""
 
 
 def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes, bool]:
-    """Return the number of wheels, the tooth counts of each pair, and whether the number is proved to be the minimum.
+    """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is the proved
+    minimum.
 
     Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of others. The search is
     branch and bound over the multiples that can coincide. If it reaches its limit of steps, the number is only an upper
@@ -257,6 +265,7 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
         shared = [pair for pair, new in zip(pairs, fresh, strict=True) if new < 2]
         options.append(shared or pairs[:1])
         hopes.append(min(fresh))
+    # lower bound of the wheels of the pairs from each index on
     rest = [sum(hopes[at:]) for at in range(len(edges) + 1)]
     return _Search(edges, options, rest).run()
 
@@ -307,12 +316,12 @@ class _Search:
 
 @dataclass(frozen=True, slots=True)
 class TreeArbor:
-    """Arbor of a tree."""
+    """Arbor of a tree, with the gear pair that drives it."""
 
     target: int
     """Index of the period that it shows; -1 if none."""
     parent: int
-    """Index of the arbor that drives it; -1 for the first."""
+    """Index of the arbor that drives it; -1 for the first arbor."""
     driven: int
     """Numerator of the ratio of its pair, in lowest terms."""
     driver: int
@@ -339,7 +348,7 @@ FIRST = TreeArbor(-1, -1, 1, 1, 1, 1)
 
 
 def grown(tree: ArborTree, target: int, parent: int, driven: int, driver: int) -> TreeArbor:
-    """Return the arbor that a pair with this ratio drives from an arbor of the tree."""
+    """Return the new arbor that is driven from arbor `parent` of the tree by a pair with this ratio."""
     n, d = times(tree[parent].n, tree[parent].d, driven, driver)
     return TreeArbor(target, parent, driven, driver, n, d)
 
@@ -352,10 +361,10 @@ def edges(tree: ArborTree) -> list[Edge]:
 class TreeEnumeration:
     """Enumeration of every tree with exactly `extra` arbors that do not show a period.
 
-    A tree grows from the first arbor. Whenever targets are in reach of an arbor, each of them is either driven from
-    there or left for later arbors, and all combinations are visited. The tree then receives one more additional arbor.
-    Additional arbors without a target in reach are visited as long as another one can follow. Each tree is visited once
-    for each order in which its additional arbors can be added.
+    A tree grows from the first arbor. Whenever one pair can drive targets from an arbor, each of them is either driven
+    from there or left for later arbors, and all combinations are visited. The tree then receives one more additional
+    arbor. Additional arbors that cannot drive a target are visited as long as another one can follow. Each tree is
+    visited once for each order in which its additional arbors can be added.
     """
 
     def __init__(
@@ -371,7 +380,8 @@ class TreeEnumeration:
     def _with_targets(
         self, tree: ArborTree, left: int, extra: int, requested: int, blank: bool = True
     ) -> Iterator[ArborTree]:
-        """Yield the ways to drive targets from the arbors with index `requested` and above; earlier arbors are done.
+        """Yield the trees in which arbors with index `requested` and above drive targets; earlier arbors are not
+        changed.
 
         Unless `blank`, the arbor with this index drives at least one target.
         """
@@ -392,11 +402,12 @@ class TreeEnumeration:
             arbors = tuple(arbor for arbor in taken if arbor is not None)
             if not arbors and not blank:
                 continue
+            # targets that no arbor shows yet
             rest = left & ~sum(1 << arbor.target for arbor in arbors)
             yield from self._with_targets(tree + arbors, rest, extra, requested + 1)
 
     def _with_extra_arbor(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
-        """Yield the trees with one more additional arbor on any arbor of the tree."""
+        """Yield the trees with one more additional arbor, driven from any arbor of the tree."""
         if not extra:
             return
         for parent, arbor in enumerate(tree):
@@ -415,10 +426,10 @@ class TreeEnumeration:
                 yield from self._with_extra_chain(tree, left, parent)
 
     def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
-        """Yield the trees whose last two additional arbors form a chain; the first of them drives only the second.
+        """Yield the trees whose last two additional arbors form a chain, in which the first drives only the second.
 
-        The second is determined from the targets: it drives one of them, and all others must be reachable from those
-        that it drives.
+        The period of the second is determined from the targets: it drives one of them, and all others must be reachable
+        from those that it drives.
         """
         low, high = self._ends(left)
         logs, start = self.table.logs, tree[parent].log
@@ -434,7 +445,7 @@ class TreeEnumeration:
             yield from self._with_targets(outer, left, 0, len(inner))
 
     def _ends(self, left: int) -> tuple[Floats, Floats]:
-        """Return intervals of the logarithm of the period of an arbor that include all from which the targets can be
+        """Return intervals that include the logarithm of the period of every arbor from which all targets can be
         reached.
         """
         logs, ranges = self.table.logs, []
@@ -458,10 +469,9 @@ def _useful(tree: ArborTree) -> bool:
 
 
 def _closures(table: PairRatios, targets: PeriodTargets) -> Ints:
-    """Return a table from each bit mask of targets to the targets that chains of single pairs reach from them.
+    """Return for each bit mask of targets the targets that chains of single pairs can reach from them, and themselves.
 
-    The targets themselves are included. The period of an arbor may be anywhere within its tolerance, so the result is a
-    superset.
+    The period of an arbor may be anywhere within its tolerance, so the result is a superset.
     """
     beside = []
     for low, high in targets.bounds:

@@ -48,17 +48,16 @@ Tell = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """Arbor of an orrery."""
+    """Arbor of an orrery, with its period and wheels."""
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """Name of the period that it shows, or `arbor 1`, `arbor 2`...; the name of the first arbor is given by the caller.
-    """
+    """Name of the period that it shows, or `arbor 1`, `arbor 2` and so on. The caller names the first arbor."""
     period: Fraction
     """Period [revolutions of the first arbor], exact and positive."""
     sense: int
-    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses the sense."""
+    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses it."""
     wheels: tuple[int, ...]
     """Distinct tooth counts of its wheels, ascending."""
     shows: bool
@@ -85,7 +84,7 @@ class Orrery(Tabular, Result):
 
     See Also
     --------
-    find_orrery : finds it.
+    find_orrery : Search for an orrery.
     """
 
     ROWS = "search.tooth_numbers_report:orrery_rows"
@@ -105,21 +104,21 @@ class Orrery(Tabular, Result):
     )
 
     periods: Mapping[str, Fraction]
-    """Name -> requested period [revolutions of the first arbor]."""
+    """Requested periods by name [revolutions of the first arbor]."""
     tolerances: Mapping[str, Fraction]
-    """Name -> maximum absolute relative error."""
+    """Maximum absolute relative error of each speed, by name."""
     arbors: tuple[OrreryArbor, ...]
-    """Arbors in topological order: the first arbor, then every other one after its driver."""
+    """Arbors in topological order: the first arbor, then each arbor after the one that drives it."""
     pairs: tuple[OrreryPair, ...]
     """Gear pairs in the order of the driven arbors."""
     errors: Mapping[str, Fraction]
-    """Name -> relative error of the speed: speed over requested speed, minus 1, exact; positive if fast."""
+    """Relative error of each speed by name: speed over requested speed, minus 1, exact; positive if fast."""
     minimum_pairs: int
-    """Proved lower bound of the number of pairs, by enumeration of all smaller trees."""
+    """Proved lower bound of the number of pairs; all smaller trees were enumerated."""
     minimum_wheels: int
     """Proved lower bound of the number of wheels."""
     ended: str
-    """Reason for the end of the search."""
+    """Reason for the end of the search: proved, effort, time, or interrupted."""
 
     def _summary(self) -> str:
         worst = max((abs(error) for error in self.errors.values()), default=0)
@@ -137,12 +136,12 @@ class Orrery(Tabular, Result):
 
     @property
     def worst(self) -> Fraction:
-        """Maximum absolute relative error."""
+        """Maximum absolute relative error of the speeds."""
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """Return a declaration as plain data: the first arbor turns once per `unit`, every output expects its exact
-        speed.
+        """Return a declaration as plain data, in which the first arbor turns once per `unit` and outputs expect their
+        speeds.
 
         A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
 
@@ -187,12 +186,12 @@ class Orrery(Tabular, Result):
 
 
 def _wheel(arbor: int, count: int) -> str:
-    """Return the name of a wheel: `a3-120` has 120 teeth and is mounted on arbor 3."""
+    """Return the name of a wheel. For example, `a3-120` has 120 teeth and is on arbor 3."""
     return f"a{arbor}-{count}"
 
 
 def _plain(value: Fraction) -> str:
-    """Format a fraction exactly: as a decimal with up to 18 digits if it terminates, else as a fraction."""
+    """Return a fraction exactly as text: as a decimal if it terminates within 18 digits, otherwise as a fraction."""
     for digits in range(19):
         scaled = value * 10**digits
         if scaled.denominator == 1:
@@ -274,11 +273,11 @@ def find_orrery(
 
 
 class _TimeUpError(Exception):
-    """Internal signal that the time limit of the search was reached."""
+    """Internal signal that the search has reached its time limit."""
 
 
 class _OrrerySearch:
-    """State of one search: the best tree so far, and the proved bounds."""
+    """State of a search: the best tree so far, and the proved bounds."""
 
     def __init__(self, table: PairRatios, targets: PeriodTargets, seconds: float | None, tell: Tell | None) -> None:
         self.table, self.targets, self.tell = table, targets, tell
@@ -289,7 +288,6 @@ class _OrrerySearch:
         self.minimum_pairs = len(targets.periods)
 
     def run(self, effort: int, walk: int | None) -> str:
-        """Run the search and return the reason for its end."""
         try:
             for extra in self._walks(walk):
                 self._walk(extra)
@@ -307,7 +305,10 @@ class _OrrerySearch:
         return "proved" if self.proved else "effort"
 
     def _walks(self, walk: int | None) -> Iterator[int]:
-        """Yield the numbers of additional arbors to enumerate; each multiplies the work by all pairs at all arbors."""
+        """Yield the numbers of additional arbors for which trees are enumerated.
+
+        Each additional arbor multiplies the work by the number of ratios times the number of arbors.
+        """
         extra, steps = 0, 1
         while extra <= (1 if walk is None else walk) or (walk is None and steps <= _WALKABLE):
             yield extra
@@ -320,6 +321,7 @@ class _OrrerySearch:
             found = True
             self._offer(tree)
         self.walked = extra
+        # no tree of this size exists, so the bound is raised
         if not found and self.minimum_pairs == len(self.targets.periods) + extra:
             self.minimum_pairs += 1
 
@@ -334,7 +336,7 @@ class _OrrerySearch:
             self.tell(done, total)
 
     def _offer(self, tree: ArborTree) -> None:
-        """Keep a tree if it is better: fewer wheels, then fewer pairs, then a smaller maximum error."""
+        """Keep a tree if it is better than the best: fewer wheels, then fewer pairs, then a smaller maximum error."""
         wheels, _, proved = fewest_wheels(self.table, edges(tree))
         # an unproved number of wheels is only an upper bound, so it proves nothing
         self.sure = self.sure and proved
@@ -363,7 +365,6 @@ class _OrrerySearch:
 
 
 def _orrery(search: _OrrerySearch, first: str, ended: str) -> Orrery:
-    """Build the result of the best tree, with names, senses and wheels."""
     assert search.best is not None
     tree, targets = search.best[1], search.targets
     _, meshes, _ = fewest_wheels(search.table, edges(tree))
@@ -389,13 +390,11 @@ def _orrery(search: _OrrerySearch, first: str, ended: str) -> Orrery:
 
 
 def _names(tree: ArborTree, targets: PeriodTargets, first: str) -> list[str]:
-    """Return the names of the arbors: the period shown, or a number."""
     free = (name for name in map("arbor {}".format, count(1)) if name not in (first, *targets.names))
     return [first, *(targets.names[arbor.target] if arbor.target >= 0 else next(free) for arbor in tree[1:])]
 
 
 def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) -> tuple[OrreryArbor, ...]:
-    """Build the arbors with their senses and wheels."""
     wheels: dict[str, set[int]] = {name: set() for name in names}
     senses = {names[0]: 1}
     for pair in pairs:
@@ -409,7 +408,6 @@ def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) 
 
 
 def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
-    """Return the error for a search without a result, with the proved bounds."""
     table, size = search.table, len(search.targets.periods)
     minimum, most = table.counts[0], table.counts[-1]
     walked = f"all trees with up to {size + search.walked} pairs were enumerated; " if search.walked >= 0 else ""
@@ -428,15 +426,16 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
 
 @dataclass(frozen=True, slots=True)
 class PartialTree:
-    """Partial tree of a beam search, its remaining targets, and its cost."""
+    """Partial tree of a beam search, with its remaining targets and its cost."""
 
     tree: ArborTree
     left: int
     wheels: int
-    """Minimum number of wheels of its pairs."""
+    """Minimum number of wheels of the gear pairs of the tree."""
     bulk: float
-    """Sum of the logarithms of the terms of its ratios. Small terms have many multiples and can share wheels more
-    often.
+    """Sum of the logarithms of the terms of its ratios.
+
+    Small terms have many multiples, so their wheels can be shared more often.
     """
 
     @property
@@ -446,17 +445,16 @@ class PartialTree:
 
     @property
     def key(self) -> _Key:
-        """Key for duplicates, equal for trees whose arbors show the same targets with the same periods."""
+        """Key to detect duplicates, equal for trees whose arbors show the same targets with the same periods."""
         return frozenset((arbor.target, arbor.n, arbor.d) for arbor in self.tree)
 
 
 class BeamSearch:
-    """Beam search that extends trees by at least one target at a time and keeps the `width` best with equally many
-    targets.
+    """Beam search that adds targets to trees and keeps the `width` best trees with the same number of targets.
 
-    A move drives a target directly, or adds an arbor together with all targets in its reach. Wheels that a new pair can
-    share with pairs on the same arbor are counted when moves are ranked: for all moves by least common multiples in
-    numpy, and exactly for the selected ones. The search is deterministic.
+    A move drives a target directly, or adds an arbor together with all targets that one pair can drive from it. Wheels
+    that a new pair can share with pairs on the same arbor are counted when moves are ranked: approximately for all
+    moves, by common multiples in numpy, and exactly for the selected ones. The search is deterministic.
     """
 
     def __init__(
@@ -472,8 +470,9 @@ class BeamSearch:
         self._plainest = np.argsort(plain, kind="stable")
 
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:
-        """Yield complete trees as they are found; `seeds` additional arbors driven by the first are further initial
-        trees.
+        """Yield complete trees as they are found.
+
+        seeds   number of additional arbors, driven from the first arbor, that are further initial trees
         """
         size = len(self.targets.periods)
         root = PartialTree((FIRST,), self.targets.everything, 0, 0.0)
@@ -493,9 +492,8 @@ class BeamSearch:
                 chosen = _best(levels[shown + 1], width)
 
     def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
-        """Yield trees with an additional arbor much nearer to the periods than the last arbor, smallest ratio terms
-        first.
-        """
+        """Yield trees with an additional arbor whose period is much nearer to the targets, simplest ratios first."""
+        # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
         nearer = self._plainest[side * self.table.logs[self._plainest] >= self.table.logs[-1] / 3]
         for at in nearer[:most].tolist():
@@ -507,7 +505,7 @@ class BeamSearch:
         return PartialTree(tree, left, wheels, bulk)
 
     def _reach(self, arbor: TreeArbor, left: int) -> ReachablePeriods:
-        """Return the moves from an arbor to the remaining targets, cached by arbor."""
+        """Return the moves from an arbor to the remaining targets. They are cached by the period of the arbor."""
         known = self._reaches.pop((arbor.n, arbor.d), None)
         if known is not None and left & ~known.requested:
             self._entries -= known.next.size
@@ -521,7 +519,9 @@ class BeamSearch:
         return known
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the most promising extensions of a partial tree by one arbor, and their direct extensions."""
+        """Yield the best extensions of a partial tree by one arbor with its targets, and further targets driven from
+        these.
+        """
         reaches = [self._reach(arbor, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
         # separately for each gain: moves with more targets need more wheels, and would always be ranked lower
@@ -535,7 +535,7 @@ class BeamSearch:
                     yield from self._direct(child, len(part.tree))
 
     def _direct(self, part: PartialTree, fresh: int) -> Iterator[PartialTree]:
-        """Yield the trees with any number of targets driven directly by arbors with index `fresh` and above."""
+        """Yield the trees in which arbors with index `fresh` and above drive one or more further targets directly."""
         for parent in range(fresh, len(part.tree)):
             arbor = part.tree[parent]
             begin, end = self.table.logs.searchsorted(self._windows - arbor.log)
@@ -552,11 +552,14 @@ class BeamSearch:
     def _moves(
         self, part: PartialTree, parent: int, known: ReachablePeriods
     ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-        """Return a table of moves, (moves, 5): targets gained, wheels needed, bulk, parent, row of its reach."""
+        """Return a table of moves, shape (moves, 5): targets gained, wheels needed, `bulk`, driving arbor, row in
+        `known`.
+        """
         sets = known.sets & part.left
         rows = np.flatnonzero(sets)
         gained = np.bitwise_count(sets[rows]).astype(np.int64)
         first = known.first[rows]
+        # two wheels per pair, minus those that can be shared
         wheels = 2 + 2 * gained - self._sharing(part.tree, parent, first)
         bulk = self._bulk[first].copy()
         for target in range(len(self.targets.periods)):
@@ -572,7 +575,7 @@ class BeamSearch:
         return np.column_stack([gained, wheels, bulk, np.full(len(rows), parent), rows]).astype(np.float64)
 
     def _sharing(self, tree: ArborTree, parent: int, ways: Ints) -> Ints:
-        """Return 1 for ratios whose pair to a new arbor can use a wheel that the driving arbor has, else 0."""
+        """Return 1 for each ratio whose pair can use a wheel that is already on the driving arbor, otherwise 0."""
         able = np.zeros(len(ways), dtype=bool)
         for at, arbor in enumerate(tree):
             if at and parent in (at, arbor.parent):
@@ -582,18 +585,20 @@ class BeamSearch:
         return able.astype(np.int64)
 
     def _joint(self, mine: Ints, mate: Ints, other: Ints, its_mate: Ints) -> Ints:
-        """Return 1 if two ratios have multiples with equal counts, `mine` and `other`, within the range of teeth, else
-        0.
+        """Return 1 if two ratios can share a wheel, otherwise 0.
+
+        They can if their terms `mine` and `other` have a common multiple such that all four counts are admissible.
         """
         common = np.lcm(mine, other)
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))
         smallest = np.minimum(common, np.minimum(common // mine * mate, common // other * its_mate))
         minimum, most = self.table.counts[0], self.table.counts[-1]
+        # the largest admissible multiple must keep the smallest count above the minimum
         good: Ints = (most // largest * smallest >= minimum).astype(np.int64)
         return good
 
     def _built(self, part: PartialTree, parent: int, known: ReachablePeriods, at: int) -> PartialTree | None:
-        """Build the tree after a move; None if exact arithmetic rejects all its targets."""
+        """Return the tree after a move; None if exact arithmetic rejects all its targets."""
         tree = (*part.tree, grown(part.tree, -1, parent, *self.table.terms(int(known.first[at]))))
         extra, left = len(tree) - 1, part.left
         for target, further in enumerate(known.next[at]):
@@ -606,7 +611,7 @@ class BeamSearch:
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """Select the best partial trees, first at most a few with the same targets and periods."""
+    """Return the best partial trees, with at most a few that have the same targets and periods ranked first."""
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []
     alike: Counter[_Key] = Counter()

@@ -7,34 +7,38 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import Force, Json, Out
+from geartrain.cli.common import Force, Json, Out, option_error
 from geartrain.cli.long_runs import progress
-from geartrain.search.teeth_verb import ANY_COUNT, Csv, Range, SearchAnswer, Tolerance, read_tolerance
+from geartrain.search.teeth_verb import ANY_COUNT, Range, SearchAnswer, Tolerance, read_tolerance
 
+_PLACE = "NAME=PERIOD"
 _TOLERANCE = Fraction(1, 10**6)
 
 
 def run(
     periods: Annotated[
-        list[str], typer.Argument(help="Names and periods [revolutions of the first arbor].", metavar="NAME=PERIOD...")
+        list[str], typer.Argument(help="Names and periods in revolutions of the first arbor.", metavar="NAME=PERIOD")
     ],
     counts: Range = ANY_COUNT,
     tolerance: Tolerance = None,
-    effort: Annotated[int, typer.Option("--effort", min=1, help="Maximum beam width of the search.")] = 16,
+    effort: Annotated[int, typer.Option("--beam-width", min=1, help="Maximum beam width of the search.")] = 16,
     walk: Annotated[
-        int | None, typer.Option("--walk", min=0, help="Enumerate all trees with up to this number of extra arbors.")
+        int | None,
+        typer.Option("--extra-arbors", min=0, help="Enumerate all trees with up to this number of extra arbors."),
     ] = None,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find a gear train that shows several periods from one arbor with few wheels and arbors."""
+    """Find a gear train that shows several periods from one arbor with few wheels and arbors.
+
+    Example: `geartrain teeth orrery moon=29.53 venus=224.7`.
+    """
     from geartrain.search.orrery.orrery_search import find_orrery
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_orrery, orrery_rows
 
-    answer = SearchAnswer.of(csv, json, out, force)
+    answer = SearchAnswer.of(json, out, force)
     wanted = _periods(periods)
     most_error = read_tolerance(tolerance)
     with progress("trees") as bar:
@@ -57,14 +61,12 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
     for text in texts:
         name, sign, period = text.partition("=")
         if not sign or not name.strip():
-            raise typer.BadParameter(f"'{text}' is not of the form moon=29.53058853", param_hint="NAME=PERIOD")
+            raise option_error(_PLACE, f"'{text}' is not a name with a period", "write it as moon=29.53058853")
         if name.strip() in found:
-            raise typer.BadParameter(f"two periods are named '{name.strip()}'", param_hint="NAME=PERIOD")
+            raise option_error(_PLACE, f"two periods are named '{name.strip()}'", "give each name once")
         wanted = read_ratio(period)
         if wanted.sense:
-            what = (
-                f"'{text}' has a sign; give periods without sign, because the search chooses the sense of every arbor"
-            )
-            raise typer.BadParameter(what, param_hint="NAME=PERIOD")
+            why = "the search chooses the sense of every arbor"
+            raise option_error(_PLACE, f"'{text}' has a sign", "give periods without sign", why)
         found[name.strip()] = wanted.value
     return found

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 Chances = Mapping[int, float]
 Pair = tuple[str, str]
-MOST = 9
+MOST = 9  # panels of more wheels would be too small to read
 _CELL = 1.35  # side of a panel [inch]
 _TICKS = 3  # maximum number of tick intervals
 _FEW = 20  # maximum number of counts whose bars have separate outlines
@@ -49,19 +49,19 @@ class CountProbabilities:
     """Probabilities of tooth counts, for a corner plot."""
 
     single: Mapping[str, Chances]
-    """Wheel -> count -> probability."""
+    """Posterior probability of each tooth count, by wheel."""
     pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
-    """Pair of wheels, in the order of `single` -> pair of counts -> joint probability."""
+    """Joint probability of each pair of tooth counts, by pair of wheels in the order of `single`."""
     before: Mapping[str, Chances] = field(default_factory=dict)
-    """Wheel -> count -> prior probability; empty if unknown."""
+    """Prior probability of each tooth count, by wheel; empty if unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
-    """Wheel -> declared count."""
+    """Declared tooth count of each wheel that has one."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Draw marginal probabilities on the diagonal and joint probabilities of each pair below it.
+    """Draw a corner plot: marginal probabilities on the diagonal, joint probabilities of each pair below it.
 
-    Darker panels are more probable. Outlines show priors, dashed lines declared counts. Raises `QuestionError` for no
+    Darker squares are more probable. Outlines show priors, dashed lines declared counts. Raise `QuestionError` for no
     wheel, or for more than 9.
     """
     wheels = list(likely.single)
@@ -95,7 +95,6 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
 
 
 def _legend(figure: Figure, likely: CountProbabilities) -> None:
-    """Draw the legend of bars, outlines and dashed lines below the panels."""
     handles: list[Any] = [Patch(color=BLUE, label="posterior")]
     if likely.before:
         handles.append(Patch(fill=False, edgecolor=GREY, label="prior"))
@@ -106,38 +105,40 @@ def _legend(figure: Figure, likely: CountProbabilities) -> None:
 
 
 def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
-    """Draw bars of the probabilities of one wheel, and outlines of its prior."""
-    chances = likely.single[wheel]
+    """Draw the posterior probabilities of one wheel as bars, and its prior as outlines."""
+    probabilities = likely.single[wheel]
     wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
-    axes.bar(list(chances), list(chances.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
+    axes.bar(list(probabilities), list(probabilities.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
     before = likely.before.get(wheel, {})
     if before:
         _outline(axes, before)
-    axes.set_ylim(0, 1.08 * max([*chances.values(), *before.values()]))
+    axes.set_ylim(0, 1.08 * max([*probabilities.values(), *before.values()]))
     axes.set_yticks([])
-    axes.set_title(_modes(chances), fontsize=SMALL, color=BLACK, pad=3)
+    axes.set_title(_modes(probabilities), fontsize=SMALL, color=BLACK, pad=3)
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
     if wheel in likely.declared:
         axes.axvline(likely.declared[wheel], color=RED, linewidth=1.2, linestyle=_DASHES)
 
 
-def _outline(axes: Axes, chances: Chances) -> None:
-    """Draw the outlines of bars; for many counts only the line along their tops, because the sides would merge."""
-    if len(chances) <= _FEW:
-        axes.bar(list(chances), list(chances.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0)
+def _outline(axes: Axes, probabilities: Chances) -> None:
+    """Draw the outlines of bars. For many counts draw only the line along their tops, because the sides would merge."""
+    if len(probabilities) <= _FEW:
+        axes.bar(
+            list(probabilities), list(probabilities.values()), width=0.86, fill=False, edgecolor=GREY, linewidth=1.0
+        )
         return
-    counts = np.arange(min(chances), max(chances) + 1)
+    counts = np.arange(min(probabilities), max(probabilities) + 1)
     edges = np.append(counts, counts[-1] + 1) - 0.5
-    axes.stairs([chances.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
+    axes.stairs([probabilities.get(int(count), 0.0) for count in counts], edges, color=GREY, linewidth=1.0)
 
 
 def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
     """Draw a square for each pair of counts, darker for higher probability."""
     (a, first), (b, second) = ((wheel, spans[wheel]) for wheel in pair)
     table = np.zeros((second[1] - second[0] + 1, first[1] - first[0] + 1))
-    for (one, other), chance in likely.pairs[pair].items():
-        table[other - second[0], one - first[0]] = chance
+    for (one, other), probability in likely.pairs[pair].items():
+        table[other - second[0], one - first[0]] = probability
     edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
     # the colour scale needs two different ends, even if all probabilities are 0
     mesh = axes.pcolormesh(*edges, table, cmap=SCALE, vmin=0.0, vmax=max(float(table.max()), 1e-300))
@@ -159,16 +160,17 @@ def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
 
 
 def _ticks(axis: Any, span: tuple[int, int]) -> None:
-    """Set ticks at a few integers within the range, at round numbers if the range is long."""
     low, high = span
     found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 3, 4, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
     axis.set_ticks([int(tick) for tick in found if low <= tick <= high])
 
 
-def _modes(chances: Chances) -> str:
-    """Format the mode and its probability; all modes if several counts are equally probable, "49-52: 10 % each"."""
-    largest = max(chances.values())
-    modes = sorted(count for count, chance in chances.items() if isclose(chance, largest))
+def _modes(probabilities: Chances) -> str:
+    """Return the most probable count with its probability as text; if several are equally probable, `49-52: 10
+    % each`.
+    """
+    largest = max(probabilities.values())
+    modes = sorted(count for count, probability in probabilities.items() if isclose(probability, largest))
     percent, span = f"{100 * largest:.3g} %", modes[-1] - modes[0] + 1
     if len(modes) == 1:
         return f"{modes[0]}: {percent}"
@@ -184,14 +186,14 @@ Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair.
+    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair of wheels.
 
     Parameters
     ----------
     found : ToothCountPosterior
         Posterior of the counts.
     pairs : mapping
-        Pair of wheels in the order of declaration -> pair of counts -> probability, from `joint_posterior`.
+        Joint probability of each pair of counts, by pair of wheels in the order of declaration; see `joint_posterior`.
 
     Returns
     -------
@@ -201,7 +203,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     Raises
     ------
     QuestionError
-        If nothing fits, or if the figure would have no wheel or more wheels than fit on a page.
+        If no combination satisfies the observations, or if the number of wheels is not from 1 to 9.
 
     Examples
     --------
@@ -213,19 +215,23 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     'ring'
     """
     wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
-    if not all(found[wheel].chances for wheel in wheels):
+    if not all(found[wheel].probabilities for wheel in wheels):
         what = f"no combination of counts of '{found.name}' fits, so there is nothing to draw"
         why = "a corner plot needs at least one combination that fits"
         raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
     single = {
-        wheel: {count: float(each) for count, each in zip(one.doubt.counts, one.chances, strict=True) if float(each)}
+        wheel: {
+            count: float(each)
+            for count, each in zip(one.uncertainty.counts, one.probabilities, strict=True)
+            if float(each)
+        }
         for wheel, one in ((wheel, found[wheel]) for wheel in wheels)
     }
     before = {
-        wheel: dict(zip(found[wheel].doubt.counts, map(float, found[wheel].doubt.priors), strict=True))
+        wheel: dict(zip(found[wheel].uncertainty.counts, map(float, found[wheel].uncertainty.priors), strict=True))
         for wheel in wheels
     }
-    declared = {wheel: count for wheel in wheels if (count := found[wheel].doubt.declared) is not None}
+    declared = {wheel: count for wheel in wheels if (count := found[wheel].uncertainty.declared) is not None}
     requested = ", ".join(witness.name for witness in found.witnesses)
     return corner_figure(
         CountProbabilities(single, pairs, before, declared), f"{found.name}: counts that give {requested}"

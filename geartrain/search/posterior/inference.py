@@ -77,7 +77,7 @@ def infer_counts(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> ToothCountPosterior:
-    """Compute the posterior of uncertain tooth counts, given what is known of the outputs.
+    """Compute the posterior of uncertain tooth counts, given the observed speeds of outputs.
 
     After an interruption (Ctrl-C) the result has `cut` True. It covers the combinations drawn so far. The exact join
     has no partial result; a short sample is drawn instead, and a remark says so.
@@ -95,12 +95,12 @@ def infer_counts(
     tolerance : Fraction, optional
         Relative tolerance of targets without one, at least 0.
     against : {"all", "targets", "figures"}
-        Kinds of claims that are used; figures are `expect` and `published`.
+        Kinds of observations that are used; figures are `expect` and `published`.
     scale : Fraction
         Factor of every tolerance, at least 0.
     soft : bool
-        False if an output is either within its tolerances or not. True for a Gaussian likelihood with the tolerances as
-        standard deviations.
+        False for the likelihood 1 within all tolerances and 0 otherwise. True for a Gaussian likelihood with the
+        tolerances as standard deviations.
     method : {"exact", "sample"}, optional
         By default exact if there are at most `limit` combinations or it takes at most `limit` steps.
     most : int
@@ -127,7 +127,7 @@ def infer_counts(
     Raises
     ------
     QuestionError
-        If no count is uncertain, nothing is known of an output, or weights are not probabilities.
+        If no count is uncertain, no output has an observed speed, or weights are not probabilities.
     RangeError
         If the exact method is requested and exceeds the limit, or a count has too many possible values to list.
 
@@ -150,7 +150,7 @@ def infer_counts(
     ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1},
     ...     "outputs": {"b": {"targets": [{"speed": "-1/3", "tolerance": "2 %"}]}}})
     >>> found = infer_counts(train)
-    >>> found.evidence.value, [str(chance) for chance in found["w"].chances]
+    >>> found.evidence.value, [str(probability) for probability in found["w"].probabilities]
     (Fraction(2, 3), ['0.5', '0.5', '0'])
     """
     _check(method, most, limit, samples, seed)
@@ -169,7 +169,8 @@ def infer_counts(
     chosen, found, cut = outcome.method, outcome.found, outcome.cut
     exact = found.evidence if chosen != "sample" else None
     shares = {
-        name: find_variance_shares(name, formula, question.doubts, seed) for name, formula in question.outputs.items()
+        name: find_variance_shares(name, formula, question.uncertainties, seed)
+        for name, formula in question.outputs.items()
     }
     return ToothCountPosterior(
         question.name,
@@ -194,7 +195,7 @@ def infer_counts(
 
 
 def _sample_remarks(found: PosteriorSummary, method: Method) -> Iterator[str]:
-    """Yield a remark if so few combinations of a sample fit that its figures are unreliable."""
+    """Yield a remark if the effective size of a sample is too small for reliable estimates."""
     if method == "sample" and found.effective < _ENOUGH:
         yield (
             f"the figures are estimated from only {found.effective:.3g} combinations that fit: increase --samples, "
@@ -210,12 +211,12 @@ def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -
     for name, value, minimum in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
         if value < minimum:
             raise QuestionError(
-                Problem(f"{name} is {value}", f"it must be at least {minimum}", f"give {minimum} or more")
+                Problem(f"{name} is {value}", f"it must be at least {minimum}", f"give {name} >= {minimum}")
             )
 
 
 class _Outcome(NamedTuple):
-    """Result and its method; `cut` is True after an interruption."""
+    """Result of the inference with the method that was used; `cut` is True after an interruption."""
 
     method: Method
     found: PosteriorSummary
@@ -232,9 +233,9 @@ def _summarise(
     seed: int,
     means: Execution,
 ) -> _Outcome:
-    """Compute the posterior by the requested method, or by the first that stays within the limit."""
+    """Compute the posterior by the requested method; by default by the exact join, or by sampling beyond the limit."""
     if method != "sample":
-        few = prod(len(doubt.counts) for doubt in question.moved.values()) <= limit
+        few = prod(len(uncertainty.counts) for uncertainty in question.moved.values()) <= limit
         try:
             return _Outcome("exact", find_exact_posterior(question, most, inf if few else limit))
         except KeyboardInterrupt:
@@ -246,14 +247,16 @@ def _summarise(
             if method is not None:
                 what = f"the exact method needs more than {limit} steps"
                 fix = "raise the limit, narrow the ranges of counts, or use the method `sample`"
-                raise RangeError(Problem(what, "the limit bounds its work", fix)) from None
+                raise RangeError(
+                    Problem(what, "`limit` bounds the number of partial combinations that it examines", fix)
+                ) from None
     return _Outcome("sample", *_sampled(question, most, samples, seed, means))
 
 
 def _sampled(
     question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
 ) -> tuple[PosteriorSummary, bool]:
-    """Return the summary of a sample, and whether it was interrupted."""
+    """Return the summary of a random sample, and whether the sampling was interrupted."""
     # at most 1000 tasks, which depend only on the number of samples, so that any number of workers draws the same
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
@@ -268,11 +271,12 @@ def _sampled(
 
 
 def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
-    """Return output -> evidence of that output only, from a sample if the exact join would take too long."""
+    """Return the evidence of each output by itself, from a sample if the exact join would take too long."""
     found = {}
     for witness in question.witnesses:
-        doubts = {wheel: question.doubts[wheel] for wheel in witness.formula.wheels}
-        one = replace(question, doubts=doubts, witnesses=(witness,), conditions=())
+        # other wheels do not change the evidence of this output
+        uncertainties = {wheel: question.uncertainties[wheel] for wheel in witness.formula.wheels}
+        one = replace(question, uncertainties=uncertainties, witnesses=(witness,), conditions=())
         try:
             found[witness.name] = evidence_of(one, _SINGLE_OUTPUT_STEPS)
         except BudgetSpentError:
@@ -284,26 +288,28 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
-    """Compute the exact posterior. Raises `BudgetSpentError` beyond `limit` steps.
+    """Compute the exact posterior. Raise `BudgetSpentError` beyond `limit` steps.
 
     most   number of combinations to list
     """
-    doubts = question.moved
+    uncertainties = question.moved
     root, steps = _recorded(question, limit)
     sums = AssignmentSums(root, question.soft)
-    weights = _weights(doubts, question.soft)
+    weights = _weights(uncertainties, question.soft)
     share = plain_number(sums.total(weights))
     marginals = {wheel: own.tolist() for wheel, own in sums.marginals(weights).items()} if share else {}
     candidates, ranked = first_with_ties(iter(BestFirst(root, question.domains)), most) if share else ([], True)
-    floats = _weights(doubts, True)
+    floats = _weights(uncertainties, True)
     return PosteriorSummary(
         steps,
-        _probability(question, doubts, share),
+        _probability(question, uncertainties, share),
         turning_of(question, limit),
         None if question.soft else _fits(question, sums),
         {
-            wheel: wheel_posterior(doubt, marginals[wheel] if wheel in doubts and share else None, share, None)
-            for wheel, doubt in question.doubts.items()
+            wheel: wheel_posterior(
+                uncertainty, marginals[wheel] if wheel in uncertainties and share else None, share, None
+            )
+            for wheel, uncertainty in question.uncertainties.items()
         },
         correlations_of(question, marginals, share, sums.covariances(floats, question.domains)) if share else {},
         candidates,
@@ -313,33 +319,35 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
 
 def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the share of the prior weight that fits. Raises `BudgetSpentError` beyond `limit` steps."""
-    doubts = question.moved
+    """Return the evidence: the prior mean of the likelihood. Raise `BudgetSpentError` beyond `limit` steps."""
+    uncertainties = question.moved
     if question.soft:
         root, _ = _recorded(question, limit)
-        return _probability(question, doubts, float(AssignmentSums(root, True).total(_weights(doubts, True))))
+        return _probability(
+            question, uncertainties, float(AssignmentSums(root, True).total(_weights(uncertainties, True)))
+        )
     join = ExactJoin(_join_problem(question, graded=False), budget=limit)
     counted, _ = join.count(join.question.plan, join.start())
-    return _probability(question, doubts, int(counted[0]))
+    return _probability(question, uncertainties, int(counted[0]))
 
 
 def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the share of the prior weight with which the train turns, whatever the speeds of its outputs."""
+    """Return the prior probability that the train turns, regardless of the speeds of its outputs."""
     if not question.conditions:
         return CountProbability(Fraction(1))
     return evidence_of(replace(question, witnesses=(), soft=False), limit)
 
 
 def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
-    """Return the join of the constraints of the observed outputs, followed by the conditions.
+    """Return the join of the constraints of the observed outputs, followed by the conditions for the train to turn.
 
     graded   True if the misfits of the outputs are also required
     """
-    doubts = question.moved
-    domains = {wheel: doubt.counts for wheel, doubt in doubts.items()}
+    uncertainties = question.moved
+    domains = {wheel: uncertainty.counts for wheel, uncertainty in uncertainties.items()}
     requested = [*(one.constraint(question.soft, graded) for one in question.witnesses), *question.conditions]
     sample = SelectivitySample.of(domains)
-    weights = {wheel: doubt.weights for wheel, doubt in doubts.items()}
+    weights = {wheel: uncertainty.weights for wheel, uncertainty in uncertainties.items()}
     return find_join_problem(domains, requested, (), {one.name: sample.of_demand(one) for one in requested}, weights)
 
 
@@ -348,27 +356,33 @@ def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, i
     return record_join(_join_problem(question, graded=True), limit, misfits)
 
 
-def _weights(doubts: Mapping[str, ToothCountPrior], soft: bool) -> CountWeights:
-    """Return the prior weights as integers of a type that holds all their sums, or with `soft` the priors as floats."""
+def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountWeights:
+    """Return the prior weights as integers of a type that holds all their sums; with `soft`, the priors as floats."""
     if soft:
-        return {wheel: np.array([float(prior) for prior in doubt.priors]) for wheel, doubt in doubts.items()}
-    dtype: Any = np.int64 if prod(doubt.total for doubt in doubts.values()) < _LONG else object
-    return {wheel: np.array(doubt.weights, dtype=dtype) for wheel, doubt in doubts.items()}
+        return {
+            wheel: np.array([float(prior) for prior in uncertainty.priors])
+            for wheel, uncertainty in uncertainties.items()
+        }
+    dtype: Any = np.int64 if prod(uncertainty.total for uncertainty in uncertainties.values()) < _LONG else object
+    return {wheel: np.array(uncertainty.weights, dtype=dtype) for wheel, uncertainty in uncertainties.items()}
 
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
-    """Count the combinations that fit: the sum with unit weights, times the numbers of counts of independent wheels."""
-    alike = {w: replace(doubt, weights=(1,) * len(doubt.counts)) for w, doubt in question.moved.items()}
-    idle = [doubt for wheel, doubt in question.doubts.items() if wheel not in alike]
-    return int(sums.total(_weights(alike, False))) * prod(len(doubt.counts) for doubt in idle)
+    """Return the number of combinations that satisfy all observations, including the counts of independent wheels."""
+    alike = {
+        w: replace(uncertainty, weights=(1,) * len(uncertainty.counts)) for w, uncertainty in question.moved.items()
+    }
+    # wheels that no observation depends on multiply the number
+    idle = [uncertainty for wheel, uncertainty in question.uncertainties.items() if wheel not in alike]
+    return int(sums.total(_weights(alike, False))) * prod(len(uncertainty.counts) for uncertainty in idle)
 
 
 def _probability(
-    question: InferenceProblem, doubts: Mapping[str, ToothCountPrior], share: int | float
+    question: InferenceProblem, uncertainties: Mapping[str, ToothCountPrior], share: int | float
 ) -> CountProbability:
     if question.soft:
         return CountProbability(float(share))
-    return CountProbability(Fraction(int(share), prod(doubt.total for doubt in doubts.values())))
+    return CountProbability(Fraction(int(share), prod(uncertainty.total for uncertainty in uncertainties.values())))
 
 
 # ------------------------------------------------------------------------------------------------------ pairs of wheels
@@ -379,7 +393,7 @@ Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
 
 
 def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
-    """Return the wheels of which the outputs give the most information, in the order of declaration.
+    """Return the wheels on which the outputs give the most information [bit], in the order of declaration.
 
     Wheels with one possible count are omitted.
 
@@ -400,7 +414,7 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
     >>> most_informative_wheels(infer_counts(geartrain.load("freeth-2008-doubt").declaration), 2)
     ['m3', 'n1']
     """
-    informed = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.doubt.counts) > 1]
+    informed = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.uncertainty.counts) > 1]
     kept = set(sorted(informed, key=lambda wheel: -found[wheel].bits)[:most])
     return [wheel for wheel in informed if wheel in kept]
 
@@ -435,13 +449,13 @@ def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Ag
     """
     pairs: Pairs = {(a, b): {} for at, a in enumerate(wheels) for b in wheels[at + 1 :]}
     for at, wheel in enumerate(wheels[:-1]):
-        for count, chance in zip(found[wheel].doubt.counts, found[wheel].chances, strict=False):
-            if not float(chance):
+        for count, probability in zip(found[wheel].uncertainty.counts, found[wheel].probabilities, strict=False):
+            if not float(probability):
                 continue
             held = again({wheel: [count]})
             for other in wheels[at + 1 :]:
                 after = held[other]
-                for its, likely in zip(after.doubt.counts, after.chances, strict=False):
+                for its, likely in zip(after.uncertainty.counts, after.probabilities, strict=False):
                     if float(likely):
-                        pairs[wheel, other][count, its] = float(chance) * float(likely)
+                        pairs[wheel, other][count, its] = float(probability) * float(likely)
     return pairs

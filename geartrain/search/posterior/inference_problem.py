@@ -27,7 +27,7 @@ from geartrain.train.fields import MOST_TEETH
 LikelihoodKind = Literal["all", "targets", "figures"]
 LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
 FAR = Fraction(5)
-"""Maximum error in tolerances with `soft`. Larger errors, which would weigh less than exp(-12.5), are rejected."""
+"""Error in tolerances beyond which a Gaussian likelihood is set to 0; it would be less than exp(-12.5)."""
 MOST_COUNTS = 10**5
 """Maximum number of possible counts of one wheel."""
 _LINE: Interval = (None, None)
@@ -39,49 +39,51 @@ class InferenceProblem:
 
     name: str
     """Name of the train."""
-    doubts: Mapping[str, ToothCountPrior]
-    """Wheel -> possible counts and their weights, in the order of declaration."""
+    uncertainties: Mapping[str, ToothCountPrior]
+    """Prior of the tooth count of each wheel, in the order of declaration."""
     witnesses: tuple[ObservedOutput, ...]
     """Observed outputs that depend on an uncertain count."""
     outputs: Mapping[str, Formula]
-    """Output that depends on an uncertain count -> its speed as a function of the counts."""
+    """Speed of each output that depends on an uncertain count, as a function of the counts."""
     conditions: tuple[IntervalConstraint, ...]
-    """Conditions for the train to turn: loops close, and links are driven consistently."""
+    """Conditions for the train to turn: loops must close, and links must not be driven in contradictory ways."""
     remarks: tuple[str, ...] = ()
-    """Remarks for the reader."""
+    """Remarks on observations that are not used or are violated by every combination."""
     soft: bool = False
-    """False if a combination either fits or not. True for the likelihood exp(-misfit / 2), up to `FAR` tolerances."""
+    """True for the Gaussian likelihood exp(-misfit / 2), up to `FAR` tolerances; False for the likelihood 1 within all
+    tolerances and 0 otherwise.
+    """
 
     @property
     def domains(self) -> Domains:
-        """Wheel -> its counts, ascending."""
-        return {wheel: doubt.counts for wheel, doubt in self.doubts.items()}
+        """Possible tooth counts of each wheel, ascending."""
+        return {wheel: uncertainty.counts for wheel, uncertainty in self.uncertainties.items()}
 
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
         """Priors of the wheels that an observed output or a condition depends on, in the order of declaration."""
         functions = [witness.formula for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
-        return {wheel: doubt for wheel, doubt in self.doubts.items() if wheel in wheels}
+        return {wheel: uncertainty for wheel, uncertainty in self.uncertainties.items() if wheel in wheels}
 
     @property
     def combinations(self) -> int:
-        """Number of combinations of counts."""
-        return prod(len(doubt.counts) for doubt in self.doubts.values())
+        """Number of combinations of possible tooth counts."""
+        return prod(len(uncertainty.counts) for uncertainty in self.uncertainties.values())
 
     @property
     def total(self) -> int:
         """Sum of the integer weights of all combinations."""
-        return prod(doubt.total for doubt in self.doubts.values())
+        return prod(uncertainty.total for uncertainty in self.uncertainties.values())
 
     def weight(self, teeth: Mapping[str, int]) -> int:
-        """Return the prior weight of a combination; over `total` it is the prior probability."""
-        return prod(self.doubts[wheel].weight(count) for wheel, count in teeth.items())
+        """Return the integer prior weight of a combination; divided by `total` it is the prior probability."""
+        return prod(self.uncertainties[wheel].weight(count) for wheel, count in teeth.items())
 
 
 def build_inference_problem(
     train: Train,
-    doubts: Sequence[ToothCountPrior],
+    uncertainties: Sequence[ToothCountPrior],
     state: str | None = None,
     *,
     outputs: Sequence[str] = (),
@@ -94,15 +96,15 @@ def build_inference_problem(
 
     outputs     outputs used as evidence and reported; default all
     tolerance   relative tolerance of targets without one
-    against     kinds of claims that are used: "targets", "figures" (`expect` and `published`), or "all"
+    against     kinds of observations that are used: "targets", "figures" (`expect` and `published`), or "all"
     scale       factor of every tolerance
 
-    Raises `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if nothing is
-    known of any output that moves, and for trains that never turn.
+    Raise `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if no output that
+    depends on uncertain counts has a known speed, and for trains that never turn.
     """
     _check(train, state, against, tolerance, scale)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
-    domains = {doubt.wheel: doubt.counts for doubt in doubts}
+    domains = {uncertainty.wheel: uncertainty.counts for uncertainty in uncertainties}
     found = [(one, find_formulas(train, one, domains)) for one in states]
     _check_outputs(train, states, outputs)
     witnesses: list[ObservedOutput] = []
@@ -131,14 +133,14 @@ def build_inference_problem(
                 remarks += _remarks(witness)
         remarks += [f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined]
     _check_known(moved, known, outputs)
-    by_wheel = {doubt.wheel: doubt for doubt in doubts}
+    by_wheel = {uncertainty.wheel: uncertainty for uncertainty in uncertainties}
     return InferenceProblem(train.name, by_wheel, tuple(witnesses), shown, tuple(conditions), tuple(remarks), soft)
 
 
 def _remarks(witness: ObservedOutput) -> Iterator[str]:
-    """Yield a remark on an output that is not evidence: no uncertain count affects it, or it has no tolerance."""
+    """Yield a remark on an output that is not used, because it has no tolerance or depends on no uncertain count."""
     if not witness.claims:
-        yield f"'{witness.name}' is not used: none of its claims has a tolerance"
+        yield f"'{witness.name}' is not used: none of its observations has a tolerance"
     elif not witness.fits(witness.formula.constant):
         yield f"no uncertain count affects '{witness.name}', and its speed does not satisfy: {witness.text}"
 
@@ -150,18 +152,18 @@ def _check(
     if against not in LIKELIHOOD_KINDS:
         raise QuestionError(
             Problem(
-                f"unknown kind of claims '{against}'",
+                f"unknown kind of observations '{against}'",
                 "kinds are all, targets and figures",
                 suggest(against, LIKELIHOOD_KINDS),
             )
         )
     if tolerance is not None and tolerance < 0:
         raise QuestionError(
-            Problem(f"the tolerance {tolerance} is negative", "a tolerance is a distance", "give 0 or more")
+            Problem(f"the tolerance {tolerance} is negative", "a tolerance is a magnitude", "give a tolerance >= 0")
         )
     if scale < 0:
         raise QuestionError(
-            Problem(f"the factor {scale} of tolerances is negative", "a tolerance is a distance", "give 0 or more")
+            Problem(f"the factor {scale} of tolerances is negative", "a tolerance is a magnitude", "give a factor >= 0")
         )
 
 
@@ -174,10 +176,10 @@ def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence
 
 
 def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequence[str]) -> None:
-    """Raise `QuestionError` for outputs without evidence.
+    """Raise `QuestionError` for requested outputs that give no information on the counts.
 
     moved   outputs that depend on an uncertain count
-    known   those of them with a known speed
+    known   outputs among `moved` with a known speed
     """
     for name in outputs:
         if name not in moved:
@@ -191,7 +193,7 @@ def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequen
 
 def _no_evidence(what: str) -> QuestionError:
     fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets that have none"
-    return QuestionError(Problem(what, "counts are weighed by speeds with a tolerance", fix))
+    return QuestionError(Problem(what, "the likelihood of counts follows from speeds with a tolerance", fix))
 
 
 # ------------------------------------------------------------------ priors: the possible counts of each uncertain wheel
@@ -204,15 +206,15 @@ class ToothCountPrior(Result):
     KEYS = ("wheel", "declared", "counts", "priors", "assumed")
 
     wheel: str
-    """Id of the wheel."""
+    """Name of the wheel."""
     counts: tuple[int, ...]
-    """Distinct counts, ascending."""
+    """Distinct possible counts, ascending."""
     weights: tuple[int, ...]
-    """Positive weights of the counts without a common divisor. The prior probability is weight / `total`."""
+    """Positive integer weights of the counts without a common divisor. The prior probability is weight / `total`."""
     declared: int | None
-    """Declared count of the wheel."""
+    """Declared count of the wheel; None if there is none."""
     assumed: str
-    """Source of the counts. All are equally probable unless it says that they are weighted."""
+    """Source of the counts. The prior is uniform unless the text says that it is weighted."""
 
     @property
     def total(self) -> int:
@@ -225,7 +227,7 @@ class ToothCountPrior(Result):
 
     @property
     def priors(self) -> tuple[Fraction, ...]:
-        """Prior probability of each count; they sum to 1."""
+        """Prior probability of each count, with sum 1."""
         return tuple(Fraction(weight, self.total) for weight in self.weights)
 
 
@@ -234,9 +236,9 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
 
     free   wheel -> possible counts, which replace the declared ones; a single count makes the wheel certain
 
-    A wheel with `range` or `choices` has its `weights` (uniform if none are declared), a wheel with `search` a uniform
-    prior. Raises `QuestionError` for unknown wheels, invalid tooth counts, weights that are not probabilities, and if
-    no count is uncertain; `RangeError` for a wheel with too many counts to list.
+    A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared), a wheel with
+    `search` a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that are not
+    probabilities, and if no count is uncertain; `RangeError` for a wheel with too many counts to list.
     """
     given = dict(free or {})
     for name in given:
@@ -244,7 +246,7 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
             fix = suggest(name, train.wheels)
             raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
     found = tuple(_priors(train, given))
-    if not any(len(doubt.counts) > 1 for doubt in found):
+    if not any(len(uncertainty.counts) > 1 for uncertainty in found):
         why = "no wheel has `range` or `choices` with more than one count"
         fix = "declare `teeth: {value: 64, range: [63, 66]}`, or free a wheel: --free WHEEL=63:66"
         raise QuestionError(Problem(f"no tooth count of '{train.name}' is uncertain", why, fix))
@@ -262,12 +264,11 @@ def _priors(train: Train, given: Mapping[str, Sequence[int]]) -> Iterator[ToothC
             yield _declared(name, teeth, place)
         elif teeth.search is not None:
             _check_width(name, len(teeth.searched), place)
-            counts = tuple(teeth.chances)
+            counts = tuple(teeth.probabilities)
             yield ToothCountPrior(name, counts, (1,) * len(counts), teeth.value, "search")
 
 
 def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
-    """Validate requested counts, and return them sorted."""
     found = tuple(sorted(set(counts)))
     if not found:
         what = f"wheel '{name}' has no possible counts"
@@ -288,18 +289,18 @@ def _check_width(name: str, count: int, place: str) -> None:
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
-    """Return the declared prior of a wheel; counts of weight 0 are omitted."""
+    """Return the declared prior of a wheel. Counts of weight 0 are omitted."""
     if teeth.range is not None and teeth.choices is None:
         _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
     if why := teeth.fault_of_weights:
         what = f"the weights of wheel '{name}' are not probabilities"
         raise QuestionError(Problem(what, why, "give weights of 0 or more, at least one of them above 0", place))
-    chances = teeth.chances
+    probabilities = teeth.probabilities
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""
     source = f" ({teeth.source})" if teeth.source else ""
     return ToothCountPrior(
-        name, tuple(chances), tuple(whole_multiple(chances.values())), teeth.value, f"{kind}{source}{said}"
+        name, tuple(probabilities), tuple(whole_multiple(probabilities.values())), teeth.value, f"{kind}{source}{said}"
     )
 
 
@@ -313,20 +314,20 @@ def _too_many_counts(name: str, count: int, place: str) -> RangeError:
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """Known speed of an output with its tolerance."""
+    """Observed speed of an output with its tolerance."""
 
     label: str
     """Description, such as "speed 254/19 within 0.2 %"."""
     wanted: Fraction
-    """Known speed in the unit of the train; positive if only the magnitude is known."""
+    """Observed speed in the unit of the train; positive if only the magnitude is known."""
     signed: bool
-    """False if only the magnitude is known."""
+    """False if only the magnitude of the speed is known."""
     intervals: tuple[Interval, ...]
     """Closed intervals of accepted speeds or magnitudes; None for an infinite end."""
 
     @property
     def is_exact(self) -> bool:
-        """True if only one speed is accepted."""
+        """True if exactly one speed is accepted."""
         return all(low == high for low, high in self.intervals)
 
     def scaled(self, factor: Fraction) -> Observation:
@@ -340,18 +341,19 @@ class Observation:
         return None if end is None else self.wanted + factor * (end - self.wanted)
 
     def half(self, above: bool) -> Fraction | None:
-        """Return the tolerance above or below the known speed; None if it is unlimited."""
+        """Return the tolerance above or below the observed speed; None if it is unlimited."""
+        # interval that contains the observed speed
         own = [each for each in self.intervals if is_within(self.wanted, (each,))]
         end = own[0][1 if above else 0] if own else None
         return None if end is None else abs(end - self.wanted)
 
     def met(self, speed: Fraction) -> bool:
-        """Return whether a speed is accepted."""
+        """Return whether a speed is within the tolerance."""
         value = speed if self.signed else abs(speed)
         return is_within(value, self.intervals)
 
     def misfit(self, speed: Fraction) -> Fraction:
-        """Return (error / tolerance)^2; 0 if the tolerance is unlimited, and for an exact observation."""
+        """Return (error / tolerance)^2; 0 for an unlimited tolerance and for an exact observation."""
         value = speed if self.signed else abs(speed)
         half = self.half(value > self.wanted)
         return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
@@ -375,33 +377,36 @@ class ObservedOutput:
     formula: Formula
     """Speed as a function of one or more uncertain counts."""
     claims: tuple[Observation, ...]
-    """Observations that are all satisfied at once; at least one."""
+    """Observations of its speed, at least one, all of which must be satisfied."""
 
     @property
     def text(self) -> str:
-        """Descriptions of the observations."""
+        """Descriptions of the observations, as one text."""
         return "; ".join(claim.label for claim in self.claims)
 
     def fits(self, speed: Fraction | None) -> bool:
-        """Return whether a speed satisfies every observation; False if the train has no speed."""
+        """Return whether a speed satisfies every observation; False if the speed is undetermined (None)."""
         return speed is not None and all(claim.met(speed) for claim in self.claims)
 
     def misfit(self, speed: Fraction) -> Fraction:
-        """Return the sum over the observations of (error / tolerance)^2."""
+        """Return the sum of (error / tolerance)^2 over the observations."""
         return sum((claim.misfit(speed) for claim in self.claims), Fraction(0))
 
     def requested(self, soft: bool) -> IntervalConstraint | None:
-        """Return the hard constraint of all observations, with `soft` within `FAR` tolerances; None without bounds."""
+        """Return the interval constraint of all observations; None if it has no bounds.
+
+        soft   True for the wider intervals of `FAR` tolerances
+        """
         common: tuple[Interval, ...] = (_LINE,)
         for claim in self.claims:
             common = meet(common, (claim.scaled(FAR) if soft else claim).allowed())
         return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
 
     def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
-        """Return the constraint of this output for a join, which is unbounded if no observation is hard.
+        """Return the interval constraint of this output for a join.
 
-        The join needs a constraint even then, because every accepted speed must be defined. With `graded` the join also
-        returns the misfit of the output.
+        It is unbounded if no observation has bounds, because the join must reject counts without a defined speed even
+        then. With `graded` the join also returns the misfit of the output.
         """
         return replace(self.requested(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
 
@@ -409,7 +414,7 @@ class ObservedOutput:
 def observations_of(
     demands: Sequence[SpeedRequirement], kind: LikelihoodKind, factor: Fraction = Fraction(1)
 ) -> tuple[Observation, ...]:
-    """Convert the requirements on an output to observations; targets without a tolerance are omitted.
+    """Convert the requirements on an output to observations. Targets without a tolerance are omitted.
 
     kind     "targets" without `expect` and `published`, "figures" for only those, or "all"
     factor   factor of every tolerance
@@ -429,5 +434,6 @@ def _claims(demands: Sequence[SpeedRequirement], kind: LikelihoodKind) -> Iterat
         if not demand.signed:
             most = demand.allowed[-1][1]
             assert most is not None, "a target has a tolerance"
+            # symmetric about the observed magnitude
             intervals = ((2 * demand.wanted - most, most),)
         yield Observation(demand.label, demand.wanted, demand.signed, intervals)

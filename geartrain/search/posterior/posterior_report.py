@@ -1,4 +1,4 @@
-"""Report of uncertain tooth counts as documents and tables: combinations that fit, posteriors, variance shares."""
+"""Report of uncertain tooth counts as documents and tables: best combinations, posteriors, variance shares."""
 
 from __future__ import annotations
 
@@ -21,28 +21,29 @@ if TYPE_CHECKING:
     )
 
 _MOST_PROBABLE = 4  # most probable counts that are printed; the JSON has all
-_STRONGEST = 12
-_DECIDING = 4
-_OUTPUTS = 4
-_DECIDED = ("output", "mean speed", "standard deviation", "decided by")
+_STRONGEST = 12  # correlations that are printed
+_DECIDING = 4  # wheels that are printed for each output
+_OUTPUTS = 4  # with more outputs only the maximum error of a combination is printed
+_DECIDED = ("output", "mean speed", "standard deviation", "total Sobol indices")
 
 
 def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
-    """Return the listed combinations as a flat table of counts, then speed and error of every output."""
+    """Return the listed combinations as rows of a table: tooth counts, speed and error of every output, misfit."""
     return [
         {
             **one.teeth,
             **{f"speed of {name}": as_float(speed) for name, speed in one.speeds.items()},
             **{f"error of {name}": float(value) for name, value in one.errors.items()},
             "misfit": float(one.misfit),
-            "chance": None if one.chance is None else float(one.chance),
+            "probability": None if one.probability is None else float(one.probability),
         }
         for one in found.best
     ]
 
 
 def describe_posterior(found: ToothCountPosterior) -> Document:
-    """Return the report of uncertain counts: evidence, posterior of each count, and variance shares of the outputs.
+    """Return the report on uncertain tooth counts: evidence, posterior of each wheel, and variance shares of the
+    outputs.
 
     Parameters
     ----------
@@ -62,7 +63,7 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
     >>> from geartrain.search import infer_counts
     >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
     >>> describe_posterior(found).summary[1]
-    '1 fits: a share of 0.2 of the prior weight.'
+    '1 fits the observations: prior probability 0.2.'
     """
     return Document(f"Uncertain tooth counts of {found.name}", list(_summary(found)), list(_sections(found)))
 
@@ -76,16 +77,16 @@ def _summary(found: ToothCountPosterior) -> Iterator[str]:
     if found.cut:
         yield "Interrupted: the figures cover only the combinations drawn so far."
     if found.turning.value != 1:
-        yield f"The train turns for a share of {found.turning} of the prior weight."
-    share = f"a share of {found.evidence} of the prior weight"
+        yield f"The prior probability that the train turns is {found.turning}."
+    share = f"prior probability {found.evidence}"
     if not found.posteriors or not found.evidence.value:
         minimum = f" (less than {found.evidence.high:.3g})" if found.evidence.high is not None else ""
-        yield f"None of them fits the known speeds of the outputs{minimum}."
+        yield f"None of them fits the observations{minimum}."
     elif found.soft:
         yield f"Mean likelihood: {found.evidence}."
     else:
-        fit = "1 fits" if found.fits == 1 else "Those that fit" if found.fits is None else f"{_many(found.fits)} fit"
-        yield f"{fit}: {share}."
+        number = "1 fits" if found.fits == 1 else "Some fit" if found.fits is None else f"{_many(found.fits)} fit"
+        yield f"{number} the observations: {share}."
     yield from found.assumed
 
 
@@ -108,8 +109,8 @@ def _sections(found: ToothCountPosterior) -> Iterator[Section]:
 
 def _known(found: ToothCountPosterior) -> Section:
     rows = [(one.name, one.text, str(found.alone.get(one.name, "-"))) for one in found.witnesses]
-    line = "Share of the prior weight that fits each output, regardless of the others."
-    return Section("What is known", [line], [Table(("output", "known", "fits alone"), rows)])
+    line = "Evidence of each output by itself: the prior mean of its likelihood."
+    return Section("Observations", [line], [Table(("output", "observed", "evidence"), rows)])
 
 
 def _wheels(found: ToothCountPosterior) -> Section:
@@ -117,20 +118,20 @@ def _wheels(found: ToothCountPosterior) -> Section:
     lines = [
         "`posterior` is the probability of the declared count. `bits` is the information from the outputs: the "
         "relative entropy of posterior and prior.",
-        "A dash marks a wheel on which no known output depends. Priors are uniform unless they are marked as weighted.",
+        "A dash marks a wheel on which no observed output depends. Priors are uniform unless marked as weighted.",
     ]
     header = ("wheel", "declared", "prior", "posterior", "bits", "most probable counts")
     return Section("Wheels", lines, [Table(header, rows)])
 
 
 def _wheel(posterior: WheelPosterior) -> tuple[str, ...]:
-    doubt = posterior.doubt
-    before = f"{_span(doubt.counts)}, {doubt.assumed}"
-    declared = "-" if doubt.declared is None else str(doubt.declared)
-    if posterior.idle or not posterior.chances:
-        return doubt.wheel, declared, before, "-", "-", "-"
-    own = "-" if doubt.declared is None else str(posterior.chance(doubt.declared))
-    return doubt.wheel, declared, before, own, figure(posterior.bits, 3), _most_probable(posterior)
+    uncertainty = posterior.uncertainty
+    before = f"{_span(uncertainty.counts)}, {uncertainty.assumed}"
+    declared = "-" if uncertainty.declared is None else str(uncertainty.declared)
+    if posterior.idle or not posterior.probabilities:
+        return uncertainty.wheel, declared, before, "-", "-", "-"
+    own = "-" if uncertainty.declared is None else str(posterior.probability(uncertainty.declared))
+    return uncertainty.wheel, declared, before, own, figure(posterior.bits, 3), _most_probable(posterior)
 
 
 def _span(counts: Sequence[int]) -> str:
@@ -139,15 +140,15 @@ def _span(counts: Sequence[int]) -> str:
 
 
 def _most_probable(posterior: WheelPosterior) -> str:
-    """Format the most probable counts with their probabilities; counts of probability 0 are omitted."""
-    pairs = zip(posterior.doubt.counts, posterior.chances, strict=True)
+    """Return the most probable counts with their probabilities as text, without counts of probability 0."""
+    pairs = zip(posterior.uncertainty.counts, posterior.probabilities, strict=True)
     some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
-    listed = ", ".join(f"{count}: {_short(chance)}" for count, chance in some[:_MOST_PROBABLE])
+    listed = ", ".join(f"{count}: {_short(probability)}" for count, probability in some[:_MOST_PROBABLE])
     return listed + (f" and {len(some) - _MOST_PROBABLE} more" if len(some) > _MOST_PROBABLE else "")
 
 
-def _short(chance: CountProbability) -> str:
-    return figure(float(chance), 3)
+def _short(probability: CountProbability) -> str:
+    return figure(float(probability), 3)
 
 
 def _deciding(shares: Sequence[VarianceShares]) -> Section:
@@ -159,7 +160,7 @@ def _deciding(shares: Sequence[VarianceShares]) -> Section:
         mean = rounded(one.mean) if isinstance(one.mean, Fraction) else one.mean
         rows.append((one.output, figure(mean), figure(one.spread, 4), listed))
     line = "Shares of the prior variance of each speed that remain if all other counts are known (total Sobol indices)."
-    return Section("Which wheel decides which output", [line], [Table(_DECIDED, cut(rows))])
+    return Section("Sensitivity of outputs to tooth counts", [line], [Table(_DECIDED, cut(rows))])
 
 
 def _percent(share: Fraction | float) -> str:
@@ -186,12 +187,12 @@ def _best(found: ToothCountPosterior) -> Section:
     listed = list(some.errors) if len(some.errors) <= _OUTPUTS else []
     header += [f"error of {name}" for name in listed] or ["maximum error"]
     rows = [[*_combination_cells(one), *_errors(one, listed)] for one in found.best]
-    return Section("Combinations that agree best", lines, [Table(header, cut(rows))])
+    return Section("Best combinations", lines, [Table(header, cut(rows))])
 
 
 def _combination_cells(one: CountCombination) -> tuple[str, str, str]:
     changed = ", ".join(f"{wheel} {one.teeth[wheel]}" for wheel in one.changed) or "nothing"
-    return changed, figure(one.misfit, 4), "-" if one.chance is None else str(one.chance)
+    return changed, figure(one.misfit, 4), "-" if one.probability is None else str(one.probability)
 
 
 def _errors(one: CountCombination, listed: Sequence[str]) -> list[str]:

@@ -19,7 +19,7 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """Probability that is exact, correct to rounding, or estimated from a sample.
+    """Probability that is exact, correct up to rounding, or estimated from a sample.
 
     Examples
     --------
@@ -32,20 +32,20 @@ class CountProbability(Result):
     KEYS = (Key("value", to=float), "exact", "low", "high")
 
     value: Fraction | float
-    """Probability, 0 to 1: exact for a Fraction, to rounding for a float."""
+    """Probability, 0 to 1: exact for a Fraction, correct up to rounding or estimated for a float."""
     low: float | None = None
-    """Lower end of the 95 % interval of an estimate."""
+    """Lower end of the 95 % interval of an estimate; None otherwise."""
     high: float | None = None
-    """Upper end of the 95 % interval of an estimate."""
+    """Upper end of the 95 % interval of an estimate; None otherwise."""
 
     @property
     def exact(self) -> Fraction | None:
-        """Value if it is exact, else None."""
+        """Value if it is exact; None otherwise."""
         return self.value if isinstance(self.value, Fraction) else None
 
     @property
     def is_exact(self) -> bool:
-        """True if the value is a Fraction."""
+        """True if the value is an exact Fraction."""
         return isinstance(self.value, Fraction)
 
     def __float__(self) -> float:
@@ -62,32 +62,33 @@ class WheelPosterior(Result):
 
     See Also
     --------
-    infer_counts : gives it, by wheel
+    infer_counts : Compute the posterior of uncertain tooth counts.
     """
 
-    KEYS = (Key("", "doubt"), Key("posterior", "chances"), "likeliest", "bits", "idle")
+    KEYS = (Key("", "uncertainty"), Key("posterior", "probabilities"), "likeliest", "bits", "idle")
 
-    doubt: ToothCountPrior
+    uncertainty: ToothCountPrior
     """Possible counts with their prior probabilities."""
-    chances: tuple[CountProbability, ...]
-    """Posterior probability of each count; they sum to 1. Empty if nothing fits."""
+    probabilities: tuple[CountProbability, ...]
+    """Posterior probability of each count, with sum 1; empty if no combination satisfies the observations."""
     idle: bool
-    """True if no known output depends on the wheel, so that its posterior is its prior."""
+    """True if no observed output depends on the wheel, so that its posterior is its prior."""
 
     @property
     def likeliest(self) -> int | None:
-        """Most probable count, the smallest if several are equally probable; None if nothing fits."""
-        if not self.chances:
+        """Most probable count (the smallest if several are); None if no combination satisfies the observations."""
+        if not self.probabilities:
             return None
-        best = max(range(len(self.chances)), key=lambda at: (self.chances[at].value, -at))
-        return self.doubt.counts[best]
+        # -at: the smallest of equally probable counts
+        best = max(range(len(self.probabilities)), key=lambda at: (self.probabilities[at].value, -at))
+        return self.uncertainty.counts[best]
 
     @property
     def bits(self) -> float:
-        """Information from the outputs: relative entropy of posterior and prior [bit], 0 for none."""
-        return relative_entropy(map(float, self.chances), self.doubt.priors)
+        """Information gained from the outputs: relative entropy of posterior and prior [bit]."""
+        return relative_entropy(map(float, self.probabilities), self.uncertainty.priors)
 
-    def chance(self, count: int) -> CountProbability:
+    def probability(self, count: int) -> CountProbability:
         """Return the posterior probability of a count.
 
         Parameters
@@ -95,60 +96,62 @@ class WheelPosterior(Result):
         count : int
             Tooth count. The probability of an impossible count is 0.
         """
-        if count not in self.doubt.counts or not self.chances:
+        if count not in self.uncertainty.counts or not self.probabilities:
             return CountProbability(Fraction(0))
-        return self.chances[self.doubt.counts.index(count)]
+        return self.probabilities[self.uncertainty.counts.index(count)]
 
 
 @dataclass(frozen=True, slots=True)
 class CombinedOutput:
-    """Speed of an output for one combination of counts, with its relative error."""
+    """Speed of an output for one combination of tooth counts, with its relative error."""
 
     KEYS = (Key("exact", "speed"), Key("value", "speed", as_float), Key("error", to=float))
 
     speed: Fraction
-    """Exact speed of the output [unit of the train]."""
+    """Exact speed of the output in the unit of the train."""
     error: Fraction
-    """Relative error against the known speed."""
+    """Relative error with respect to the observed speed."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCombination(Result):
-    """Combination of the counts of all wheels that a known output depends on.
+    """Combination of the tooth counts of all wheels that an observed output depends on.
 
     See Also
     --------
-    infer_counts : lists the best
+    infer_counts : Compute the posterior of uncertain tooth counts.
     """
 
-    KEYS = ("teeth", "outputs", Key("misfit", to=float), "chance", "changed")
+    KEYS = ("teeth", "outputs", Key("misfit", to=float), "probability", "changed")
 
     teeth: Mapping[str, int]
-    """Wheel -> count, in the order of declaration."""
+    """Tooth count of each wheel, in the order of declaration."""
     speeds: Mapping[str, Fraction]
-    """Output -> exact speed [unit of the train]."""
+    """Exact speed of each output in the unit of the train."""
     errors: Mapping[str, Fraction]
-    """Output -> relative error against the observation with the largest misfit; the speed itself if 0 is wanted."""
+    """Relative error of each output with respect to the observation with the largest misfit; the speed itself if 0 was
+    observed.
+    """
     misfit: Fraction
-    """Sum over the observations of (error / tolerance)^2; exact observations add 0."""
-    chance: CountProbability | None
-    """Posterior probability; None if it is unknown, as in a sample."""
+    """Sum of (error / tolerance)^2 over the observations; exact observations add 0."""
+    probability: CountProbability | None
+    """Posterior probability; None if it is unknown, as for a sample."""
     changed: tuple[str, ...]
     """Wheels whose count differs from the declared one."""
 
     @property
     def outputs(self) -> Mapping[str, CombinedOutput]:
-        """Output -> its speed and error."""
+        """Speed and error of each output."""
         return {name: CombinedOutput(speed, self.errors[name]) for name, speed in self.speeds.items()}
 
 
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
-    """Sobol indices of the speed of an output over the prior of the counts.
+    """Sobol indices of the speed of an output, for tooth counts distributed as their prior.
 
     See Also
     --------
-    infer_counts : gives it, by output
+    infer_counts : Compute the posterior of uncertain tooth counts.
 
     References
     ----------
@@ -163,17 +166,17 @@ class VarianceShares(Result):
     output: str
     """Name of the output."""
     mean: Fraction | float
-    """Prior mean of the speed [unit of the train]."""
+    """Prior mean of the speed in the unit of the train."""
     spread: Real
-    """Standard deviation of the speed [unit of the train]; `LongFloat` beyond 1e308."""
+    """Prior standard deviation of the speed in the unit of the train; a `LongFloat` beyond 1e308."""
     own: Mapping[str, Fraction | float]
-    """Wheel -> first-order index, 0 to 1: the share of the variance that vanishes if its count is known."""
+    """First-order Sobol index of each wheel, 0 to 1: fraction of the variance that vanishes if its count is known."""
     whole: Mapping[str, Fraction | float]
-    """Wheel -> total index, at least `own`: the share of the variance that remains if all other counts are known."""
+    """Total Sobol index of each wheel: fraction of the variance that remains if all other counts are known."""
     exact: bool
     """False if the indices are estimated from `samples` combinations."""
     samples: int = 0
-    """Number of combinations of the estimate; 0 if the indices are exact."""
+    """Number of combinations in the estimate; 0 if the indices are exact."""
 
 
 class KnownOutput(TypedDict):
@@ -186,23 +189,23 @@ class KnownOutput(TypedDict):
     formula: str
     """Speed as a function of the uncertain counts."""
     alone: NotRequired[CountProbability]
-    """Share of the prior weight that fits this output, regardless of the others."""
+    """Evidence of this output by itself: prior probability that its observations are satisfied."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothCountPosterior(Tabular, Result):
-    """Posterior of all uncertain tooth counts; `found["wheel"]` is the posterior of one wheel.
+    """Posterior of all uncertain tooth counts. `found["wheel"]` is the posterior of one wheel.
 
     See Also
     --------
-    infer_counts : gives it
+    infer_counts : Compute the posterior of uncertain tooth counts.
     """
 
     MEANINGS: ClassVar = {
         "wheel": "Wheel with an uncertain tooth count.",
         "teeth": "Tooth count.",
         "prior": "Prior probability of the count [1].",
-        "posterior": "Posterior probability of the count; empty where nothing fits [1].",
+        "posterior": "Posterior probability of the count; empty if no combination satisfies the observations [1].",
     }
 
     PAGE = "search.posterior.posterior_report:describe_posterior"
@@ -216,43 +219,45 @@ class ToothCountPosterior(Tabular, Result):
     name: str
     """Name of the train."""
     method: Method
-    """Method: exact join of all combinations, or sampling."""
+    """Method of computation: exact join of all combinations, or sampling."""
     soft: bool
-    """True for a Gaussian likelihood, False if a combination either fits or not."""
+    """True for a Gaussian likelihood, False for the likelihood 1 within all tolerances and 0 otherwise."""
     combinations: int
-    """Number of combinations of counts."""
+    """Number of combinations of possible tooth counts."""
     examined: int
-    """Number of steps of the exact join, or of combinations drawn."""
+    """Number of steps of the exact join, or number of sampled combinations."""
     evidence: CountProbability
-    """Share of the prior weight that fits; with `soft` the mean of exp(-misfit / 2)."""
+    """Evidence (marginal likelihood): prior probability that all observations are satisfied; with `soft`, prior mean of
+    exp(-misfit / 2).
+    """
     turning: CountProbability
-    """Share of the prior weight with which the train turns."""
+    """Prior probability that the train turns."""
     fits: int | None
-    """Number of combinations that fit, if it is known."""
+    """Number of combinations that satisfy all observations; None if it is not known."""
     witnesses: tuple[ObservedOutput, ...]
-    """Observed outputs."""
+    """Outputs with observed speeds."""
     alone: Mapping[str, CountProbability]
-    """Output -> share of the prior weight that fits this output, regardless of the others."""
+    """Evidence of each output by itself, without the observations of the others."""
     posteriors: Mapping[str, WheelPosterior]
-    """Wheel -> its posterior."""
+    """Posterior of the tooth count of each wheel."""
     correlations: Mapping[tuple[str, str], float]
-    """Pair of wheels -> posterior correlation of their counts, -1 to 1, in descending order of magnitude."""
+    """Posterior correlation of the counts of each pair of wheels, -1 to 1, in descending order of magnitude."""
     best: tuple[CountCombination, ...]
-    """Combinations in ascending order of misfit."""
+    """Best combinations, in ascending order of misfit."""
     ranked: bool
-    """True if no better combination than the last one is omitted."""
+    """True if no combination that is not listed is better than the last one listed."""
     shares: Mapping[str, VarianceShares]
-    """Output -> Sobol indices of its speed."""
+    """Sobol indices of the speed of each output."""
     remarks: tuple[str, ...]
-    """Remarks for the reader."""
+    """Remarks on observations that are not used, and on the reliability of estimates."""
     seed: int | None
     """Random seed of the sample; None for the exact method."""
     cut: bool
-    """True after an interruption: the figures cover the combinations drawn so far."""
+    """True after an interruption; the results then include only the combinations sampled so far."""
 
     def _summary(self) -> str:
         likely = ", ".join(
-            f"{wheel} {found.likeliest}" for wheel, found in islice(self.posteriors.items(), 4) if found.chances
+            f"{wheel} {found.likeliest}" for wheel, found in islice(self.posteriors.items(), 4) if found.probabilities
         )
         more = f", {len(self.posteriors) - 4} more wheels" if len(self.posteriors) > 4 else ""
         searched = f"{self.combinations:,} combinations, {self.method}"
@@ -263,26 +268,30 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each count of each wheel: its prior and posterior probability.
+        """Table with one row for each count of each wheel: its prior and posterior probability.
 
-        The posterior is None if nothing fits.
+        The posterior is None if no combination satisfies the observations.
         """
-        rows = [(wheel, found, at) for wheel, found in self.posteriors.items() for at in range(len(found.doubt.counts))]
+        rows = [
+            (wheel, found, at)
+            for wheel, found in self.posteriors.items()
+            for at in range(len(found.uncertainty.counts))
+        ]
         return {
             "wheel": [wheel for wheel, _, _ in rows],
-            "teeth": [found.doubt.counts[at] for _, found, at in rows],
-            "prior": [float(found.doubt.priors[at]) for _, found, at in rows],
-            "posterior": [float(found.chances[at]) if found.chances else None for _, found, at in rows],
+            "teeth": [found.uncertainty.counts[at] for _, found, at in rows],
+            "prior": [float(found.uncertainty.priors[at]) for _, found, at in rows],
+            "posterior": [float(found.probabilities[at]) if found.probabilities else None for _, found, at in rows],
         }
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """Status of the search: "whole" or "interrupted"."""
+        """End of the computation: "whole" or "interrupted"."""
         return "interrupted" if self.cut else "whole"
 
     @property
     def known(self) -> list[KnownOutput]:
-        """Observed outputs as plain data, with the evidence of each output if it was computed."""
+        """Observed outputs as plain data, each with its evidence if it was computed."""
         found = []
         for one in self.witnesses:
             known = KnownOutput(output=one.name, claims=[claim.label for claim in one.claims], formula=str(one.formula))
@@ -308,5 +317,5 @@ class ToothCountPosterior(Tabular, Result):
         return (
             "The prior treats the counts of different wheels as independent.",
             agree,
-            "The known speeds are taken to be the intended ones, without misprints or repairs.",
+            "The observed speeds are assumed to be the intended ones, without misprints or repairs.",
         )

@@ -38,11 +38,13 @@ All other counts then have a total probability below 1e-8, and covariances in fl
 """
 
 _NONE = 1e-13
-"""Magnitude of a correlation below which it is a rounding error, and reported as 0."""
+"""Magnitude below which a correlation is a rounding error and is reported as 0."""
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` entries of an ascending list with ties of the last, and False if ties are omitted."""
+    """Return the first `most` entries of an ascending list with all ties of the last; False if ties had to be
+    omitted.
+    """
     found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
@@ -58,7 +60,7 @@ def rank_combinations(
 ) -> tuple[CountCombination, ...]:
     """Sort the candidates exactly by misfit, then by prior weight, then by the number of changed counts.
 
-    evidence   total weight of all that fits; None if it is not known, and then no probabilities are computed
+    evidence   evidence of all observations; None if it is not known, and then no probabilities are computed
     """
     made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
     # exact misfits, then integers: the order does not depend on the method of search
@@ -69,7 +71,7 @@ def rank_combinations(
 def _combination(
     question: InferenceProblem, teeth: Mapping[str, int], evidence: CountProbability | None
 ) -> CountCombination:
-    ordered = {wheel: teeth[wheel] for wheel in question.doubts if wheel in teeth}
+    ordered = {wheel: teeth[wheel] for wheel in question.uncertainties if wheel in teeth}
     speeds: dict[str, Fraction] = {}
     errors: dict[str, Fraction] = {}
     misfit = Fraction(0)
@@ -81,17 +83,17 @@ def _combination(
         value = speed if claim.signed else abs(speed)
         errors[witness.name] = value / claim.wanted - 1 if claim.wanted else value
         misfit += witness.misfit(speed)
-    changed = tuple(wheel for wheel, count in ordered.items() if count != question.doubts[wheel].declared)
-    chance = _chance(question, ordered, misfit, evidence)
-    return CountCombination(ordered, speeds, errors, misfit, chance, changed)
+    changed = tuple(wheel for wheel, count in ordered.items() if count != question.uncertainties[wheel].declared)
+    probability = _probability(question, ordered, misfit, evidence)
+    return CountCombination(ordered, speeds, errors, misfit, probability, changed)
 
 
-def _chance(
+def _probability(
     question: InferenceProblem, teeth: Mapping[str, int], misfit: Fraction, evidence: CountProbability | None
 ) -> CountProbability | None:
     if evidence is None or not evidence.value:
         return None
-    prior = Fraction(question.weight(teeth), prod(question.doubts[wheel].total for wheel in teeth))
+    prior = Fraction(question.weight(teeth), prod(question.uncertainties[wheel].total for wheel in teeth))
     if question.soft or not isinstance(evidence.value, Fraction):
         return CountProbability(
             float(prior) * (exp(-float(misfit) / 2) if question.soft else 1) / float(evidence.value)
@@ -101,7 +103,7 @@ def _chance(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and best candidates, by either method."""
+    """Evidence, posteriors, correlations and best candidates, computed by either method."""
 
     examined: int
     evidence: CountProbability
@@ -126,7 +128,8 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
     # Kish's effective sample size: the number of hits of equal weight with the same variance
     trials = tally.weight**2 / tally.square if tally.square else None
     posteriors = {
-        wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
+        wheel: wheel_posterior(uncertainty, by.get(wheel), tally.weight, trials)
+        for wheel, uncertainty in question.uncertainties.items()
     }
     evidence = _share(tally.weight, tally.examined, tally, question.soft)
     correlations = _sample_correlations(question, tally)
@@ -144,7 +147,11 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
 
 
 def _share(weight: float, examined: int, tally: PosteriorTally, soft: bool) -> CountProbability:
-    """Return a share with its 95 % interval: Wilson's for hits, the normal interval for graded agreement."""
+    """Return the evidence estimated from a sample, with its 95 % interval.
+
+    The interval is Wilson's for combinations that satisfy the observations or not, and normal for a Gaussian
+    likelihood.
+    """
     if not examined:
         return CountProbability(0.0, 0.0, 1.0)
     mean = float(weight) / examined
@@ -163,39 +170,42 @@ def _counted(tally: PosteriorTally) -> CountProbability:
 
 
 def wheel_posterior(
-    doubt: ToothCountPrior, weights: Sequence[Any] | None, total: Any, trials: float | None
+    uncertainty: ToothCountPrior, weights: Sequence[Any] | None, total: Any, trials: float | None
 ) -> WheelPosterior:
     """Return the posterior of one wheel.
 
-    weights   total weight of what fits, for each count; None if no known output depends on the wheel
+    weights   posterior weight of each count; None if no observed output depends on the wheel
     total     sum of the weights
-    trials    number of hits, if the weights are from a sample
+    trials    effective number of sampled combinations, if the weights are from a sample
     """
     if not total:
-        return WheelPosterior(doubt, (), weights is None)
+        return WheelPosterior(uncertainty, (), weights is None)
     if weights is None:
-        return WheelPosterior(doubt, tuple(CountProbability(prior) for prior in doubt.priors), True)
+        return WheelPosterior(uncertainty, tuple(CountProbability(prior) for prior in uncertainty.priors), True)
     if trials is not None:
         shares = [float(weight) / float(total) for weight in weights]
         return WheelPosterior(
-            doubt,
+            uncertainty,
             tuple(CountProbability(share, *wilson(share * trials, trials)) for share in shares),
             False,
         )
     if isinstance(total, float | np.floating):
-        return WheelPosterior(doubt, tuple(CountProbability(float(weight) / float(total)) for weight in weights), False)
+        return WheelPosterior(
+            uncertainty, tuple(CountProbability(float(weight) / float(total)) for weight in weights), False
+        )
     return WheelPosterior(
-        doubt, tuple(CountProbability(Fraction(int(weight), int(total))) for weight in weights), False
+        uncertainty, tuple(CountProbability(Fraction(int(weight), int(total))) for weight in weights), False
     )
 
 
 def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
-    """Return correlations from the sums of products of counts."""
+    """Return the posterior correlations from the weighted sums of products of counts in a sample."""
     if not tally.weight:
         return {}
     wheels = tally.batch.wheels
     means, spreads = _moments(question, dict(zip(wheels, tally.by, strict=True)), tally.weight)
-    off = [means[wheel] - origin_of(question.doubts[wheel]) for wheel in wheels]
+    # sums of products are relative to these origins
+    off = [means[wheel] - origin_of(question.uncertainties[wheel]) for wheel in wheels]
     found = {}
     for i, first in enumerate(wheels):
         for j, second in enumerate(wheels[i + 1 :], i + 1):
@@ -209,7 +219,7 @@ def correlations_of(
     total: Any,
     covariances: Mapping[tuple[str, str], float],
 ) -> dict[tuple[str, str], float]:
-    """Return correlations from covariances, only for wheels that an output or a condition connects."""
+    """Return the correlations from covariances, only for wheels that an output or a condition connects."""
     scopes = [
         *(one.formula.wheels for one in question.witnesses),
         *(one.function.wheels for one in question.conditions),
@@ -224,15 +234,17 @@ def correlations_of(
 def _moments(
     question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return posterior mean and standard deviation of each count; the deviation is 0 if the count is almost certain."""
+    """Return the posterior mean and standard deviation of each count; the deviation is 0 if the count is almost
+    certain.
+    """
     means, spreads = {}, {}
     for wheel, weights in by.items():
-        counts, whole = question.doubts[wheel].counts, Fraction(plain_number(total))
+        counts, whole = question.uncertainties[wheel].counts, Fraction(plain_number(total))
         pairs = [(count, Fraction(plain_number(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
         # in fractions: for counts near 10^12 floats lose the square of a deviation
-        mean = sum((chance * count for count, chance in pairs), Fraction(0))
+        mean = sum((probability * count for count, probability in pairs), Fraction(0))
         means[wheel] = float(mean)
-        spread = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
+        spread = sqrt(sum((probability * (count - mean) ** 2 for count, probability in pairs), Fraction(0)))
         spreads[wheel] = spread if spread > _CERTAIN * (counts[-1] - counts[0]) else 0.0
     return means, spreads
 
@@ -260,19 +272,19 @@ def _correlated(
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
-"""Pairs of a coefficient and powers of either sign, in parallel to the wheels of a formula."""
+"""Pairs of a coefficient and the powers of the wheels of a formula, which may be negative."""
 
 
 def find_variance_shares(
-    name: str, formula: Formula, doubts: Mapping[str, ToothCountPrior], seed: int = 0
+    name: str, formula: Formula, uncertainties: Mapping[str, ToothCountPrior], seed: int = 0
 ) -> VarianceShares | None:
-    """Return the Sobol indices of an output; None if its speed is undefined for some counts, or constant."""
-    own = [doubts[wheel] for wheel in formula.wheels]
-    if not any(len(doubt.counts) > 1 for doubt in own):
+    """Return the Sobol indices of an output; None if its speed is constant, or undefined for some counts."""
+    own = [uncertainties[wheel] for wheel in formula.wheels]
+    if not any(len(uncertainty.counts) > 1 for uncertainty in own):
         return None
     if len(formula.denominator) == 1:
         return _exact_indices(name, formula.wheels, _monomials(formula), own)
-    if prod(len(doubt.counts) for doubt in own) <= _LISTED:
+    if prod(len(uncertainty.counts) for uncertainty in own) <= _LISTED:
         return _listed_indices(name, formula, own)
     return _sampled_indices(name, formula, own, seed)
 
@@ -283,10 +295,10 @@ def _monomials(formula: Formula) -> Monomials:
 
 
 class _Means:
-    """Cached means of powers of one count."""
+    """Prior means of powers of one tooth count, cached."""
 
-    def __init__(self, doubt: ToothCountPrior) -> None:
-        self._pairs = list(zip(doubt.counts, doubt.priors, strict=True))
+    def __init__(self, uncertainty: ToothCountPrior) -> None:
+        self._pairs = list(zip(uncertainty.counts, uncertainty.priors, strict=True))
         self._known: dict[int, Fraction] = {}
 
     def __call__(self, power: int) -> Fraction:
@@ -296,10 +308,10 @@ class _Means:
 
 
 def _exact_indices(
-    name: str, wheels: Sequence[str], terms: Monomials, doubts: Sequence[ToothCountPrior]
+    name: str, wheels: Sequence[str], terms: Monomials, uncertainties: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
-    """Compute the indices of a sum of monomials exactly, from products of means over all pairs of terms."""
-    means = [_Means(doubt) for doubt in doubts]
+    """Compute the Sobol indices of a sum of monomials exactly, from products of means over all pairs of terms."""
+    means = [_Means(uncertainty) for uncertainty in uncertainties]
     mean = sum((c * prod(m(e) for m, e in zip(means, powers, strict=True)) for c, powers in terms), Fraction(0))
     pairs = [(a * b, p, q) for a, p in terms for b, q in terms]
     joint = [[m(i + j) for m, i, j in zip(means, p, q, strict=True)] for _, p, q in pairs]
@@ -327,18 +339,18 @@ def _root(value: Fraction) -> Real:
     return rounded(Fraction(isqrt(int(value * power * power))) / power)
 
 
-def _listed_indices(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> VarianceShares | None:
-    """Compute the indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
-    shape = tuple(len(doubt.counts) for doubt in doubts)
+def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior]) -> VarianceShares | None:
+    """Compute the Sobol indices over all combinations, as an array with one axis per wheel; exact up to rounding."""
+    shape = tuple(len(uncertainty.counts) for uncertainty in uncertainties)
     columns = {
-        doubt.wheel: np.array(doubt.counts).reshape([-1 if at == axis else 1 for at in range(len(shape))])
-        for axis, doubt in enumerate(doubts)
+        uncertainty.wheel: np.array(uncertainty.counts).reshape([-1 if at == axis else 1 for at in range(len(shape))])
+        for axis, uncertainty in enumerate(uncertainties)
     }
     values = np.broadcast_to(formula.values(columns), shape)
     doubtful = np.flatnonzero(np.isinf(np.broadcast_to(formula.accuracy(columns), shape)))
-    if formula.has_poles and _has_pole(formula, doubts, doubtful):
+    if formula.has_poles and _has_pole(formula, uncertainties, doubtful):
         return None
-    priors = [np.array([float(prior) for prior in doubt.priors]) for doubt in doubts]
+    priors = [np.array([float(prior) for prior in uncertainty.priors]) for uncertainty in uncertainties]
     mean = float(_averaged(values, priors, range(len(shape))).ravel()[0])
     # relative to the mean: a mean of squares minus the squared mean would lose a small variance
     values = values - mean
@@ -347,28 +359,31 @@ def _listed_indices(name: str, formula: Formula, doubts: Sequence[ToothCountPrio
     if variance <= (1e-13 * mean) ** 2:
         return None
     own, whole = {}, {}
-    for axis, doubt in enumerate(doubts):
+    for axis, uncertainty in enumerate(uncertainties):
         others = [at for at in range(len(shape)) if at != axis]
         alone = _averaged(values, priors, others).ravel()
-        own[doubt.wheel] = float((priors[axis] * alone**2).sum()) / variance
+        own[uncertainty.wheel] = float((priors[axis] * alone**2).sum()) / variance
         rest = _averaged(values, priors, [axis])
-        whole[doubt.wheel] = 1 - float(_averaged(rest**2, priors, others).ravel()[0]) / variance
+        whole[uncertainty.wheel] = 1 - float(_averaged(rest**2, priors, others).ravel()[0]) / variance
     return VarianceShares(name, mean, sqrt(variance), own, whole, True)
 
 
-def _has_pole(formula: Formula, doubts: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
-    """Return whether the speed is undefined at one of some places that floats cannot decide."""
-    shape = [len(doubt.counts) for doubt in doubts]
+def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
+    """Return whether the speed is undefined at one of the given combinations, which floats cannot decide."""
+    shape = [len(uncertainty.counts) for uncertainty in uncertainties]
     for place in places:
         at = np.unravel_index(int(place), shape)
-        counts = {doubt.wheel: doubt.counts[int(index)] for doubt, index in zip(doubts, at, strict=True)}
+        counts = {
+            uncertainty.wheel: uncertainty.counts[int(index)]
+            for uncertainty, index in zip(uncertainties, at, strict=True)
+        }
         if formula.value(counts) is None:
             return True
     return False
 
 
 def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> Floats:
-    """Return the mean over some axes, which remain with length 1."""
+    """Return the prior mean over some axes, which remain with length 1."""
     found: Floats = values
     for axis in axes:
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]
@@ -377,12 +392,17 @@ def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> 
 
 
 def _sampled_indices(
-    name: str, formula: Formula, doubts: Sequence[ToothCountPrior], seed: int
+    name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior], seed: int
 ) -> VarianceShares | None:
-    """Estimate the indices from two independent samples A and B, and from A with one column of B for each wheel."""
-    draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(doubts)])))
+    """Estimate the Sobol indices from two independent samples A and B, and from A with one column of B for each
+    wheel.
+    """
+    draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, len(uncertainties)])))
     first, second = (
-        {doubt.wheel: draw.choice(doubt.counts, _DRAWN, p=[float(prior) for prior in doubt.priors]) for doubt in doubts}
+        {
+            uncertainty.wheel: draw.choice(uncertainty.counts, _DRAWN, p=[float(prior) for prior in uncertainty.priors])
+            for uncertainty in uncertainties
+        }
         for _ in range(2)
     )
     a, b = formula.values(first), formula.values(second)
@@ -391,9 +411,9 @@ def _sampled_indices(
     if not np.isfinite(both).all() or variance <= (1e-13 * mean) ** 2:
         return None
     own, whole = {}, {}
-    for doubt in doubts:
-        mixed = formula.values(first | {doubt.wheel: second[doubt.wheel]})
+    for uncertainty in uncertainties:
+        mixed = formula.values(first | {uncertainty.wheel: second[uncertainty.wheel]})
         # estimators (b) and (f) of the table, relative to the mean, which would only add noise
-        own[doubt.wheel] = float(((b - mean) * (mixed - a)).mean()) / variance
-        whole[doubt.wheel] = float(((a - mixed) ** 2).mean()) / 2 / variance
+        own[uncertainty.wheel] = float(((b - mean) * (mixed - a)).mean()) / variance
+        whole[uncertainty.wheel] = float(((a - mixed) ** 2).mean()) / 2 / variance
     return VarianceShares(name, mean, sqrt(variance), own, whole, False, _DRAWN)

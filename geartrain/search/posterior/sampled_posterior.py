@@ -1,4 +1,4 @@
-"""Sample of combinations of counts: speeds of outputs, likelihoods, and their sums.
+"""Random sample of combinations of tooth counts: speeds of outputs, likelihoods, and their sums.
 
 The train is solved once, as formulas; each combination then costs a few multiplications per output. Combinations are
 evaluated in blocks that fit into the processor cache. Sums are plain data that can be added, for tasks of any size and
@@ -36,7 +36,7 @@ from geartrain.search.join.wheel_monomials import (
 from geartrain.search.posterior.inference_problem import InferenceProblem, Observation, ObservedOutput, ToothCountPrior
 
 LARGEST = 1 << 62
-"""Upper bound of products of counts, so that they are exact in int64."""
+"""Upper bound of products of tooth counts, below which they are exact in int64."""
 
 BLOCK = 1 << 13
 """Number of combinations per block: 64 kB per array, so that the columns of a formula stay in the processor cache."""
@@ -46,19 +46,19 @@ _FEW = 0.5  # share of rows below which copying the remaining rows is cheaper th
 KEPT = 2000
 """Maximum number of best combinations that a task returns; further ties are omitted."""
 TIE = 1 + 1e-9
-"""Ratio of misfits in floats below which they may be equal. They are compared exactly later."""
+"""Ratio of two misfits in floats below which they may be equal and are later compared exactly."""
 Powers = Mapping[str, int]
-"""Wheel -> its power in a monomial, not 0; the powers of one monomial have no common divisor."""
+"""Power of each wheel in a monomial, not 0; the powers of one monomial have no common divisor."""
 
 
 Key = tuple[tuple[int, int], ...]
-"""Product of powers of items, as pairs (item, power) with ascending items and powers of either sign."""
+"""Product of powers of variables, as pairs (variable, power) with ascending variables and powers of either sign."""
 ProductPlan = Mapping[Key, tuple[Key, Key]]
-"""Product -> a shorter product that divides it, and the remaining factor."""
+"""Factorisation of each product into a shorter product that divides it, and the remaining factor."""
 
 
 class LikelihoodBatch:
-    """Vectorised evaluation of an inference problem over arrays of counts.
+    """Vectorised likelihood of an inference problem for arrays of tooth counts.
 
     every    True if the speeds of all outputs are also required
     wheels   wheels that an observed output or a condition depends on, with `every` also those of all outputs, in the
@@ -72,8 +72,8 @@ class LikelihoodBatch:
         if every:
             functions += [IntervalConstraint(name, formula, ()) for name, formula in question.outputs.items()]
         moved = {wheel for one in functions for wheel in one.function.wheels}
-        self.wheels = tuple(wheel for wheel in question.doubts if wheel in moved)
-        self.domains = {wheel: question.doubts[wheel].counts for wheel in self.wheels}
+        self.wheels = tuple(wheel for wheel in question.uncertainties if wheel in moved)
+        self.domains = {wheel: question.uncertainties[wheel].counts for wheel in self.wheels}
         self.monomials = find_monomials(functions, self.domains)
         # formulas of few wheels first: they are cheap, and rows that they reject need no further evaluation
         ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
@@ -88,20 +88,21 @@ class LikelihoodBatch:
         self._plan = find_product_plan(key for value in values for key in value.plan)
 
     def columns(self, counts: Mapping[str, Ints]) -> MonomialColumns:
-        """Return columns for combinations, given as wheel -> counts of equal length for all `wheels`."""
+        """Return the columns for combinations that are given as counts of equal length for each wheel of `wheels`."""
         return CombinationColumns(self.monomials, counts, len(next(iter(counts.values()))) if counts else 1)
 
     def turns(self, rows: MonomialColumns) -> Bools:
-        """Test with which combinations the train turns."""
+        """Return whether the train turns, for each combination."""
         found: Bools = np.ones(rows.size, dtype=np.bool_)
         for gate in self._conditions:
             found &= gate.holds(rows)
         return found
 
     def judged(self, rows: MonomialColumns) -> tuple[Bools, Floats]:
-        """Test exactly which combinations fit, and compute their misfits to rounding, infinite for the others.
+        """Return whether each combination satisfies the observations, exactly, and its misfit up to rounding.
 
-        Combinations that one output rejects are removed before the next output when this saves work.
+        The misfit is infinite for the others. Combinations that one output rejects are removed before the next output
+        when this saves work.
         """
         alive, total = np.arange(rows.size), np.zeros(rows.size)
         some = rows
@@ -120,18 +121,18 @@ class LikelihoodBatch:
         return found, np.where(found, total, np.inf)
 
     def speeds(self, rows: MonomialColumns) -> dict[str, tuple[Floats, Floats]]:
-        """Return output -> speeds, and bounds of their errors."""
+        """Return the speeds of each output, and upper bounds of their absolute errors."""
         return {name: value.bounded(rows, self._plan) for name, value in self._values.items()}
 
 
 class PosteriorTally:
-    """Sums over combinations.
+    """Sums over the combinations of a sample.
 
     examined  number of combinations
     turning   number of combinations with which the train turns
-    weight    number of combinations that fit, or sum of their likelihoods
-    square    sum of squared likelihoods, for intervals
-    by        weight of what fits with each count, for each wheel
+    weight    sum of the likelihoods
+    square    sum of the squared likelihoods, for intervals
+    by        sum of the likelihoods for each count of each wheel
     sizes     weighted sums of products of two counts, each relative to the `origin_of` its wheel
     best      pairs (misfit, indices of counts), ascending
     ranked    False if ties were omitted
@@ -146,15 +147,17 @@ class PosteriorTally:
         self.sizes: Floats = np.zeros((len(batch.wheels), len(batch.wheels)))
         self.best: list[tuple[float, tuple[int, ...]]] = []
         self.ranked = True
-        doubts = [batch.question.doubts[wheel] for wheel in batch.wheels]
-        self._steps = [np.array(doubt.counts, dtype=np.float64) - origin_of(doubt) for doubt in doubts]
+        uncertainties = [batch.question.uncertainties[wheel] for wheel in batch.wheels]
+        self._steps = [
+            np.array(uncertainty.counts, dtype=np.float64) - origin_of(uncertainty) for uncertainty in uncertainties
+        ]
 
     def add(self, places: Mapping[str, Ints | int], misfit: Floats, weights: Any) -> None:
-        """Add rows that fit.
+        """Add combinations that satisfy the observations.
 
-        places    wheel -> index of its count, one number for all rows or one for each
-        misfit    misfit of each row
-        weights   weight of each row, integers or floats
+        places    index of the count of each wheel: one number for all combinations, or one for each
+        misfit    misfit of each combination
+        weights   likelihood of each combination, integers or floats
         """
         size = len(misfit)
         if not size:
@@ -170,7 +173,7 @@ class PosteriorTally:
         self._keep(misfit, at)
 
     def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
-        near = np.flatnonzero(misfit <= self._threshold())
+        near = np.flatnonzero(misfit <= self._threshold())  # candidates for the list of the best
         order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
         self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
         self._trim()
@@ -213,13 +216,13 @@ class PosteriorTally:
 
 
 def plain_number(value: Any) -> int | float:
-    """Convert a sum to a Python number, which does not overflow."""
+    """Convert a sum to a Python number, which cannot overflow."""
     return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
-def origin_of(doubt: ToothCountPrior) -> int:
-    """Return the most probable count, relative to which sums of products keep their digits."""
-    return doubt.counts[doubt.weights.index(max(doubt.weights))]
+def origin_of(uncertainty: ToothCountPrior) -> int:
+    """Return the most probable count of a prior, relative to which sums of products lose no digits."""
+    return uncertainty.counts[uncertainty.weights.index(max(uncertainty.weights))]
 
 
 def packed(question: InferenceProblem, most: int) -> bytes:
@@ -234,7 +237,10 @@ def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
 
 
 def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
-    """Draw combinations from their prior; a task is (seed, number of the block, number of combinations)."""
+    """Draw combinations from their prior, and return the sums over them.
+
+    task   random seed, number of the block, number of combinations
+    """
     batch, most = _unpacked(shared)
     tally = PosteriorTally(batch, most)
     seed, block, size = task
@@ -242,8 +248,8 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
     places = {}
     for wheel in batch.wheels:
-        chances = np.array([float(prior) for prior in batch.question.doubts[wheel].priors])
-        places[wheel] = draw.choice(len(chances), size, p=chances / chances.sum())
+        probabilities = np.array([float(prior) for prior in batch.question.uncertainties[wheel].priors])
+        places[wheel] = draw.choice(len(probabilities), size, p=probabilities / probabilities.sum())
     for start in range(0, size, BLOCK):
         here = {wheel: at[start : start + BLOCK] for wheel, at in places.items()}
         rows = batch.columns({wheel: np.array(batch.domains[wheel])[at] for wheel, at in here.items()})
@@ -261,12 +267,12 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
 
 @dataclass(frozen=True, eq=False)
 class FormulaValues:
-    """Formula compiled to products of monomials."""
+    """Formula of a speed, compiled to products of monomials."""
 
     quotient: BoundedQuotient | None
     """Formula with error bounds; None if floats may overflow, so that errors have no bound."""
     plan: ProductPlan
-    """Plan that forms its products with few multiplications."""
+    """Plan that forms the products of the formula with few multiplications."""
 
     @classmethod
     def of(cls, formula: Formula, monomials: Sequence[Powers], domains: Domains) -> FormulaValues:
@@ -291,11 +297,11 @@ class FormulaValues:
 
     @property
     def relative(self) -> float | None:
-        """Bound of the relative error of every value; None if it depends on the row."""
+        """Upper bound of the relative error of every value; None if it depends on the row."""
         return None if self.quotient is None else self.quotient.relative
 
     def __call__(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats | None]:
-        """Return the values at some rows, and bounds of their errors if `relative` is None.
+        """Return the value at each row, and upper bounds of the absolute errors if `relative` is None.
 
         A bound is infinite if no digit is certain.
 
@@ -309,7 +315,7 @@ class FormulaValues:
         return known
 
     def bounded(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats]:
-        """Return the values, and bounds of their absolute errors in any case."""
+        """Return the value at each row, and upper bounds of the absolute errors."""
         value, room = self(rows, plan)
         return value, (self.relative or 0) * np.abs(value) if room is None else room
 
@@ -324,7 +330,6 @@ def _filled(values: Floats, size: int) -> Floats:
 
 
 def _key(exponents: Mapping[str, int], monomials: Sequence[Powers]) -> Key:
-    """Convert a monomial in wheels to a product of items."""
     found = []
     for item, powers in enumerate(monomials):
         wheel, power = next(iter(powers.items()))
@@ -334,10 +339,10 @@ def _key(exponents: Mapping[str, int], monomials: Sequence[Powers]) -> Key:
 
 
 class OutputLikelihood:
-    """Likelihood of one observed output over many combinations.
+    """Likelihood of the observations of one output, for many combinations.
 
     witness   observed output
-    soft      False if observations are either satisfied or not; True for graded agreement, up to `FAR` tolerances
+    soft      True for a Gaussian likelihood up to `FAR` tolerances, False for the likelihood 1 or 0
     value     compiled formula, if there is one
     """
 
@@ -359,7 +364,7 @@ class OutputLikelihood:
         self._misfit = misfit_of(witness)
 
     def judge(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Bools, Floats]:
-        """Test exactly which rows are accepted, and compute the misfits of their speeds to rounding."""
+        """Return whether each row satisfies the observations, exactly, and the misfits of the speeds up to rounding."""
         value, room = self.value(rows, plan)
         met, doubtful = self._decided(value, room)
         unsure = np.flatnonzero(doubtful)
@@ -371,7 +376,7 @@ class OutputLikelihood:
         return met, misfit
 
     def _decided(self, value: Floats, room: Floats | None) -> tuple[Bools, Bools]:
-        """Return the decisions in floats, and a mask of the rows so close to an end that they may be wrong."""
+        """Return the decisions in floats, and a mask of the rows so close to a bound that the decision may be wrong."""
         if self._gate is None:
             sure = np.isfinite(value if room is None else room)
             return sure, ~sure
@@ -379,6 +384,7 @@ class OutputLikelihood:
         doubtful: Bools = np.zeros(len(value), dtype=np.bool_)
         size = np.abs(value) if self._interval_ends else value
         for middle, half, edge in self._ends:
+            # distance from the middle of the interval, then from its ends
             gap = np.abs(size - middle)
             gap -= half
             met |= gap <= 0
@@ -390,7 +396,9 @@ class OutputLikelihood:
 
 
 def _interval_ends(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, float, float]]]:
-    """Return intervals as (middle, half width, rounding of the ends), and True if they bound only the magnitude."""
+    """Return whether the intervals bound only the magnitude, and each interval as (middle, half width, rounding
+    error).
+    """
     mirrored = {(None if high is None else -high, None if low is None else -low) for low, high in intervals}
     fold = len(intervals) > 1 and mirrored == set(intervals)
     found = []
@@ -407,7 +415,7 @@ def _interval_ends(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[floa
 
 @dataclass(frozen=True, slots=True)
 class _Scale:
-    """Observation in floats: known speed, and reciprocal tolerances below and above."""
+    """Observation in floats: observed speed, and reciprocal tolerances below and above it."""
 
     wanted: float
     signed: bool
@@ -431,7 +439,7 @@ class _Scale:
 
 
 def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
-    """Return a function from speeds of an output to their misfits, the sums of (error / tolerance)^2, to rounding."""
+    """Return a function from speeds of an output to their misfits, sums of (error / tolerance)^2, up to rounding."""
     scales = [_Scale.of(claim) for claim in witness.claims if not claim.is_exact]
 
     def misfit(speeds: Floats) -> Floats:
@@ -443,7 +451,7 @@ def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
 def exact_constraint(
     requested: IntervalConstraint, monomials: Sequence[Powers], domains: Domains
 ) -> PolynomialConstraint:
-    """Convert a constraint to polynomials in monomials, whose signs decide it exactly."""
+    """Convert an interval constraint to polynomials in monomials, whose signs decide it exactly."""
     (found,) = find_polynomial_constraints([requested], [recipe_of(powers) for powers in monomials], domains)
     return found
 
@@ -452,10 +460,10 @@ def exact_constraint(
 
 
 class MonomialColumns(PartialAssignments):
-    """Rows that store the values of their items, instead of indices into lists.
+    """Rows that store the values of their variables instead of indices into lists.
 
-    tops, bottoms   item -> positive values, (size,) int64
-    values          cache of function -> its values and bounds of their errors
+    tops, bottoms   variable -> positive values, shape (size,) int64
+    values          cached values of each function, with upper bounds of their errors
     """
 
     __slots__ = ("_bottoms", "_products", "_tops", "values")
@@ -467,21 +475,21 @@ class MonomialColumns(PartialAssignments):
         self.values: dict[object, tuple[Floats, Floats | None]] = {}
 
     def x(self, item: int) -> Floats:
-        """Return the values of an item, float64 with at most three roundings: two conversions and one division."""
+        """Return the values of a variable, float64 with at most three roundings: two conversions and one division."""
         if item not in self._x:
             self._x[item] = self.top(item) / self.bottom(item)
         return self._x[item]
 
     def top(self, item: int) -> Ints:
-        """Return the numerators of the values of an item."""
+        """Return the numerators of the values of a variable."""
         return self._tops[item]
 
     def bottom(self, item: int) -> Ints:
-        """Return the denominators of the values of an item."""
+        """Return the denominators of the values of a variable."""
         return self._bottoms[item]
 
     def product(self, key: Key, plan: ProductPlan) -> Floats:
-        """Return a product of items in float64, with one further rounding per multiplication or division."""
+        """Return a product of variables in float64, with one further rounding per multiplication or division."""
         if key not in self._products:
             shorter, rest = plan.get(key, ((), key))
             found: Floats = self.product(shorter, plan) if shorter else np.ones(())
@@ -492,16 +500,16 @@ class MonomialColumns(PartialAssignments):
         return self._products[key]
 
     def pick(self, where: NDArray[np.generic]) -> MonomialColumns:
-        """Select rows by mask or by index."""
+        """Return the rows selected by a mask or by indices."""
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return MonomialColumns([one[where] for one in self._tops], [one[where] for one in self._bottoms], size)
 
 
 class CombinationColumns(MonomialColumns):
-    """Rows of counts, whose monomials are multiplied on demand.
+    """Rows of tooth counts, whose monomials are computed on demand.
 
-    monomials   items
-    counts      wheel -> counts, (size,)
+    monomials   variables
+    counts      wheel -> counts, shape (size,)
     """
 
     __slots__ = ("_counts", "_monomials")
@@ -511,7 +519,7 @@ class CombinationColumns(MonomialColumns):
         self._monomials, self._counts = monomials, counts
 
     def x(self, item: int) -> Floats:
-        """Return the values of an item, with at most one rounding per factor and one per conversion."""
+        """Return the values of a variable, with at most one rounding per factor and one per conversion."""
         if item not in self._x:
             self._x[item] = self._quotient(self._monomials[item])
         return self._x[item]
@@ -531,11 +539,11 @@ class CombinationColumns(MonomialColumns):
         return top if bottom is None else np.divide(top, bottom, out=bottom)
 
     def top(self, item: int) -> Ints:
-        """Return the numerators of the values of an item."""
+        """Return the numerators of the values of a variable."""
         return self._whole(item, 1)
 
     def bottom(self, item: int) -> Ints:
-        """Return the denominators of the values of an item."""
+        """Return the denominators of the values of a variable."""
         return self._whole(item, -1)
 
     def _whole(self, item: int, sign: int) -> Ints:
@@ -546,7 +554,7 @@ class CombinationColumns(MonomialColumns):
         return found
 
     def pick(self, where: NDArray[np.generic]) -> MonomialColumns:
-        """Select rows by mask or by index."""
+        """Return the rows selected by a mask or by indices."""
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return CombinationColumns(
             self._monomials, {wheel: column[where] for wheel, column in self._counts.items()}, size
@@ -571,7 +579,7 @@ def _divides(whole: int, power: int) -> bool:
 
 
 def recipe_of(powers: Powers) -> ItemRecipe:
-    """Convert a monomial to the definition of an item."""
+    """Convert a monomial to the definition of a variable."""
     above = tuple((wheel, power) for wheel, power in powers.items() if power > 0)
     return ItemRecipe(above, tuple((wheel, -power) for wheel, power in powers.items() if power < 0))
 
@@ -579,7 +587,7 @@ def recipe_of(powers: Powers) -> ItemRecipe:
 def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
     """Return the minimum number of monomials through which all functions depend on the wheels, each exact in int64.
 
-    domains   possible wheels; wheels that no function depends on are in no monomial
+    domains   possible counts of the wheels; wheels that no function depends on are in no monomial
     """
     moving = {wheel for one in requested for wheel in one.function.wheels}
     bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], requested, frozenset())
@@ -587,14 +595,14 @@ def find_monomials(requested: Sequence[IntervalConstraint], domains: Mapping[str
 
 
 def primitive(powers: Powers) -> dict[str, int]:
-    """Divide powers by their common divisor, and make the first positive."""
+    """Return the powers divided by their common divisor, the first of them positive."""
     common = math.gcd(*powers.values())
     common = common if next(iter(powers.values())) > 0 else -common
     return {wheel: power // common for wheel, power in powers.items()}
 
 
 def _parts(powers: Powers, domains: Mapping[str, Sequence[int]]) -> Iterator[Powers]:
-    """Split a monomial between wheels into parts whose products fit into int64."""
+    """Split a monomial into parts whose products of counts fit into int64."""
     held: dict[str, int] = {}
     for wheel in (wheel for wheel in domains if wheel in powers):
         both = {**held, wheel: powers[wheel]}

@@ -23,6 +23,7 @@ from geartrain.cli.common import (
     check_distinct_outputs,
     draw,
     emit,
+    option_error,
     picture_sink,
     read_share,
     show,
@@ -30,8 +31,8 @@ from geartrain.cli.common import (
     table_text,
     tell,
 )
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.cli.option_values import MOST_COUNT, Theme
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.option_values import MOST_COUNT, Theme, at_option
 from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
@@ -46,9 +47,7 @@ def run(
     free: Annotated[
         Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: possible counts of a wheel; may be repeated.")
     ] = None,
-    output: Annotated[
-        Names, typer.Option("--output", help="Use only this output as evidence; may be repeated.")
-    ] = None,
+    output: Annotated[Names, typer.Option("--of", help="Use only this output as evidence; may be repeated.")] = None,
     state: StateName = None,
     tolerance: Annotated[
         str | None,
@@ -59,12 +58,12 @@ def run(
     ] = "all",
     scale: Annotated[str, typer.Option("--scale", help="Factor of every tolerance, such as 1/4.")] = "1",
     soft: Annotated[
-        bool, typer.Option("--soft", help="Gaussian likelihood with the tolerances as standard deviations.")
+        bool, typer.Option("--gaussian", help="Use a Gaussian likelihood with the tolerances as standard deviations.")
     ] = False,
     method: Annotated[
-        str | None, typer.Option("--method", help="exact or sample. Default: exact if it stays within --limit.")
+        str | None, typer.Option("--method", help="Method: exact or sample; default exact if it stays within --limit.")
     ] = None,
-    most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Number of combinations to list.")] = 20,
+    most: Annotated[int, typer.Option("--best", min=0, max=1_000_000, help="Number of combinations to list.")] = 20,
     limit: Annotated[
         int,
         typer.Option(
@@ -79,7 +78,6 @@ def run(
     ] = 1_000_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Random seed of the sample.")] = 1,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
     plot: Plot = None,
     json: Json = False,
@@ -87,14 +85,19 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find the tooth counts that fit the outputs, and their probabilities; exit 0 if any fits, 1 if none."""
+    """Find the tooth counts that fit the outputs, and their probabilities; exit 0 if any fits, 1 if none.
+
+    Example: `geartrain posterior freeth-2008-doubt --best 8`.
+    """
     from geartrain.numerics.files import ColumnTable
     from geartrain.search.posterior.inference import infer_counts
     from geartrain.train.declaration_files import read_declaration
 
     to, drawing = sink(out, force, FORMS), picture_sink(plot, force, theme)
     check_distinct_outputs(to, drawing)
-    if to.suffix == ".parquet" and to.path is not None:
+    if to.suffix == ".parquet":
+        if to.path is None:
+            raise option_error("-o", "a .parquet file cannot be written to standard output", "give -o x.parquet")
         ColumnTable(to.path, {}, force)  # reports a missing library before the work
     train = read_declaration(file)
     requested: dict[str, Any] = {
@@ -112,7 +115,7 @@ def run(
         "seed": seed,
     }
     question = {"train": train.model_dump(mode="json"), **requested}
-    with long_run("posterior", question, out, RunOptions(workers, dask, resume)) as given:
+    with long_run("posterior", question, out, RunOptions(workers, resume)) as given:
         found = infer_counts(train, **requested, executor=given.executor, journal=given.journal, tell=given.tell)
         close_journal(given.journal, found.cut)
     if drawing.path is not None and not found.best:
@@ -149,12 +152,13 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
     for text in texts:
         wheel, equals, counts = text.partition("=")
         if not equals or not wheel.strip():
-            raise typer.BadParameter(f"'{text}' is not of the form WHEEL=60:64 or WHEEL=60,62", param_hint="--free")
+            raise option_error(
+                "--free", f"'{text}' is not a wheel with counts", "write it as WHEEL=60:64 or WHEEL=60,62"
+            )
         try:
             listed = tuple(read_counts(counts).as_array().tolist())
         except GearTrainError as error:
-            problem = error.problems[0]
-            raise typer.BadParameter(f"{problem.what}; {problem.fix}", param_hint="--free") from None
+            raise at_option(error, "--free") from None
         found[wheel.strip()] = found.get(wheel.strip(), ()) + listed
     return found
 

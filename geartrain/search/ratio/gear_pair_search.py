@@ -52,8 +52,9 @@ def find_pairs(
     bound = None if tolerance is None else _checked(tolerance)
     number = 20 if best is None and bound is None else best
     if number is not None and number < 1:
-        raise QuestionError(Problem(f"best is {number}", "a list has at least one solution", "give 1 or more"))
+        raise QuestionError(Problem(f"best is {number}", "a list has at least one solution", "give best >= 1"))
     found = [pair for box in boxes for pair in _box_pairs(wanted.value, box, bound, number)]
+    # pairs of several boxes are merged by rank
     found.sort(key=lambda pair: _rank(wanted.value, pair))
     return tuple(_stages(wanted.value, pair) for pair in found[:number])
 
@@ -82,8 +83,8 @@ class _Box:
     def windows(self, low: Fraction, high: Fraction) -> Iterator[tuple[int, bool, int, int]]:
         """Yield the windows of counts for which low <= top/beneath <= high.
 
-        Each window is a tuple of a count of the wheel with fewer counts in reach, True if that count is the numerator,
-        and the first and last count of the other wheel.
+        Each window is a tuple: a count of one wheel, True if that count is the numerator, and the first and last count
+        of the other wheel. The first wheel is the one with fewer counts that can occur in a pair.
         """
         (a, b), (c, d) = (low.numerator, low.denominator), (high.numerator, high.denominator)
         # counts of each wheel for which some count of the other wheel may be in reach
@@ -116,7 +117,7 @@ class _Box:
 
 
 def _boxes(wanted: TargetRatio, wheels: Counts, pinions: Counts) -> list[_Box]:
-    """Return one box of all counts, or one box for each two contiguous runs if the lists are too long for a scan."""
+    """Return one box of all counts, or a box for each two contiguous runs if the lists are too long for a scan."""
     top, beneath = CountRuns.of(wheels), CountRuns.of(pinions)
     if wanted.value < 1:
         top, beneath = beneath, top
@@ -125,7 +126,7 @@ def _boxes(wanted: TargetRatio, wheels: Counts, pinions: Counts) -> list[_Box]:
     if len(top.spans) * len(beneath.spans) > _MOST_BOXES:
         raise RangeError(
             Problem(
-                f"{len(top)} counts over {len(beneath)}, with gaps, are too many",
+                f"the lists of {len(top)} and {len(beneath)} tooth counts are too long",
                 f"lists with gaps are scanned, or searched as at most {_MOST_BOXES} pairs of ranges",
                 "give one range for each wheel, such as 12:1000000",
             )
@@ -134,17 +135,17 @@ def _boxes(wanted: TargetRatio, wheels: Counts, pinions: Counts) -> list[_Box]:
 
 
 def _check_reach(value: Fraction, boxes: list[_Box]) -> None:
-    """Raise `RangeError` if the ratio is more than 10^12 times beyond all pairs."""
+    """Raise `RangeError` if the ratio differs from the ratios of all pairs by a factor of more than 10^12."""
     low = min(Fraction(box.top.minimum, box.beneath.most) for box in boxes)
     high = max(Fraction(box.top.most, box.beneath.minimum) for box in boxes)
     if not low / _FAR < value < high * _FAR:
         made = f"ratios of these counts are from {decimal(low, 3)} to {decimal(high, 3)}"
-        what = f"a ratio of {decimal(value, 3)} is far out of reach"
+        what = f"a ratio of {decimal(value, 3)} cannot be approximated"
         raise RangeError(Problem(what, made, "use more stages, or a wider range of counts"))
 
 
 def _box_pairs(value: Fraction, box: _Box, tolerance: Fraction | None, number: int | None) -> list[_Pair]:
-    """Return the pairs of one box that are within the tolerance, or its `number` best pairs."""
+    """Return all pairs of one box within the tolerance; without a tolerance, its `number` best pairs."""
     if tolerance is not None:
         inside = box.number(*_limits(value, tolerance))
         if number is None and inside > _MOST_PAIRS:
@@ -165,14 +166,15 @@ def _box_pairs(value: Fraction, box: _Box, tolerance: Fraction | None, number: i
 
 
 def _tree_is_shorter(value: Fraction, box: _Box, number: int) -> bool:
-    """Return whether the Stern-Brocot tree needs fewer steps than a scan; both find the same pairs.
+    """Return whether the Stern-Brocot tree needs fewer steps than a scan. Both find the same pairs.
 
-    Let x be the ratio, and let the pairs in reach have denominators from L to U. A scan takes min(x, 1) (U - L) steps.
-    The tree visits all fractions with a denominator up to U; about a share 2 (U/L - 1) of them has a multiple in the
-    ranges.
+    Let x be the ratio, and let the pairs that are possible have denominators from L to U. A scan takes min(x, 1) (U -
+    L) steps. The tree visits all fractions with a denominator up to U, and a fraction 2 (U/L - 1) of them has a
+    multiple in the ranges.
     """
     if not box.contiguous:
         return False
+    # range of denominators whose matching numerator is admissible
     minimum = max(Fraction(box.beneath.minimum), box.top.minimum / value)
     most = min(Fraction(box.beneath.most), box.top.most / value)
     if most <= minimum:
@@ -201,7 +203,7 @@ def _by_tree(value: Fraction, box: _Box, number: int) -> list[_Pair]:
 
 
 def _by_scan(value: Fraction, box: _Box, number: int) -> list[_Pair]:
-    """Return the `number` best pairs by a scan; the tolerance is increased until it includes that many pairs."""
+    """Return the `number` best pairs by scans, with a tolerance that is increased until it includes enough pairs."""
     farthest = [box.top.minimum / Fraction(box.beneath.most), box.top.most / Fraction(box.beneath.minimum)]
     tolerance = max(farthest[0] / value - 1, 1 - farthest[1] / value, Fraction(0))
     # smaller than for uniformly distributed pairs, then increased fourfold: the last count costs most
@@ -227,8 +229,8 @@ def _count_below(box: _Box, ratio: Fraction, strictly: bool = False) -> int:
 def _floor_sum(number: int, slope: int, offset: int, divisor: int) -> int:
     """Return the sum of floor((slope i + offset)/divisor) for i from 0 to `number` - 1; all arguments are 0 or more.
 
-    The sum counts the grid points under a line. Integer parts are split off and the axes are exchanged, as in Euclid's
-    algorithm, so the number of steps is logarithmic.
+    The sum counts the lattice points under a line. Integer parts are split off and the axes are exchanged, as in
+    Euclid's algorithm, so the number of steps is logarithmic.
     """
     total, sign = 0, 1
     while number > 0:
@@ -249,12 +251,11 @@ def _limits(value: Fraction, tolerance: Fraction) -> tuple[Fraction, Fraction]:
 
 
 def _size(counts: CountRuns, window: _Pair) -> int:
-    """Return the number of counts within the window."""
     return max(counts.upto(window[1]) - counts.upto(window[0] - 1), 0)
 
 
 def _rank(value: Fraction, pair: _Pair) -> tuple[Fraction, int, int, _Pair]:
-    """Return the sort key of a pair: absolute error (as a distance of ratios), sum of counts, larger count, counts."""
+    """Return the sort key of a pair: distance of its ratio from `value`, sum of counts, larger count, counts."""
     return abs(Fraction(*pair) - value), sum(pair), max(pair), pair
 
 

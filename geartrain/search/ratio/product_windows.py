@@ -1,4 +1,4 @@
-"""Products of tooth counts over all multisets of a given size, enumerated in windows of value with bounded memory."""
+"""Products of tooth counts over all multisets of a given size, generated in windows of value with bounded memory."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 
 
 ROUNDING = 1e-28
-"""Bound of the absolute difference between `errors` and the exact values; the relative difference is at most 1e-12."""
+"""Upper bound of the absolute error of the results of `errors`; their relative error is at most 1e-12."""
 
 
 def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
-    """Return the half-open index range of `products` with low f <= product <= high f for each factor f; exact.
+    """Return for each factor f the half-open index range of `products` with low f <= product <= high f, exactly.
 
     products   ascending, at least one
     factors    positive, in the same dtype: int64 below 2^52, or Python integers
@@ -76,8 +76,9 @@ def _wrapped(number: int) -> np.int64:
 
 
 def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
-    """Return the relative error top / (beneath value) - 1 of each pair to about 1e-30, by Dekker's double-double
-    products.
+    """Return the relative error top / (beneath value) - 1 of each pair, with an absolute error of about 1e-30.
+
+    It is computed with Dekker's double-double products.
     """
     # then the value and all products of its halves are within the range of float64
     short = abs(value.numerator.bit_length() - value.denominator.bit_length()) < 300
@@ -97,7 +98,9 @@ def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
 
 
 def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> tuple[list[Fraction], Places]:
-    """Return the distinct exact absolute errors of some pairs, ascending, and for each pair the index of its error."""
+    """Return the distinct absolute errors of some pairs, exact and ascending, and for each pair the index of
+    its error.
+    """
     ratios, which = distinct_quotients(tops, beneaths)
     misses = [abs(ratio / value - 1) for ratio in ratios]
     ascending = sorted(set(misses))
@@ -130,11 +133,11 @@ _MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductWindows:
-    """Products c_1 c_2 ... c_k of admissible counts c_1 <= ... <= c_k, stored as (low part) x (high part).
+    """Products c_1 c_2 ... c_k of admissible counts c_1 <= ... <= c_k, each stored as (low part) x (high part).
 
-    The sorted counts are split at their middle element m. A row is m together with the counts below it, and is combined
-    with every high part whose counts are all at least m, so each multiset occurs once. Memory is O(n^3) for n counts,
-    while the C(n+k-1, k) products are generated window by window.
+    The sorted counts are split at their middle element m. A row holds m and the counts below it, and is combined with
+    every high part whose counts are all at least m, so each multiset occurs once. Memory is O(n^3) for n counts, while
+    the C(n+k-1, k) products are generated window by window.
     """
 
     counts: tuple[int, ...]
@@ -142,19 +145,19 @@ class ProductWindows:
     size: int
     """Number k of counts in a product."""
     rows: Ints
-    """Product of m and the counts below it, (rows,)."""
+    """Product of the counts of each low part, shape (rows,)."""
     lows: Ints
-    """Counts of the low part, ascending, (rows, a)."""
+    """Counts of each low part, ascending, shape (rows, a)."""
     highs: Ints
-    """Products of the high parts, ascending within each table, (highs,)."""
+    """Product of the counts of each high part, ascending within each table, shape (highs,)."""
     uppers: Ints
-    """Counts of the high parts, ascending, (highs, b)."""
+    """Counts of each high part, ascending, shape (highs, b)."""
     keys: Ints
-    """Sum of `highs` and the offset of their table, ascending over all tables, (highs,)."""
+    """Sum of `highs` and the offset of the table, which is ascending over all tables, shape (highs,)."""
     offsets: Ints
-    """Offset of the table of each row, (rows,)."""
+    """Offset of the table of high parts that each row is combined with, shape (rows,)."""
     starts: Places
-    """Index of the first high part of each row, (rows,)."""
+    """Index of the first high part that each row is combined with, shape (rows,)."""
     step: int
     """Distance between the offsets, larger than any high part."""
 
@@ -165,12 +168,12 @@ class ProductWindows:
 
     @property
     def minimum(self) -> int:
-        """Smallest product."""
+        """Minimum product."""
         return int(self.counts[0] ** self.size)
 
     @property
     def most(self) -> int:
-        """Largest product."""
+        """Maximum product."""
         return int(self.counts[-1] ** self.size)
 
     def below(self, bound: int) -> int:
@@ -180,7 +183,7 @@ class ProductWindows:
         return self.total if bound > self.most else int((_ends(self, bound) - self.starts).sum())
 
     def values(self, low: int, high: int) -> Ints:
-        """Return the products in [low, high), ascending, one for each multiset."""
+        """Return the products in [low, high), ascending. A product occurs once for each multiset."""
         row, column = self._places(low, high)
         found = self.rows[row]
         # in place, because a window is the largest array of the search
@@ -189,7 +192,9 @@ class ProductWindows:
         return found
 
     def members(self, low: int, high: int, among: Ints) -> tuple[Ints, Ints]:
-        """Return the products in [low, high) that occur in `among` (ascending), (n,), and their counts, (n, k)."""
+        """Return the products in [low, high) that are in `among` (ascending), shape (n,), and their counts, shape (n,
+        k).
+        """
         row, column = self._places(low, high)
         found = self.rows[row] * self.highs[column]
         if not len(among):
@@ -201,7 +206,7 @@ class ProductWindows:
         return found[here], np.concatenate([self.lows[row[here]], self.uppers[column[here]]], axis=1)
 
     def _places(self, low: int, high: int) -> tuple[Places, Places]:
-        """Return the row and the high part of every product in [low, high)."""
+        """Return the index of the row and of the high part of every product in [low, high)."""
         first = _ends(self, low)
         return spread(first, _ends(self, high))
 
@@ -213,11 +218,11 @@ def multisets(number: int, size: int) -> int:
 
 @lru_cache(maxsize=4)
 def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -> ProductWindows:
-    """Build the products of `size` (1 to 5) of these counts (ascending).
+    """Build the products of `size` (1 to 5) of these counts, which must be ascending.
 
     plain   True for int64, False for Python integers, None to decide by the largest product
 
-    `RangeError` is raised if the tables would not fit in memory.
+    Raise `RangeError` if the tables would not fit in memory.
     """
     plain = counts[-1] ** size < PLAIN if plain is None else plain
     check_memory(counts, size, plain)
@@ -244,7 +249,10 @@ def products_of(counts: tuple[int, ...], size: int, plain: bool | None = None) -
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
-    """Return every multiset of `below` numbers with a number >= all of them: product, counts, index of that number."""
+    """Return every multiset of `below` numbers with one number that is at least as large as all of them.
+
+    The arrays are the product, the counts, and the index of that number, one row for each multiset.
+    """
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
     lows = np.concatenate([np.concatenate(parts), numbers[table][:, None]], axis=1)
@@ -252,7 +260,6 @@ def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
 
 
 def _by_product(chosen: Ints) -> Ints:
-    """Sort multisets (rows) by their products."""
     return np.asarray(chosen[np.argsort(row_products(chosen), kind="stable")])
 
 
@@ -300,14 +307,16 @@ def _array(counts: tuple[int, ...]) -> Ints:
 
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Places:
-    """Return the index after the last high part whose product with each row is less than `bound`, (rows,)."""
+    """Return for each row the index after the last high part whose product with the row is below `bound`, shape
+    (rows,).
+    """
     # one binary search for all tables: the offset of a row selects its table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
     return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
 
 
 def _chosen(numbers: Ints, size: int) -> Ints:
-    """Return all multisets of 0, 1 or 2 of the numbers, ascending within each, (multisets, size)."""
+    """Return all multisets of 0, 1 or 2 of the numbers, ascending within each, shape (multisets, size)."""
     if size == 0:
         return np.empty((1, 0), dtype=numbers.dtype)
     if size == 1:

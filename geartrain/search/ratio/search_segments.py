@@ -1,4 +1,4 @@
-"""Search of one segment of the denominator products against the numerator products that may match them.
+"""Search of one segment of the denominator products for the numerator products that match them.
 
 `lay_out` divides a search into segments of about equal work. Segments are independent, their problems and results are
 plain JSON data, and the division has no influence on the result.
@@ -44,7 +44,7 @@ _BINS = 256  # number of bins of the histogram of logarithms of counts
 
 @dataclass(frozen=True, slots=True)
 class SegmentPlan:
-    """Segments of the denominator products, and the density of pairs of multisets."""
+    """Division of the denominator products into segments, and the density of pairs of multisets."""
 
     bounds: tuple[int, ...]
     """Bounds of the denominator products, ascending. Segment n is [bounds[n], bounds[n + 1])."""
@@ -55,7 +55,7 @@ class SegmentPlan:
 
     @property
     def segments(self) -> tuple[tuple[int, int], ...]:
-        """Bounds of the segments, half-open."""
+        """First product and end (exclusive) of each segment."""
         return tuple(zip(self.bounds, self.bounds[1:], strict=False))
 
     def tolerance_for(self, number: float) -> Fraction:
@@ -65,7 +65,7 @@ class SegmentPlan:
 
 
 def lay_out(question: StageProblem) -> SegmentPlan:
-    """Divide the search into segments of about two blocks of products each, numerators and denominators together."""
+    """Divide the search into segments of about two blocks of products each, counting numerators and denominators."""
     size, value = question.stages, question.value
     spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
     # a single count has a span of 0
@@ -94,7 +94,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
 
 
 def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
-    """Return the number of multisets by the logarithm of their product, in bins of `width` from the minimum."""
+    """Return a histogram of the multisets by the logarithm of their product, in bins of `width` from the minimum."""
     places = np.array([log(count / counts[0]) / width for count in counts])
     one = np.bincount(places.astype(np.int64)).astype(np.float64)
     found = np.ones(1)
@@ -107,7 +107,7 @@ def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
 BLOCK = 1 << 21
 """Maximum number of products of one side in memory."""
 PER_ROW = 3
-"""Minimum number of products per row of the tables in a block. A window costs a binary search in every row."""
+"""Minimum number of products per row of the tables in a block, because each row costs a binary search."""
 _FEW = 1000  # solutions that may be factored individually from their products
 
 Range = tuple[int, int]
@@ -116,7 +116,7 @@ Range = tuple[int, int]
 def task_of(
     question: StageProblem, low: int, high: int, hint: Fraction, bound: tuple[int, Fraction, int] | None = None
 ) -> dict[str, Any]:
-    """Return the plain data of one segment.
+    """Return the plain data of the search of one segment.
 
     low, high  range of the denominator products, half-open
     hint       a tolerance within which some of the best solutions are expected
@@ -127,10 +127,10 @@ def task_of(
 
 
 def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
-    """Count the solutions of a segment, exactly, and return its best.
+    """Count the solutions of a segment exactly, and return the best of them.
 
-    The result has the keys `count`; `removed`, reason -> number of pairs of multisets within the tolerance that are not
-    solutions; and `rows`, the best as [rank value, numerator counts, denominator counts].
+    The result has the keys `count`; `removed`, the number of pairs of multisets within the tolerance that are not
+    solutions, by reason; and `rows`, the best as [rank value, numerator counts, denominator counts].
     """
     question = stage_problem_of(task["question"])
     plain = task["bound"]
@@ -143,12 +143,12 @@ def search_segment(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def listed_by_value(question: StageProblem) -> bool:
-    """Return whether solutions can be ranked by their products, without an inspection of each."""
+    """Return whether solutions can be ranked by their products, without a test of each solution."""
     return question.by == "error" and question.loose and question.best <= _FEW
 
 
 def block_of(question: StageProblem) -> int:
-    """Return the number of products of one side in a block: `BLOCK`, or more if the tables are longer."""
+    """Return the maximum number of products of one side in a block: `BLOCK`, or more if the tables have many rows."""
     numbers = max(len(question.top), len(question.beneath))
     return max(BLOCK, PER_ROW * multisets(numbers, (question.stages + 1) // 2))
 
@@ -184,7 +184,7 @@ _CLOSE = Fraction(1, 10**40)  # at this distance only pairs with the same ratio 
 
 
 class ValueFinder:
-    """Count of all solutions by runs of equal products, and list of the best by error, sum and largest count."""
+    """Search that counts solutions by runs of equal products and lists the best by error, sum and largest count."""
 
     def __init__(self, question: StageProblem, hint: Fraction, bound: tuple[int, Fraction, int] | None) -> None:
         self.question, self.hint = question, hint
@@ -198,7 +198,7 @@ class ValueFinder:
         return {"count": self.count, "removed": {}, "rows": rows}
 
     def look(self, beneath: Range, top: Range) -> None:
-        """Process all pairs of products of two ranges."""
+        """Count and rank all pairs of denominator and numerator products in two ranges."""
         under, over = distinct(self.question.under.values(*beneath)), distinct(self.question.over.values(*top))
         low, high = self.question.edges
         whole = cuts(over[0], under[0], low, high)
@@ -208,8 +208,10 @@ class ValueFinder:
             self._keep(*self._nearest(under, over, whole))
 
     def _nearest(self, under: Span, over: Span, whole: Span) -> tuple[Ints, Ints, Ints]:
-        """Return the pairs of products that include the best of the block: numerators, denominators, numbers of
-        multiset pairs.
+        """Return pairs of products that include the best of the block.
+
+        The arrays are numerator products, denominator products, and the number of pairs of multisets with these
+        products.
         """
         best, limit = self.question.best, self.question.tolerance
         if self.most:
@@ -230,11 +232,12 @@ class ValueFinder:
             else:
                 tolerance, span = middle, inner
         i, j = spread(*span)
+        # multisets with these two products
         sets = (under[1][i + 1] - under[1][i]) * (over[1][j + 1] - over[1][j])
         return over[0][j], under[0][i], sets
 
     def _span(self, under: Span, over: Span, whole: Span, tolerance: Fraction) -> Span:
-        """Return the range of numerator products within a narrower tolerance for each denominator product."""
+        """Return for each denominator product the index range of the numerator products within a narrower tolerance."""
         value, (low, high) = self.question.value, self.question.edges
         if tolerance >= self.question.tolerance:
             return whole
@@ -242,7 +245,7 @@ class ValueFinder:
         return cuts(over[0], under[0], low, high) if low <= high else (whole[0], whole[0])
 
     def _keep(self, over: Ints, under: Ints, sets: Ints) -> None:
-        """Merge the best of these pairs of products into the list."""
+        """Merge the best of these pairs of products into the list of solutions."""
         value, size, best = self.question.value, self.question.stages, self.question.best
         error = np.abs(errors(over, under, value))
         order = np.argsort(error, kind="stable")
@@ -258,6 +261,7 @@ class ValueFinder:
             miss, total = misses[place[at]], float(minimum[at])
             if self._too_late(miss, total):
                 break
+            # as far away as the known bound, but with a larger sum
             if self.most and miss == self.most[0] and total > self.most[1]:
                 continue
             beneaths = expand(int(under[at]), self.question.beneath, size)
@@ -278,7 +282,10 @@ class ValueFinder:
 
 
 def distinct(values: Ints) -> Span:
-    """Return the distinct values of an ascending array, (n,), and their first indices with the length, (n + 1,)."""
+    """Return the distinct values of an ascending array, shape (n,), and the index of the first of each, shape (n + 1,).
+
+    The last index is the length of the array.
+    """
     fresh = np.ones(len(values), dtype=bool)
     fresh[1:] = values[1:] != values[:-1]
     at = np.flatnonzero(fresh)
@@ -286,17 +293,16 @@ def distinct(values: Ints) -> Span:
 
 
 def weight(under: Span, over: Span, span: Span) -> int:
-    """Count the pairs of multisets: those of all numerator products in the range of each denominator product."""
+    """Count the pairs of multisets in which the numerator product is in the range of the denominator product."""
     return int(((over[1][span[1]] - over[1][span[0]]) * (under[1][1:] - under[1][:-1])).sum())
 
 
 def _pairs(span: Span) -> int:
-    """Return the number of pairs of products."""
     return int((span[1] - span[0]).sum())
 
 
 def _minimum_sums(over: Ints, under: Ints, size: int) -> Floats:
-    """Return a lower bound of the sum of all counts. By the AM-GM inequality equal counts have the minimum sum."""
+    """Return a lower bound of the sum of all counts from their products, by the AM-GM inequality."""
     root = 1.0 / size
     sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
     # reduced by the rounding error of the roots, because a lower bound must not be too large
@@ -311,7 +317,7 @@ CHUNK = 1 << 16
 
 
 class RowFinder:
-    """Search that inspects every pair of multisets within the tolerance."""
+    """Search that tests every pair of multisets within the tolerance."""
 
     def __init__(self, question: StageProblem, bound: tuple[int, Fraction, int] | None) -> None:
         self.question = question
@@ -325,7 +331,7 @@ class RowFinder:
         return {**found, "count": self.count} if self.loose else found
 
     def look(self, beneath: Range, top: Range) -> None:
-        """Process all pairs of multisets with products in two ranges."""
+        """Test and rank all pairs of multisets with denominator and numerator products in two ranges."""
         question, (low, high) = self.question, self.question.edges
         below, above = distinct(question.under.values(*beneath)), distinct(question.over.values(*top))
         span = cuts(above[0], below[0], low, high)
@@ -345,7 +351,7 @@ class RowFinder:
                 self.judge.see(over, under, j, i)
 
     def _prune(self, sets: CountSets, minimum: int) -> CountSets:
-        """Remove multisets that cannot be in a better solution than those listed, if every pair is a solution."""
+        """Remove multisets that cannot be part of a better solution than those listed, if every pair is a solution."""
         bound, by = self.judge.best.bound, self.question.by
         if not self.loose or bound is None or by not in ("total", "largest"):
             return sets
@@ -355,7 +361,9 @@ class RowFinder:
 
 @dataclass(frozen=True, slots=True)
 class CountSets:
-    """Multisets of counts of one side: products (n,), counts (n, k), sums (n,) and largest counts (n,)."""
+    """Multisets of counts of one side: products, shape (n,), counts, shape (n, k), sums and largest counts,
+    shape (n,).
+    """
 
     products: Ints
     counts: Ints
@@ -368,13 +376,13 @@ class CountSets:
 
 
 def sets_of(products: Ints, counts: Ints) -> CountSets:
-    """Build multisets from products and counts (ascending in each row)."""
+    """Build multisets from their products and counts, which must be ascending in each row."""
     counts = counts.astype(np.int64)
     return CountSets(products, counts, counts.sum(axis=1), counts[:, -1])
 
 
 class StageFilter:
-    """Filter of pairs of multisets by the constraints; counts the solutions and keeps the best."""
+    """Filter of pairs of multisets by the constraints. It counts the solutions and keeps the best."""
 
     def __init__(self, question: StageProblem, bound: tuple[int, float] | None = None) -> None:
         self.question, self.fit = question, question.fit
@@ -390,7 +398,9 @@ class StageFilter:
         return {"count": self.count, "removed": self.removed, "rows": [list(row) for row in plain]}
 
     def see(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> None:
-        """Process the pairs of numerator multisets j and denominator multisets i."""
+        """Test and rank the pairs of the numerator multisets with indices j and the denominator multisets with indices
+        i.
+        """
         bound = self.best.bound
         if self.quick and bound:
             # solutions that are certainly not among the best need no test of their counts
@@ -403,7 +413,7 @@ class StageFilter:
             self._rank(over, under, j[good], i[good], found)
 
     def _first(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> Ints:
-        """Return the primary rank values, from the sums and largest counts only."""
+        """Return the primary sort criterion of each pair, computed only from sums and largest counts."""
         if self.question.by == "total":
             return np.asarray(over.sums[j] + under.sums[i])
         if self.question.by == "largest":
@@ -411,7 +421,6 @@ class StageFilter:
         return np.zeros(len(j), dtype=np.int64)
 
     def _rank(self, over: CountSets, under: CountSets, j: Ints, i: Ints, found: FeasiblePairings | None) -> None:
-        """Add these solutions to the list of the best."""
         top, beneath = over.counts[j], under.counts[i]
         first = first_of(self.question.by, top, beneath, self.fit, found)
         p, q = over.products[j], under.products[i]
@@ -423,7 +432,9 @@ class StageFilter:
             self.best.add(rows)
 
     def _feasible(self, over: CountSets, under: CountSets, j: Ints, i: Ints) -> tuple[Ints, FeasiblePairings | None]:
-        """Return the pairs (indices) that satisfy the constraints, and their pairings; count the others by reason."""
+        """Return the indices of the pairs that satisfy the constraints, and their pairings; count the others by
+        reason.
+        """
         fit, at = self.fit, np.arange(len(j))
         top, beneath = over.counts[j], under.counts[i]
         if fit.different:
@@ -450,7 +461,7 @@ class StageFilter:
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """Return the reason for which pairs of multisets without a feasible pairing are rejected."""
+    """Return as text why pairs of multisets without a feasible pairing to stages are rejected."""
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),

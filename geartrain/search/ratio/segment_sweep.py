@@ -1,4 +1,4 @@
-"""Search of all segments, serial or parallel, and the tolerance that proves that the best solutions were found."""
+"""Search of all segments, serial or parallel, and the tolerance that proves the list of the best solutions."""
 
 from __future__ import annotations
 
@@ -56,8 +56,9 @@ def stages_of(question: StageProblem, total: int) -> list[tuple[int, int]]:
 
 
 def tally(question: StageProblem) -> dict[str, int]:
-    """Count the pairs of multisets that lack a common centre distance, a coprime pairing, or an admissible total;
-    exact.
+    """Count the pairs of multisets that are not reverted trains, by reason, exactly.
+
+    They lack a common centre distance, a coprime pairing, or an admissible sum of counts.
     """
     size, fit = question.stages, question.fit
     minimum, most = fit.totals
@@ -75,10 +76,11 @@ def tally(question: StageProblem) -> dict[str, int]:
 
 
 def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
-    """Search all reverted trains whose stages have a sum of counts in [low, high); same result as `search_segment`.
+    """Search all reverted trains whose stages have a sum of counts in [low, high), with the same result as
+    `search_segment`.
 
-    Every multiset of stages is visited once, as a lower and an upper half: meet in the middle on the products of
-    ratios.
+    Every multiset of stages is generated once, from a lower and an upper half, by a meet in the middle on the products
+    of ratios.
     """
     question = stage_problem_of(task["question"])
     judge = StageFilter(question)
@@ -93,7 +95,7 @@ def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageFilter) -> None:
-    """Send all multisets of these stages with a ratio within the tolerance to the filter."""
+    """Send all multisets of these stages whose ratio is within the tolerance to the filter `judge`."""
     size = question.stages
     counts = np.array(stages, dtype=np.int64 if question.plain_integers else object)
     lower, upper = _halves(len(stages), size // 2), _halves(len(stages), size - size // 2)
@@ -108,12 +110,13 @@ def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageF
     for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
         # only halves in ascending order, so that each multiset occurs once
         once = np.flatnonzero(lower[i, -1] <= upper[j, 0]) if size > 1 else np.arange(len(i))
+        # indices of the stages of each candidate
         chosen = np.concatenate([lower[i[once]], upper[j[once]]], axis=1)
         _judge(question, counts, chosen, judge)
 
 
 def _judge(question: StageProblem, counts: Ints, chosen: Ints, judge: StageFilter) -> None:
-    """Select the candidates within the tolerance by exact arithmetic and send them to the filter."""
+    """Select the candidates within the tolerance by exact arithmetic, and pass them to the filter `judge`."""
     tops, beneaths = np.sort(counts[chosen, 0], axis=1), np.sort(counts[chosen, 1], axis=1)
     over, under = row_products(tops), row_products(beneaths)
     inside = np.flatnonzero(_are_within(over, under, question))
@@ -122,7 +125,7 @@ def _judge(question: StageProblem, counts: Ints, chosen: Ints, judge: StageFilte
 
 
 def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
-    """Return whether each over / under is within the tolerance, exactly."""
+    """Return whether each ratio over / under is within the tolerance, by exact arithmetic."""
     if not len(over):
         return np.zeros(0, dtype=bool)
     # `cuts` requires ascending products
@@ -133,7 +136,9 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
 
 
 def _halves(number: int, size: int) -> Ints:
-    """Return the multisets of `size` of the integers 0 to `number` - 1, ascending in each row, (multisets, size)."""
+    """Return the multisets of `size` of the integers 0 to `number` - 1, ascending in each row, shape
+    (multisets, size).
+    """
     found = np.zeros((1, 0), dtype=np.int64)
     for _ in range(size):
         minimum = found[:, -1] if found.shape[1] else np.zeros(1, dtype=np.int64)
@@ -145,10 +150,9 @@ def _halves(number: int, size: int) -> Ints:
 Bound = tuple[int, Fraction, int]
 _WIDER = 16  # factor between tolerances; all passes before the last then cost little
 _ENOUGH = 2 * 10**9
-"""Number of individually inspected pairs of multisets after which a search without a tolerance is not widened further.
-"""
+"""Number of tested pairs of multisets at which a search without a tolerance stops to widen its tolerance."""
 _MOST = 1e11
-"""Maximum number of pairs of multisets that may be inspected individually."""
+"""Maximum number of pairs of multisets that may be tested one by one."""
 _PILOT = Fraction(1, 100)  # absolute error beyond which the first segment is not widened
 
 
@@ -163,7 +167,7 @@ class SweepOutcome:
     complete: bool = True
     """True if every segment was searched."""
     note: str = ""
-    """Reason for which fewer solutions were found than may exist."""
+    """Reason why fewer solutions were found than may exist; "" otherwise."""
 
     @property
     def inside(self) -> int:
@@ -181,11 +185,12 @@ def within(question: StageProblem, means: Execution) -> SweepOutcome:
 def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     """Find the best solutions by absolute error, with proof.
 
-    The tolerance is increased until it includes enough solutions, so that all others have larger errors. The tolerance
-    of the problem is ignored.
+    The tolerance is increased until it includes enough solutions, so all other solutions have larger errors. The
+    tolerance of the problem is ignored.
     """
     search = _search_for(question)
     minimum, most = reach_of_errors(question.value, *question.reach)
+    # the pilot finds some good solutions, whose error limits the search
     start, bound = search.start(), search.widened_pilot()
     if bound:
         start = rounded_up(bound[1])
@@ -217,11 +222,11 @@ class _ByProducts:
         self.many = len(self.plan.segments) > 1
 
     def start(self) -> Fraction:
-        """Return a tolerance within which a few times the requested number of pairs is expected."""
+        """Return a tolerance within which about four times the requested number of pairs is expected."""
         return rounded_up(self.plan.tolerance_for(4 * self.question.best))
 
     def check(self, tolerance: Fraction) -> None:
-        """Raise `RangeError` if too many pairs of multisets must be inspected individually."""
+        """Raise `RangeError` if too many pairs of multisets must be tested one by one."""
         pairs = float(tolerance) * self.plan.density
         if pairs > _MOST and not listed_by_value(self.question):
             raise RangeError(
@@ -236,7 +241,7 @@ class _ByProducts:
         return task_of(replace(self.question, tolerance=tolerance), *segment, self.start(), bound)
 
     def pilot(self, tolerance: Fraction) -> Bound | None:
-        """Return a bound of the best solutions, from the densest segment and the one with the smallest counts."""
+        """Return a bound on the best solutions, from the densest segment and the segment with the smallest counts."""
         if not self.many:
             return None
         bound = None
@@ -259,7 +264,9 @@ class _ByProducts:
         return min((bound for bound in found if bound), default=None)
 
     def _segment_bound(self, tolerance: Fraction, number: int, known: Bound | None = None) -> tuple[Bound | None, int]:
-        """Return the rank of the last solution kept from one segment, and the number of pairs that were inspected."""
+        """Return the rank of the last solution kept from one segment (None if too few), and the number of pairs
+        tested.
+        """
         question = self.question
         result = search_segment(self._task(tolerance, self.plan.segments[number], known))
         keys = _keys(result, question)
@@ -267,7 +274,6 @@ class _ByProducts:
         return (keys[-1][:3] if len(keys) == question.best else None), inside
 
     def sweep(self, tolerance: Fraction, bound: Bound | None, means: Execution) -> SweepOutcome:
-        """Search all segments within a tolerance."""
         tasks = [self._task(tolerance, segment, bound) for segment in self.plan.segments]
         return _run_tasks(search_segment, tasks, self.question, tolerance, means)
 
@@ -281,7 +287,7 @@ class _BySums:
         self.question = question
 
     def start(self) -> Fraction:
-        """Return a tolerance within which a few times the requested number of reverted trains is expected."""
+        """Return a tolerance within which about four times the requested number of reverted trains is expected."""
         question = self.question
         stages = (len(stages_of(question, total)) for total in sums_of(question))
         number = sum(multisets(count, question.stages) for count in stages if count)
@@ -293,7 +299,7 @@ class _BySums:
         """Accept every tolerance, because there are few reverted trains."""
 
     def pilot(self, tolerance: Fraction) -> Bound | None:
-        """Return None: no initial bound is computed, because the segments are small."""
+        """Return None, because the segments are small and need no initial bound."""
         del tolerance
         return None
 
@@ -302,7 +308,6 @@ class _BySums:
         return None
 
     def sweep(self, tolerance: Fraction, bound: Bound | None, means: Execution) -> SweepOutcome:
-        """Search all sums within a tolerance."""
         del bound
         question = replace(self.question, tolerance=tolerance)
         # four and more stages are slow, so eight sums are one task; fewer stages are one task in all
@@ -326,7 +331,7 @@ def _run_tasks(
     tolerance: Fraction,
     means: Execution,
 ) -> SweepOutcome:
-    """Run all segments and merge their results; a keyboard interrupt returns the results so far."""
+    """Search all segments and merge their results. After a keyboard interrupt return the results obtained so far."""
     # a single task runs in this process, without the overhead of an executor
     alone = len(tasks) == 1
     results = iter([work(tasks[0])]) if alone else means.run(work, tasks)

@@ -36,7 +36,7 @@ _TABLE = 1024  # maximum count of the lookup table of coprime pairs
 
 @dataclass(frozen=True, slots=True)
 class StageConstraints(Result):
-    """Constraints on the tooth counts of a train of stages and on their pairing, all satisfied by the same pairing.
+    """Constraints on the tooth counts of a train of stages, all of which one pairing of the counts must satisfy.
 
     Examples
     --------
@@ -58,7 +58,7 @@ class StageConstraints(Result):
     """
     minimum_total: int | None = None
     """Minimum sum of all counts."""
-    most_total: int | None = None
+    maximum_total: int | None = None
     """Maximum sum of all counts."""
     largest: int | None = None
     """Maximum tooth count of a wheel."""
@@ -82,16 +82,16 @@ class StageConstraints(Result):
     def totals(self) -> tuple[int, int]:
         """Minimum and maximum sum of all counts."""
         minimum = 0 if self.minimum_total is None else self.minimum_total
-        return minimum, (1 << 62) if self.most_total is None else self.most_total
+        return minimum, (1 << 62) if self.maximum_total is None else self.maximum_total
 
     @property
     def totals_matter(self) -> bool:
         """True if the sum of all counts is bounded."""
-        return self.minimum_total is not None or self.most_total is not None
+        return self.minimum_total is not None or self.maximum_total is not None
 
     @property
     def free(self) -> bool:
-        """True if every pair of multisets satisfies the constraints other than `largest`."""
+        """True if the constraints, apart from `largest`, are satisfied by every pair of multisets."""
         return not (self.pairs_matter or self.different or self.totals_matter)
 
     def check(self, stages: int) -> None:
@@ -112,7 +112,7 @@ class StageConstraints(Result):
             )
         minimum, most = self.totals
         if minimum > most:
-            what = f"minimum_total is {minimum}, most_total is {most}"
+            what = f"minimum_total is {minimum}, maximum_total is {most}"
             raise QuestionError(Problem(what, "the minimum exceeds the maximum", "exchange them, or omit one"))
 
 
@@ -129,13 +129,13 @@ class StageProblem:
     beneath: Set
     """Admissible counts of the denominator, ascending."""
     fit: StageConstraints
-    """Constraints on the counts; `largest` is already applied to `top` and `beneath`."""
+    """Constraints on the tooth counts; `largest` is already applied to `top` and `beneath`."""
     by: str
     """Order of the solutions, a `StageOrder`."""
     best: int
     """Number of solutions to keep."""
     tolerance: Fraction
-    """Maximum absolute error as a fraction of the value."""
+    """Maximum absolute relative error of the ratio."""
 
     @property
     def plain_integers(self) -> bool:
@@ -176,7 +176,7 @@ class StageProblem:
         return multisets(len(self.top), self.stages) * multisets(len(self.beneath), self.stages)
 
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
-        """Return the part of [low, high) in which a denominator product can match a numerator product."""
+        """Return the part of the range [low, high) of denominator products in which a numerator product can match."""
         first, last = self.edges
         minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
         return max(low, -(-minimum * last.denominator // last.numerator)), min(
@@ -184,7 +184,7 @@ class StageProblem:
         )
 
     def tops_for(self, low: int, high: int) -> tuple[int, int]:
-        """Return the half-open range of numerator products that denominator products in [low, high) can match."""
+        """Return the half-open range of the numerator products that can match denominator products in [low, high)."""
         first, last = self.edges
         minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
         return max(-(-low * first.numerator // first.denominator), minimum), min(
@@ -232,14 +232,14 @@ def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
 
 @dataclass(frozen=True, slots=True)
 class FeasiblePairings:
-    """Best properties of the pairings that satisfy the constraints, for n pairs of multisets."""
+    """Best properties of the feasible pairings of numerator and denominator counts, for n pairs of multisets."""
 
     possible: Bools
-    """Truth of the statement that some pairing satisfies the constraints, (n,)."""
+    """True if some pairing satisfies the constraints, shape (n,)."""
     coprime: Ints
-    """Maximum number of stages with coprime counts over these pairings, (n,); 0 if no pairing is feasible."""
+    """Maximum number of stages with coprime counts over the feasible pairings, shape (n,); 0 if there are none."""
     centres: Ints
-    """Minimum number of distinct centre distances over these pairings, (n,); large if no pairing is feasible."""
+    """Minimum number of distinct centre distances over the feasible pairings, shape (n,); 2 k if there are none."""
 
     def taken(self, at: Ints) -> FeasiblePairings:
         """Return the rows at the given indices."""
@@ -249,9 +249,10 @@ class FeasiblePairings:
 def suited(
     tops: Ints, beneaths: Ints, fit: StageConstraints, *, coprime: bool = True, centres: bool = True
 ) -> FeasiblePairings:
-    """Evaluate all k! pairings and choices of internal meshes of numerator and denominator counts, (n, k) each.
+    """Evaluate all k! pairings of numerator and denominator counts, shape (n, k) each, with all choices of internal
+    meshes.
 
-    coprime, centres   False if this property is not needed; it is then 0
+    coprime, centres   False if this property is not needed; it is then not evaluated
     """
     size = tops.shape[1]
     step = max(_CHUNK // (len(_arrangements(size, fit.internal)[0]) * size), 1)
@@ -266,7 +267,7 @@ def suited(
 def _evaluate_chunk(
     tops: Ints, beneaths: Ints, fit: StageConstraints, coprime: bool, centres: bool
 ) -> tuple[Bools, Ints, Ints]:
-    """Return the columns of `FeasiblePairings` for one chunk."""
+    """Return the columns of `FeasiblePairings` for some rows of numerator and denominator counts."""
     size = tops.shape[1]
     orders, rings, meshes, ringed = _arrangements(size, fit.internal)
     possible = np.ones((len(tops), len(orders)), dtype=bool)
@@ -277,9 +278,11 @@ def _evaluate_chunk(
         if fit.hunting:
             possible &= alone == size
     if fit.internal:
+        # a ring and its pinion must have different counts
         possible &= (_code(tops[:, :, None] != beneaths[:, None, :])[:, None] & ringed) == ringed
     if fit.reverted or centres:
         tall, short = tops[:, None, :], beneaths[:, orders]
+        # twice the centre distance in modules
         distances = np.where(rings, np.abs(tall - short), tall + short)
         if fit.reverted:
             possible &= (distances[:, :, 1:] == distances[:, :, :1]).all(axis=2)
@@ -294,15 +297,16 @@ def _evaluate_chunk(
 
 
 def _code(table: Bools) -> Ints:
-    """Encode a table of size x size truths as a bit mask: bit size i + j for numerator count i with denominator count
-    j.
+    """Encode a boolean table of size x size as a bit mask, in which bit size i + j is entry (i, j).
+
+    Entry (i, j) belongs to numerator count i and denominator count j.
     """
     size = table.shape[1]
     return table.reshape(len(table), size * size) @ (1 << np.arange(size * size, dtype=np.int64))
 
 
 def _coprime(tops: Ints, beneaths: Ints) -> Bools:
-    """Return whether each numerator count is coprime to each denominator count, (n, k, k)."""
+    """Return whether each numerator count is coprime to each denominator count, shape (n, k, k)."""
     most = int(max(tops.max(initial=1), beneaths.max(initial=1)))
     if most > _TABLE:
         return np.asarray(np.gcd(tops[:, :, None], beneaths[:, None, :]) == 1)
@@ -319,8 +323,8 @@ def _coprime_table() -> Bools:
 def _arrangements(size: int, internal: int) -> tuple[Ints, Bools, Ints, Ints]:
     """Return every permutation of the denominator counts with every choice of the internal stages.
 
-    The arrays are permutations and choices, (arrangements, size) each, and the bit masks of all meshes and of the
-    internal meshes, (arrangements,) each, encoded as by `_code`.
+    The arrays are permutations and choices, shape (arrangements, size) each, and the bit masks of all meshes and of the
+    internal meshes, shape (arrangements,) each, encoded as by `_code`.
     """
     choices = [[stage in chosen for stage in range(size)] for chosen in combinations(range(size), internal)]
     both = [(order, choice) for order in permutations(range(size)) for choice in choices]
@@ -360,7 +364,7 @@ def best_pairing(
 
 
 def _sorted(stages: Pairs, chosen: tuple[int, ...]) -> Pairs:
-    """Return external pairs first, then internal pairs, each ascending."""
+    """Return the external pairs, ascending, followed by the internal pairs, ascending."""
     if not chosen:
         return tuple(sorted(stages))
     plain = sorted(pair for at, pair in enumerate(stages) if at not in chosen)
@@ -368,7 +372,9 @@ def _sorted(stages: Pairs, chosen: tuple[int, ...]) -> Pairs:
 
 
 def _merit(pairs: Pairs, fit: StageConstraints, centres: bool) -> tuple[int, int] | None:
-    """Return the sort key of a pairing, best first, or None if it does not satisfy the constraints."""
+    """Return the sort key of a pairing: number of centre distances, minus number of coprime stages; None if
+    infeasible.
+    """
     border = len(pairs) - fit.internal
     coprime = sum(gcd(a, b) == 1 for a, b in pairs)
     if (fit.hunting and coprime < len(pairs)) or any(a == b for a, b in pairs[border:]):
@@ -382,7 +388,9 @@ def _merit(pairs: Pairs, fit: StageConstraints, centres: bool) -> tuple[int, int
 
 
 def _spread(pairs: Pairs, scale: int) -> Fraction:
-    """Return the maximum ratio over the minimum; `scale` is a multiple of all denominator counts."""
+    """Return the quotient of the maximum and minimum ratio of a stage; `scale` is a multiple of all denominator
+    counts.
+    """
     ratios = [a * (scale // b) for a, b in pairs]
     return Fraction(max(ratios), min(ratios))
 
@@ -391,17 +399,19 @@ def _spread(pairs: Pairs, scale: int) -> Fraction:
 
 
 StageOrder = Literal["error", "total", "largest", "distinct", "hunting", "centres"]
-"""Primary criterion of the order: minimum absolute error, sum of counts, largest count, number of distinct counts;
-maximum number of stages with coprime counts; minimum number of centre distances. Ties are broken by absolute error,
-sum, largest count, and the counts.
+"""Primary criterion of the order of solutions: minimum absolute error, sum of counts, largest count or number of
+distinct counts; maximum number of stages with coprime counts; minimum number of centre distances.
+
+Ties are broken by absolute error, sum, largest count, and the counts.
 """
 
 StageRank = tuple[int, Fraction, int, int, Set, Set]
-"""Sort key of a solution, best first: primary criterion, absolute error, sum, largest count, counts of both sides."""
+"""Sort key of a solution: primary criterion, absolute error, sum, largest count, counts of numerator and denominator.
+"""
 
 
 def check_order(by: str) -> None:
-    """Raise `QuestionError` if the order is unknown."""
+    """Raise `QuestionError` if the name of an order is unknown."""
     if by not in get_args(StageOrder):
         known = ", ".join(get_args(StageOrder))
         raise QuestionError(
@@ -413,20 +423,20 @@ def check_order(by: str) -> None:
 
 @dataclass(frozen=True, slots=True)
 class RankedStages:
-    """Candidate solutions as columns of n rows."""
+    """Candidate solutions as columns of n rows, with k tooth counts on each side."""
 
     top: Ints
-    """Numerator counts, ascending in each row, (n, k)."""
+    """Numerator counts, ascending in each row, shape (n, k)."""
     beneath: Ints
-    """Denominator counts, ascending in each row, (n, k)."""
+    """Denominator counts, ascending in each row, shape (n, k)."""
     over: Ints
-    """Products of the numerator counts, (n,)."""
+    """Products of the numerator counts, shape (n,)."""
     under: Ints
-    """Products of the denominator counts, (n,)."""
+    """Products of the denominator counts, shape (n,)."""
     first: Ints
-    """Primary criterion of the order, best first, (n,)."""
+    """Primary criterion of the order; smaller is better, shape (n,)."""
     error: Floats
-    """Absolute error, accurate enough for pruning, (n,)."""
+    """Approximate absolute relative error, used for pruning, shape (n,)."""
 
     def __len__(self) -> int:
         return len(self.first)
@@ -438,13 +448,13 @@ class RankedStages:
 
     @classmethod
     def joined(cls, parts: Sequence[RankedStages]) -> RankedStages:
-        """Join the rows of all parts."""
+        """Join the rows of all parts into one set of arrays."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
 def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints, found: FeasiblePairings | None = None) -> Ints:
-    """Return the primary criterion of the order, best first, for numerator and denominator counts, (n, k) each."""
+    """Return the primary sort criterion (smaller is better) for numerator and denominator counts, shape (n, k) each."""
     if by in ("hunting", "centres"):
         found = found or suited(tops, beneaths, fit, coprime=by == "hunting", centres=by == "centres")
         return -found.coprime if by == "hunting" else found.centres
@@ -465,7 +475,7 @@ def margin(error: float) -> float:
 
 
 def cut(rows: RankedStages, best: int, value: Fraction) -> RankedStages:
-    """Return the first `best` rows in their order, compared exactly."""
+    """Return the first `best` rows in their exact order."""
     if len(rows) > best:
         # approximate errors select slightly too many, which are then compared as Fractions
         order = np.lexsort((rows.error, rows.first))
@@ -494,7 +504,7 @@ def merged(keys: Iterable[StageRank], best: int) -> list[StageRank]:
 
 
 class BestStages:
-    """List of the first n of all rows that are added, in bounded memory."""
+    """List of the n best of all rows that are added, in bounded memory."""
 
     def __init__(self, best: int, value: Fraction, bound: tuple[int, float] | None = None) -> None:
         self.best, self.value = best, value
@@ -504,11 +514,11 @@ class BestStages:
 
     @property
     def bound(self) -> tuple[int, float] | None:
-        """Primary criterion and error beyond which rows cannot be among the first n; None if unknown."""
+        """Primary criterion and error beyond which rows cannot be among the n best; None if unknown."""
         return self._bound
 
     def add(self, rows: RankedStages) -> None:
-        """Add rows to the candidates."""
+        """Add candidate rows to the list."""
         self._parts.append(rows)
         self._held += len(rows)
         # several times the list length is stored between two sorts, which amortises their cost
@@ -516,7 +526,7 @@ class BestStages:
             self._settle()
 
     def rows(self) -> RankedStages | None:
-        """Return the first n rows in order, or None if no row was added."""
+        """Return the n best rows in order; None if no row was added."""
         if not self._parts:
             return None
         self._settle()

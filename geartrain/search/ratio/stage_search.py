@@ -3,9 +3,9 @@
 A train of k stages has the ratio P / Q, where P and Q are products of k tooth counts each. For every denominator
 product Q, the numerator products P within the tolerance are a contiguous window of a sorted list. This meet-in-the-
 middle search finds all solutions at the cost of sorting. The ends of the windows are determined in integers. Products
-are generated in segments of value, which bounds the memory and gives independent tasks. Four stages of 200 counts
-(69 million multisets per side) need less than 0.2 GB, five (2800 million) less than 0.4 GB, and with constraints and
-other orders less than 0.5 GB.
+are generated in segments of value, which bounds the memory and gives independent tasks. Four stages of 200 counts (69
+million multisets per side) need less than 0.2 GB, five stages (2800 million) less than 0.4 GB, and less than 0.5 GB
+with constraints and other orders.
 """
 
 from __future__ import annotations
@@ -39,11 +39,12 @@ _QUICK = 3 * 10**6  # maximum number of products for the suggestion of one more 
 
 @dataclass(frozen=True, slots=True)
 class StageFindings(Tabular, Result):
-    """Solutions of one ratio by stages as pairs of multisets of counts. The object is a sequence of its `solutions`.
+    """Solutions for one ratio by stages, as pairs of multisets of tooth counts. The object is a sequence of its
+    `solutions`.
 
     See Also
     --------
-    find_stages : returns it.
+    find_stages : Search for one ratio by stages.
     """
 
     ROWS = "search.tooth_numbers_report:stage_rows"
@@ -91,8 +92,10 @@ class StageFindings(Tabular, Result):
     by: str
     """Order of `solutions`."""
     tolerance: Fraction | None
-    """Maximum absolute error as a fraction of the ratio: the requested one, or the one that proves the list. None if
-    the best pairs of long ranges were found without a tolerance.
+    """Maximum absolute relative error: the requested one, or the one within which the list of the best is proved
+    complete.
+
+    None if the best pairs of long ranges were found without a tolerance.
     """
     complete: bool
     """True if all candidates within the tolerance were examined; False if the search was interrupted."""
@@ -103,7 +106,7 @@ class StageFindings(Tabular, Result):
     shortfall: Shortfall
     """Numbers of rejected pairs of multisets by reason."""
     note: str = ""
-    """Assumptions that were made; empty if none."""
+    """Assumption of the search that was not requested; "" if none."""
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
@@ -113,7 +116,7 @@ class StageFindings(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """ "whole" if the search was completed, "interrupted" if not."""
+        """End of the search: "whole" if it was completed, "interrupted" otherwise."""
         return "whole" if self.complete else "interrupted"
 
     @property
@@ -155,7 +158,7 @@ def find_stages(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> StageFindings:
-    """Find and count the solutions of a ratio by stages of gear pairs, and list the best; meet in the middle.
+    """Find and count the solutions for a ratio by stages of gear pairs, and list the best; meet in the middle.
 
     For every denominator product the window of numerator products within the tolerance is found in a sorted list. The
     ends of the windows are determined in integers, and the search is exhaustive.
@@ -199,7 +202,7 @@ def find_stages(
         If an argument is invalid.
     RangeError
         If the tables of products would not fit in memory (more than about 400 counts for four or more stages), or if
-        the ratio is far out of reach.
+        the admissible counts cannot approximate the ratio.
 
     Examples
     --------
@@ -236,7 +239,7 @@ def find_stages(
 def _long_ranges(
     wanted: TargetRatio, wheels: CountRuns, pinions: CountRuns, tolerance: Fraction | None, best: int
 ) -> StageFindings:
-    """Return the solutions with a single pair in long ranges, without a list of the counts."""
+    """Return the solutions by a single pair in long ranges, without an enumeration of the tooth counts."""
     solutions = find_pairs(wanted, wheels, pinions, tolerance, best)
     count = None if tolerance is None else count_pairs(wanted, wheels, pinions, tolerance)
     top, beneath = (wheels, pinions) if wanted.value >= 1 else (pinions, wheels)
@@ -255,12 +258,16 @@ def _question(
     by: str,
     fit: StageConstraints,
 ) -> tuple[StageProblem, int, str]:
-    """Return the problem as plain data, the number of pairs of multisets, and a note on assumptions."""
+    """Return the problem data, the number of pairs of multisets, and a note on assumptions."""
     check_order(by)
     if not 1 <= stages <= MOST_STAGES:
-        raise _question_error(f"stages is {stages}", f"it must be from 1 to {MOST_STAGES}", f"give 1 to {MOST_STAGES}")
+        raise _question_error(
+            f"stages is {stages}",
+            f"1 to {MOST_STAGES} gear pairs in series are supported",
+            f"give stages from 1 to {MOST_STAGES}",
+        )
     if best < 1:
-        raise _question_error(f"best is {best}", "a list has at least one solution", "give 1 or more")
+        raise _question_error(f"best is {best}", "a list has at least one solution", "give best >= 1")
     if tolerance is not None and tolerance < 0:
         raise _question_error(
             f"the tolerance is {tolerance}", "a tolerance must not be negative", "give 0 or more, such as 1e-6"
@@ -298,7 +305,6 @@ def _findings(
 
 
 def _stages(key: StageRank, question: StageProblem) -> GearStages:
-    """Return one solution with its best pairing."""
     top, beneath = key[4:]
     ratio = Fraction(prod(top), prod(beneath))
     pairs = best_pairing(top, beneath, question.fit, centres=question.by == "centres")
@@ -307,8 +313,11 @@ def _stages(key: StageRank, question: StageProblem) -> GearStages:
 
 
 def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
-    """Return the shortfall if the numbers of external and internal meshes contradict the requested sense."""
+    """Return the shortfall of a search whose external and internal meshes contradict the requested sense of
+    rotation.
+    """
     stages, internal = question.stages, question.fit.internal
+    # one more or one less internal mesh reverses the sense
     rings = internal + 1 if internal < stages else internal - 1
     has = "the same sense as" if question.fit.sense(stages) > 0 else "the opposite sense to"
     return Shortfall(
@@ -326,7 +335,9 @@ def _too_large(question: StageProblem, considered: int) -> Shortfall:
 
 
 def _check_reach(question: StageProblem) -> None:
-    """Raise `RangeError` if the products would not fit in memory or if the ratio is far out of reach."""
+    """Raise `RangeError` if the tables of products would not fit in memory or the counts cannot give a similar
+    ratio.
+    """
     for counts in (question.top, question.beneath):
         check_memory(counts, question.stages, question.plain_integers)
     low, high = question.reach
@@ -334,7 +345,7 @@ def _check_reach(question: StageProblem) -> None:
         made = f"ratios of {question.stages} stages with these counts are from {decimal(low, 3)} to {decimal(high, 3)}"
         raise RangeError(
             Problem(
-                f"a ratio of {decimal(question.value, 3)} is far out of reach",
+                f"a ratio of {decimal(question.value, 3)} cannot be approximated",
                 made,
                 "use more stages, or a wider range of counts",
             )
@@ -349,12 +360,12 @@ def _question_error(what: str, why: str, fix: str) -> QuestionError:
 
 
 def tolerance_text(tolerance: Fraction) -> str:
-    """Format a tolerance or an error with a few digits, rounded up."""
+    """Format a tolerance with three or four significant digits, rounded up."""
     return decimal(rounded_up(tolerance), 6)
 
 
 def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> Mapping[str, int]:
-    """Return reason -> number of rejected pairs of multisets. Their sum and the solutions equal `considered`."""
+    """Return the number of rejected pairs of multisets by reason. With the solutions they add up to `considered`."""
     removed = {f"count above {question.fit.largest}": considered - question.considered}
     known = dict(outcome.removed)
     if question.fit.reverted and not question.fit.internal:
@@ -366,7 +377,7 @@ def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> M
 
 
 def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
-    """Return the rejected pairs by reason; for an empty result also the nearest miss and the constraints to relax."""
+    """Return the rejected pairs by reason; for an empty result also the nearest miss and suggestions."""
     if not outcome.complete:
         return Shortfall(considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts")
     removed = account(question, considered, outcome)
@@ -404,7 +415,7 @@ def in_words(key: StageRank, value: Fraction) -> str:
 
 
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
-    """Yield suggestions to relax the constraints, the most reliable first."""
+    """Yield suggestions of constraints to relax, the most certain to help first."""
     if miss.keys and miss.complete:
         yield f"a tolerance of {tolerance_text(miss.keys[0][1])} gives a solution"
     for reason, number in removed.items():
@@ -415,7 +426,7 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
 
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
-    """Yield the result of one more stage if it can be computed quickly."""
+    """Yield the number of solutions with one more stage; without the number if its computation would be slow."""
     size = question.stages + 1
     fit = replace(question.fit, internal=question.fit.internal + 1) if sense else question.fit
     ring = " with an internal mesh, which keeps the sense," if sense else ""

@@ -7,12 +7,11 @@ from typing import Annotated, Any
 import typer
 
 from geartrain.cli.common import Force, Json, Out
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.search.teeth_verb import (
     ANY_COUNT,
     NEGATIVE_NUMBERS,
     Best,
-    Csv,
     Per,
     Pinions,
     Range,
@@ -38,7 +37,7 @@ def run(
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--by", help="Order of the solutions: error, total, largest, distinct, hunting, centres.")
+        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct, hunting, centres.")
     ] = "error",
     per: Per = None,
     internal: Annotated[
@@ -47,25 +46,26 @@ def run(
     hunting: Annotated[Flag, typer.Option("--hunting", help="Require coprime tooth counts in every pair.")] = False,
     reverted: Annotated[Flag, typer.Option("--reverted", help="Require equal centre distances of all pairs.")] = False,
     different: Annotated[Flag, typer.Option("--different", help="Require distinct tooth counts.")] = False,
-    most_total: Annotated[
-        int | None, typer.Option("--most-total", min=2, help="Maximum sum of all tooth counts.")
+    maximum_total: Annotated[
+        int | None, typer.Option("--max-total", min=2, help="Maximum sum of all tooth counts.")
     ] = None,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find gear pairs in series for a ratio: count all solutions within a tolerance and prove the best."""
+    """Find gear pairs in series for a ratio: count all solutions within a tolerance and prove the best.
+
+    Example: `geartrain teeth ratio 235/19 --stages 2 --tolerance 1e-4`.
+    """
     from geartrain.search.ratio.stage_problem import StageConstraints
     from geartrain.search.ratio.stage_search import find_stages
     from geartrain.search.target_ratio import read_ratio
     from geartrain.search.tooth_count_ranges import read_counts
     from geartrain.search.tooth_numbers_report import describe_stages, stage_rows
 
-    answer = SearchAnswer.of(csv, json, out, force)
+    answer = SearchAnswer.of(json, out, force)
     wanted = read_ratio(check_number(context, ratio), per)
     larger, smaller = (read_counts(text or counts) for text in (wheels, pinions))
     most_error = read_tolerance(tolerance)
@@ -74,7 +74,7 @@ def run(
         "hunting": hunting,
         "reverted": reverted,
         "different": different,
-        "most_total": most_total,
+        "maximum_total": maximum_total,
     }
     question = {
         "ratio": str(wanted.value),
@@ -86,7 +86,7 @@ def run(
         "by": by,
         "fit": fit,
     }
-    with long_run("teeth", question, out, RunOptions(workers, dask, resume)) as given:
+    with long_run("teeth", question, out, RunOptions(workers, resume)) as given:
         found = find_stages(
             wanted,
             stages,

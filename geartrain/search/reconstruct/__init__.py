@@ -1,19 +1,17 @@
 """Reconstruction: every train that explains surviving arbors and the speeds of pointers.
 
-`reconstruct` answers a `ReconstructionRequest` on declared evidence. The single steps are also public:
+`reconstruct` solves a `ReconstructionRequest` on declared evidence. The single steps are also public:
 `evidence_question` converts the evidence to a `ReconstructionProblem`, `find_reconstructions` counts its explanations
 and lists the best, and `candidate_train` converts one of them to a train. The modules in the order of the search:
 
-The question
-
+The problem
 - `link_roles`: the link that carries the arbors, and links that couplings join to one arbor
-- `reconstruction_problem`: the typed question with measured modules, radii and positions of axes; its size and digest
-- `evidence_translation`: translation of declared evidence into the question
+- `reconstruction_problem`: the problem with measured modules, radii and positions of axes; its size and digest
+- `evidence_translation`: conversion of declared evidence to the problem
 - `spur_tree`: parts of a complete train, found by breadth-first search along meshes; evidence of such a part without
   some of its arbors
 
 The search: enumeration of trees up to the order of arbors, by paths from the input to each dial
-
 - `train_topology`: a rooted tree without orders of arbors and counts of added wheels (an equivalence class of trains)
 - `quotient_keys`: sets of quotients of added counts, looked up by additive hashing
 - `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and hashed quotients
@@ -23,18 +21,18 @@ The search: enumeration of trees up to the order of arbors, by paths from the in
 - `candidate_names`: canonical names of arbors and wheels
 - `arbor_orders`: orders of arbors on chains, by dynamic programming over subsets
 - `search_tasks`: independent tasks for any number of processes; their time, extrapolated from a sample
-- `geometry_likelihood`: agreement with measurements; closed polygons, and layers by dynamic programming over bit masks
-- `reconstruction_search`: the counts, the candidates of maximum weight, random draws; equality up to order
+- `geometry_likelihood`: likelihood of measurements; closed polygons, and layers by dynamic programming over bit masks
+- `reconstruction_search`: counts, most probable candidates, random samples; equality up to the order of arbors
 
 The answer
-
 - `train_construction`: a complete declaration of a candidate
-- `explained_facts`: exact marginals of facts over all trains, the fact of maximum entropy, and the family tree, a trie
-  over meshes
-- `dropped_facts`: counts without each hard fact, and reasons why nothing fits
-- `candidate_rules`: a published train in the names of the question, the rules that it breaks, and the question that
+- `explained_facts`: exact marginals of facts over all trains, the fact of maximum entropy, and the family tree, a
+  trie over meshes
+- `dropped_facts`: counts without each hard fact, and reasons why nothing explains the evidence
+- `candidate_rules`: a published train in the names of the evidence, the rules that it breaks, and the problem that
   would admit it
-- `known_rank`: the rank of a known train, and the smallest sets of facts that distinguish it (all sets of up to three)
+- `known_rank`: the rank of a known train, and the smallest sets of facts that distinguish it (all sets of up to
+  three)
 - `reconstruction`: the request, and all steps in one call
 - `reconstruction_report`: the answer as a document
 - `verb`, `reconstruction_run`: the command

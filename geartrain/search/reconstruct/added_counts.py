@@ -1,6 +1,6 @@
-"""Count choices of tooth counts of added wheels that give every dial its speed, by variable elimination.
+"""Number of choices of tooth counts of added wheels that give every dial its speed, by variable elimination.
 
-Wheels that change the speeds of the same dials form a group, which enters only by its quotient. A dial with one group
+Wheels that change the speeds of the same dials form a group, of which only the quotient matters. A dial with one group
 left determines the quotient of this group. Otherwise all possible quotients of the smallest group are tried. Tables of
 products are faster here than the exact join of uncertain tooth counts (`search.join`): 1 to 4 ms per topology instead
 of 5 to 7 ms, and for seven added wheels 0.6 s instead of 90 s.
@@ -51,7 +51,7 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient; wheels are distinguishable."""
+    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Wheels are distinguishable."""
     minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
     last = min(maximum**drivers // num, maximum**driven // den)
@@ -74,7 +74,9 @@ def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) 
 def list_choices(
     quotient: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
-    """Yield the choices (counts of the drivers, counts of the driven wheels) with a given quotient."""
+    """Yield each choice (counts of the drivers, counts of the driven wheels) with a given quotient of their
+    products.
+    """
     num, den = quotient.numerator, quotient.denominator
     last = min(counts[1] ** drivers // num, counts[1] ** driven // den)
     for common in range(1, last + 1):
@@ -86,9 +88,9 @@ def list_choices(
 def quotients_of_parts(
     quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
 ) -> tuple[tuple[Fraction, int], ...]:
-    """Return the quotients of the first of two parts with a given total quotient, each with its number of choices.
+    """Return the quotients of the first of two groups whose total quotient is given, each with its number of choices.
 
-    A part is given by its numbers of drivers and of driven wheels.
+    A group is given by its numbers of driving and of driven wheels.
     """
     found: dict[Fraction, int] = {}
     for drivers, driven in list_choices(quotient, one[0] + other[0], one[1] + other[1], counts):
@@ -130,7 +132,7 @@ class QuotientTable:
         return QuotientTable(pairs[0][order], pairs[1][order], number[order], values[order])
 
     def within(self, minimum: Fraction, maximum: Fraction) -> slice:
-        """Return the slice of the quotients within bounds."""
+        """Return the slice of the quotients from `minimum` to `maximum`."""
         first = int(np.searchsorted(self.values, float(minimum) * (1 - 1e-15)))
         last = int(np.searchsorted(self.values, float(maximum) * (1 + 1e-15), side="right"))
         while first < last and self[first] < minimum:
@@ -145,7 +147,7 @@ class QuotientTable:
 
 @lru_cache(maxsize=32)
 def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
-    """Return the table of quotients of `drivers` over `driven` tooth counts."""
+    """Return the table of quotients of products of `drivers` over `driven` tooth counts."""
     one = np.ones(1, dtype=np.int64)
     if not drivers and not driven:
         return QuotientTable.of(one, one, one)
@@ -160,7 +162,7 @@ def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
 def quotients(
     minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[Fraction, int]]:
-    """Yield the quotients within bounds in ascending order, each with its number of choices."""
+    """Yield the quotients from `minimum` to `maximum` in ascending order, each with its number of choices."""
     if minimum == maximum:
         if number := count_choices(minimum, drivers, driven, counts):
             yield minimum, number
@@ -172,7 +174,7 @@ def quotients(
 
 
 def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Count choices of tooth counts whose quotient is within bounds."""
+    """Count choices of tooth counts whose quotient is from `minimum` to `maximum`."""
     if minimum == maximum:
         return count_choices(minimum, drivers, driven, counts)
     if drivers + driven <= 3:
@@ -181,6 +183,7 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
     some = (
         quotient_table(1, 1, counts) if drivers and driven else quotient_table(min(drivers, 2), min(driven, 2), counts)
     )
+    # numbers of driving and driven wheels of the enumerated part
     used = (1, 1) if drivers and driven else (min(drivers, 2), min(driven, 2))
     return sum(
         int(own) * count_between(minimum / some[at], maximum / some[at], drivers - used[0], driven - used[1], counts)
@@ -191,11 +194,11 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
 Group = tuple[Dials, int, int]
 Wanted = tuple[tuple[str, Quotients], ...]
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
-"""Dials of each group -> tooth counts of its drivers and of its driven wheels."""
+"""Tooth counts of the driving and of the driven wheels of each group of dials."""
 
 
 class AddedCounts:
-    """Assignments of tooth counts between a minimum and a maximum to added wheels."""
+    """Assignments of tooth counts, from a minimum to a maximum, to added wheels."""
 
     def __init__(self, minimum: int, maximum: int) -> None:
         self.range = minimum, maximum
@@ -206,12 +209,12 @@ class AddedCounts:
         return self.range[1] - self.range[0] + 1
 
     def count(self, added: AddedWheels, wanted: Wanted) -> int:
-        """Count the assignments that satisfy all dials; wheels are distinguishable."""
+        """Count the assignments that give all dials their speeds. Wheels are distinguishable."""
         alike = _merged_dials(added.groups, wanted)
         return int(self._count(added.groups, alike) * self._choices**added.idle) if alike is not None else 0
 
     def count_limited(self, added: AddedWheels, wanted: Wanted, limits: tuple[CountLimit, ...]) -> int:
-        """Count the assignments if some wheels have maximum counts of their own."""
+        """Count the assignments if some wheels have a smaller maximum count because they mesh with a ring."""
         if not limits:
             return self.count(added, wanted)
         limit, others = limits[0], limits[1:]
@@ -225,12 +228,13 @@ class AddedCounts:
             return sum(self.count_limited(left, divided(wanted, limit.dials, each), others) for each in quotients_of)
 
         allowed, ruled_out = range(minimum, limit.most + 1), range(max(minimum, limit.most + 1), maximum + 1)
+        # the shorter of the two sums
         if len(allowed) <= len(ruled_out):
             return among(allowed)
         return self.count_limited(added, wanted, others) - among(ruled_out)
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
-        """Yield the assignments as counts of the groups and counts of wheels that change no speed."""
+        """Yield the assignments, each as counts of the groups and counts of wheels that change no speed."""
         alike = _merged_dials(added.groups, wanted)
         for counts in self._listed(added.groups, alike) if alike is not None else ():
             for idle in product(range(self.range[0], self.range[1] + 1), repeat=added.idle):
@@ -259,7 +263,7 @@ class AddedCounts:
         )
 
     def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
-        """Count the assignments by enumeration of two groups whose total quotient is known."""
+        """Count the assignments by enumeration of the counts of two groups whose total quotient is known."""
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
         kinds = groups[one][1:], groups[other][1:]
         return sum(
@@ -284,7 +288,7 @@ class AddedCounts:
 
     @staticmethod
     def _next(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, Quotients, bool] | None:
-        """Select the group to eliminate next, with bounds of its quotient, and whether only one dial depends on it."""
+        """Return the group to eliminate next, bounds of its quotient, and whether only one dial depends on it."""
         if not groups:
             return None
         alone: dict[int, Quotients] = {}
@@ -310,13 +314,13 @@ class AddedCounts:
         return at, (Fraction(0), _BOUNDLESS), False
 
 
-_BOUNDLESS = Fraction(10**40)
+_BOUNDLESS = Fraction(10**40)  # beyond every quotient of added counts
 _LISTED_TOGETHER = 3
 """Maximum number of wheels in two groups whose choices with a given total quotient are enumerated."""
 
 
 def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Return two small groups that alone determine the speed of an exact dial, with their total quotient."""
+    """Return two small groups that determine the speed of an exact dial by themselves, with their total quotient."""
     best, fewest = None, _LISTED_TOGETHER + 1
     for dial, (low, high) in wanted:
         own = [at for at, group in enumerate(groups) if dial in group[0]]
@@ -327,13 +331,13 @@ def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction
 
 
 def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
-    """Return whether the dials without remaining groups have their speeds."""
+    """Return whether the dials on which no remaining group acts have their speeds."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
     return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
 
 
 def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
-    """Merge the bounds of dials that depend on the same groups; None if they have no common quotient."""
+    """Merge the bounds of dials that depend on the same groups. Return None if the bounds do not intersect."""
     found: dict[tuple[int, ...], tuple[str, Quotients]] = {}
     for dial, (low, high) in wanted:
         own = tuple(at for at, group in enumerate(groups) if dial in group[0])
@@ -351,7 +355,7 @@ def _without(wanted: Wanted, dials: Dials) -> Wanted:
 
 
 def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
-    """Return the quotients that the remaining groups must have."""
+    """Return the quotients that the remaining groups must have after one group has a given quotient."""
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
     )
@@ -362,29 +366,29 @@ def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
 
 
 _FEW = 2000
-"""Maximum number of choices that are enumerated, which is then faster than counting for each tooth count."""
+"""Maximum number of choices that are enumerated. Below it, enumeration is faster than counting for each tooth count."""
 
 
 class AddedKind(NamedTuple):
-    """Kind of added wheels that the speeds of dials do not distinguish."""
+    """Kind of added wheels, which have the same effect on the speeds of dials and are interchangeable."""
 
     dials: Dials
     """Dials whose speed the wheels change; empty for wheels that change no speed."""
     drives: bool
-    """True for driving wheels on the way to these dials, False for driven wheels."""
+    """True for driving wheels on the path to these dials, False for driven wheels."""
     most: int | None = None
     """Maximum tooth count in a mesh with a ring; None if only the general limit applies."""
 
 
 class OpenCounts(NamedTuple):
-    """Added wheels without tooth counts, their required quotients, and the limits that rings set, sorted."""
+    """Added wheels without tooth counts, the quotients required of them, and the limits set by rings, sorted."""
 
     added: AddedWheels
     wanted: Wanted
     limits: tuple[CountLimit, ...] = ()
 
     def kinds(self) -> Iterator[tuple[AddedKind, int]]:
-        """Yield each kind with the number of its wheels."""
+        """Yield each kind of added wheels with the number of wheels."""
         limited = {kind: self.limits.count(kind) for kind in self.limits}
         for kind, number in limited.items():
             yield AddedKind(*kind), number
@@ -396,7 +400,9 @@ class OpenCounts(NamedTuple):
                 yield AddedKind(dials, drives), left
 
     def with_one(self, kind: AddedKind, count: int) -> OpenCounts:
-        """Return the remaining problem after one wheel of a kind has a tooth count, which must satisfy its limit."""
+        """Return the remaining problem after one wheel of a kind has received a tooth count, which must satisfy its
+        limit.
+        """
         limits = list(self.limits)
         if kind.most is not None:
             limits.remove(CountLimit(kind.dials, kind.drives, kind.most))
@@ -408,14 +414,14 @@ class OpenCounts(NamedTuple):
 
 
 class _FewChoices(NamedTuple):
-    """Sums over enumerated choices."""
+    """Number of enumerated choices in which a wheel of a kind, or any wheel, has each tooth count."""
 
     of_kind: dict[AddedKind, Counter[int]]
     with_any: Counter[int]
 
 
 class AddedCountSums:
-    """Sums over all choices of tooth counts of added wheels."""
+    """Sums over all choices of tooth counts of added wheels, cached."""
 
     def __init__(self, counts: AddedCounts) -> None:
         self._counts = counts
@@ -428,7 +434,7 @@ class AddedCountSums:
         return self._counts.count_limited(requested.added, requested.wanted, requested.limits)
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
-        """Return tooth count -> number of choices in which one wheel of a kind has it; zeros are omitted."""
+        """Return for each tooth count the number of choices in which a given wheel of a kind has it, without zeros."""
         few = self._few(requested)
         if few is not None:
             return few.of_kind[kind]
@@ -438,7 +444,7 @@ class AddedCountSums:
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return tooth count -> number of choices in which any wheel has it, by inclusion-exclusion."""
+        """Return for each tooth count the number of choices in which some wheel has it, by inclusion-exclusion."""
         few = self._few(requested)
         if few is not None:
             return few.with_any
@@ -450,12 +456,13 @@ class AddedCountSums:
     def _without_count(
         self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
     ) -> int:
-        """Count the choices in which no wheel of some kinds has a given tooth count, out of `number` choices."""
+        """Return how many of `number` choices give no wheel of some kinds a certain tooth count."""
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]
         found, left, total = 0, requested, number
         for chosen in range(wheels + 1):
+            # inclusion-exclusion over the wheels that have the count
             found += (-1) ** chosen * comb(wheels, chosen) * self._without_count(left, others, count, total)
             if chosen == wheels or (kind.most is not None and count > kind.most):
                 break
@@ -466,7 +473,7 @@ class AddedCountSums:
         return found
 
     def _few(self, requested: OpenCounts) -> _FewChoices | None:
-        """Return the sums over enumerated choices if there are few of them, else None."""
+        """Return the sums over enumerated choices if there are few of them; None otherwise."""
         if requested.limits or self.total(requested) > _FEW:
             return None
         return self._listed(requested)
@@ -480,8 +487,8 @@ class AddedCountSums:
             found.with_any.update({count for own in wheels.values() for count in own})
         return found
 
-    def draw(self, requested: OpenCounts, kind: AddedKind, chance: Random) -> tuple[int, OpenCounts]:
-        """Sample the tooth count of one wheel of a kind, and return it with the remaining problem."""
+    def draw(self, requested: OpenCounts, kind: AddedKind, probability: Random) -> tuple[int, OpenCounts]:
+        """Draw the tooth count of one wheel of a kind, and return it with the remaining problem."""
         by_count = self.of_kind(requested, kind)
-        count = [*by_count][draw_index([*by_count.values()], chance)]
+        count = [*by_count][draw_index([*by_count.values()], probability)]
         return count, requested.with_one(kind, count)

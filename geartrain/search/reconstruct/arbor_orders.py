@@ -31,11 +31,11 @@ from geartrain.search.weighted_alternatives import Alternative, WeightedAlternat
 
 
 Rings = frozenset[str]
-"""Names of rings."""
+"""Names of rings (wheels with internal teeth)."""
 
 
 def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
-    """Return whether two wheels can mesh: at most one is a ring, and its mate has fewer teeth.
+    """Return whether two wheels can mesh: at most one is a ring, and then its mate has fewer teeth.
 
     An added wheel without a tooth count can mesh with any ring.
     """
@@ -57,7 +57,7 @@ def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
 
 
 class CountTokens:
-    """Negative numbers (tokens) instead of the tooth counts of added wheels, which identify each wheel."""
+    """Tokens (negative numbers) in the place of tooth counts of added wheels, which identify each wheel."""
 
     def __init__(self, added: AddedWheels) -> None:
         self._owners: list[tuple[Dials, bool]] = []
@@ -73,16 +73,16 @@ class CountTokens:
         return tuple(-at - 1 for at in range(first, first + wheels))
 
     def limits(self, arbor: Arbor, rings: Rings, maximum: int) -> tuple[CountLimit, ...]:
-        """Return the limits that rings set in a train with tokens, sorted; only limits below `maximum`."""
+        """Return the limits below `maximum` that rings set in a train with tokens, sorted."""
         most = self.most(arbor, rings, maximum)
         return tuple(sorted(CountLimit(*self.owner(token), count) for token, count in most.items()))
 
     def owner(self, token: int) -> tuple[Dials, bool]:
-        """Return the dials whose speed a wheel changes, and whether it drives on the way to them."""
+        """Return the dials whose speed a wheel changes, and whether it is a driving wheel on the path to them."""
         return self._owners[-token - 1]
 
     def most(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, int]:
-        """Return the limit that rings set for each token, if it is below `maximum`."""
+        """Return the maximum tooth count of each wheel that meshes with a ring, by token, if it is below `maximum`."""
         minimum: dict[int, int] = {}
         for pair in _meshes(arbor):
             for ring, inside in (pair, pair[::-1]):
@@ -106,7 +106,7 @@ COMPOUND, IDLER = -1, -2
 _COMPOUND: _Step = (None, ArborPass(ADDED, ADDED, 0))
 _IDLER: _Step = (None, ArborPass(ADDED, ADDED, 0, idler=True))
 _Driving = tuple[str | None, PlacedWheel]
-"""Name of an arbor, None for an added arbor, and the driving wheel on it."""
+"""Name of an arbor (None for an added arbor), and the driving wheel on it."""
 _Pairs = frozenset[frozenset[str]]
 
 
@@ -121,7 +121,7 @@ class MeshFacts:
 
     @staticmethod
     def of(problem: ReconstructionProblem) -> MeshFacts:
-        """Return the known meshes of a question."""
+        """Return the known meshes of a problem."""
         return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
 
     @property
@@ -166,7 +166,7 @@ def _met_on_chain(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts)
 
 
 def sequences(chain: Chain) -> Iterator[tuple[_Step, ...]]:
-    """Yield the orders of the arbors of a chain. Added arbors of one kind are interchangeable."""
+    """Yield each order of the arbors on a chain. Added arbors of one kind are interchangeable."""
     yield from _sequences(chain.through, chain.compounds, chain.idlers)
 
 
@@ -188,7 +188,9 @@ def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Itera
 
 
 def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: MeshFacts) -> Iterator[Arbor]:
-    """Yield the trains of a topology with given tooth counts of added wheels, one for each permitted order."""
+    """Yield the trains of a topology with given tooth counts of added wheels, one for each permitted order of
+    arbors.
+    """
     chains = topology.chains
     for chosen in product(*map(sequences, chains)):
         orders = {id(chain): steps for chain, steps in zip(chains, chosen, strict=True)}
@@ -230,11 +232,11 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
             waiting += [(each, (end.name, driver)) for driver, chains in _driven_chains(end) for each in chains]
         else:
             waiting += [(each, last) for each in chain.end]
-    return found == facts.meshes
+    return found == facts.meshes  # every known mesh must be in the train
 
 
 class _Assembly:
-    """Assembly of a train that assigns tooth counts to the added wheels of a topology one by one."""
+    """Construction of a train, which assigns tooth counts to the added wheels of a topology one by one."""
 
     def __init__(self, orders: dict[int, tuple[_Step, ...]], counts: Counts, idle: tuple[int, ...]) -> None:
         self.orders = orders
@@ -243,7 +245,7 @@ class _Assembly:
         self.idle = iter(idle)
 
     def branching(self, branching: Branching, dials: Dials) -> Arbor:
-        """Return the arbor of a branching with its subtree; `dials` are all dials of the subtree."""
+        """Return the arbor of a branching with its subtree. `dials` are all dials of the subtree."""
         past = {dial for chain in branching.passes for dial in chain.dials}
         driven = branching.driven
         if driven == ADDED:
@@ -257,11 +259,11 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return all arbors that one wheel drives."""
+        """Return the arbors that one wheel drives, one for each chain."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:
-        """Return the first arbor of a chain with the other arbors below it."""
+        """Return the first arbor of a chain, with the other arbors in its subtree."""
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)
         for name, each in reversed(self.orders[id(chain)]):
@@ -285,7 +287,7 @@ _NamedDriving = tuple[TopologyArbor, TopologyWheel]
 
 
 class NamedMesh(NamedTuple):
-    """Mesh between named wheels: driving arbor, driving wheel, driven arbor."""
+    """Mesh of named parts: driving arbor, driving wheel, driven arbor."""
 
     arbor: TopologyArbor
     wheel: TopologyWheel
@@ -293,14 +295,14 @@ class NamedMesh(NamedTuple):
 
 
 class AddedPlace(NamedTuple):
-    """Name of an added wheel with its kind."""
+    """Name and kind of an added wheel."""
 
     name: str
     kind: AddedKind
 
 
 class ChainStep(NamedTuple):
-    """Arbor at a place on a chain: index of a surviving arbor, `COMPOUND` or `IDLER`."""
+    """Arbor at a position on a chain: index of a surviving arbor, `COMPOUND` or `IDLER`."""
 
     chain: NamedChain
     place: int
@@ -309,7 +311,7 @@ class ChainStep(NamedTuple):
 
 @dataclass(frozen=True)
 class _ChainState:
-    """State of the dynamic programme: arbors not yet placed, driving wheel, pairs that must mesh below."""
+    """State of the dynamic programme: arbors not yet placed, driving wheel, and pairs that must mesh below."""
 
     chain: NamedChain
     through: frozenset[int]
@@ -327,7 +329,7 @@ class _BranchingState(NamedTuple):
 
 
 def topology_orders(root: NamedBranching, facts: MeshFacts) -> WeightedAlternatives[Hashable]:
-    """Return the orders of a topology that satisfy the known meshes, each with weight 1."""
+    """Return the orders of arbors of a topology that satisfy the known meshes, each with weight 1."""
     return WeightedAlternatives(_BranchingState(root, facts.meshes), _Orders(facts).alternatives)
 
 
@@ -336,7 +338,6 @@ class _Orders:
     facts: MeshFacts
 
     def alternatives(self, node: Hashable) -> Iterator[Alternative[Hashable]]:
-        """Yield the alternatives for the next arbor of a state."""
         if not isinstance(node, _ChainState):
             assert isinstance(node, _BranchingState)
             branching, pairs = node
@@ -356,7 +357,7 @@ class _Orders:
     def _step(
         self, node: _ChainState, arbor: TopologyArbor, which: int, through: frozenset[int], compounds: int, idlers: int
     ) -> Iterator[Alternative[Hashable]]:
-        """Yield the alternative that places one arbor next, if it satisfies the known meshes."""
+        """Yield the alternative in which a given arbor is next on the chain, if it satisfies the known meshes."""
         left = self._left(node, arbor)
         if left is None:
             return
@@ -369,7 +370,6 @@ class _Orders:
         yield Alternative(1, tells, (ahead,))
 
     def _end(self, node: _ChainState) -> Iterator[Alternative[Hashable]]:
-        """Yield the alternatives for the end of a chain."""
         end = node.chain.end
         if not isinstance(end, NamedBranching):
             yield from self._distributed([(node.driving, chain) for chain in end], node.pairs, ())
@@ -379,7 +379,7 @@ class _Orders:
             yield Alternative(1, (NamedMesh(*node.driving, end.arbor),), (_BranchingState(end, left),))
 
     def _left(self, node: _ChainState, arbor: TopologyArbor) -> _Pairs | None:
-        """Return the pairs that must still mesh after an arbor is driven; None if the mesh is excluded."""
+        """Return the pairs that must still mesh after an arbor is driven; None if its mesh is excluded."""
         source, wheel = node.driving
         met = self.facts.met((source.survivor, wheel.placed), arbor.survivor, arbor.driven and arbor.driven.placed)
         return None if met is None or not met <= node.pairs else node.pairs - met

@@ -63,7 +63,7 @@ class NamedArbor:
 
 
 def name_train(arbor: Arbor, dials: Sequence[str], links: Collection[str], wheels: Collection[str]) -> NamedArbor:
-    """Give names to all arbors and wheels of a candidate.
+    """Return a candidate in which all arbors and wheels have names.
 
     arbor   input arbor
     dials   all dials, in the order of the evidence
@@ -74,7 +74,7 @@ def name_train(arbor: Arbor, dials: Sequence[str], links: Collection[str], wheel
 
 
 def free_name(name: str, kind: str, taken: Container[str]) -> str:
-    """Return the name itself if it is free, else a longer name with its kind."""
+    """Return `name` if it is not taken, otherwise the name extended by `kind` and, if necessary, a number."""
     if name not in taken:
         return name
     longer = f"{name}_{kind}"
@@ -82,7 +82,7 @@ def free_name(name: str, kind: str, taken: Container[str]) -> str:
 
 
 def numbered(stem: str, taken: Container[str]) -> str:
-    """Return the stem with the first free number from 1."""
+    """Return `stem` with the smallest number, from 1, that is not taken."""
     number = 1
     while f"{stem}{number}" in taken:
         number += 1
@@ -99,14 +99,14 @@ class FreeNames:
     """Names of wheels that are already used."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
-        """Return the name of the next added arbor, after the first dial that it shows if there is one."""
+        """Return the name of the next added arbor, derived from the first dial that it shows if there is one."""
         name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
         link = free_name(name, "arbor", self.links)
         self.links.add(link)
         return link
 
     def wheel(self, link: str, survives: bool) -> str:
-        """Return the name of the next added wheel of an arbor."""
+        """Return the name of the next added wheel on an arbor."""
         stem = f"{link}_{_ADDED}" if survives else f"{link}_" if link[-1].isdigit() else link
         name = numbered(stem, self.wheels)
         self.wheels.add(name)
@@ -135,7 +135,7 @@ class _Naming:
         return NamedArbor(link, arbor.name is None, driven, arbor.dials, drives)
 
     def _drives(self, arbor: Arbor) -> Iterator[tuple[int, int, PlacedWheel, Arbor]]:
-        """Yield every driven arbor with its sorting key and its driving wheel.
+        """Yield every driven arbor with its sort key and its driving wheel.
 
         The key is the first dial of the driven subtree, and the index of the driving wheel (-1 for the driven wheel).
         """
@@ -147,7 +147,6 @@ class _Naming:
                 yield self._first(child), at, wheel, child
 
     def _first(self, arbor: Arbor) -> int:
-        """Return the index of the first dial that the subtree of an arbor shows."""
         if id(arbor) not in self.firsts:
             below = [self._first(child) for _, children in arbor.drives for child in children]
             below += map(self._first, arbor.passes)
@@ -168,7 +167,7 @@ class _Naming:
 
 
 class TopologyWheel(NamedTuple):
-    """Named wheel of a topology; `kind` is None for a surviving wheel."""
+    """Named wheel of a topology. `kind` is None for a surviving wheel."""
 
     name: str
     placed: PlacedWheel
@@ -176,7 +175,7 @@ class TopologyWheel(NamedTuple):
 
 
 class TopologyArbor(NamedTuple):
-    """Named arbor of a topology, with its driven and driving wheel, which are equal in an idler."""
+    """Named arbor of a topology, with its driven and driving wheel, which are the same wheel in an idler."""
 
     name: str
     added: bool
@@ -191,14 +190,14 @@ class TopologyArbor(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class NamedChain:
-    """Chain of named arbors, and its end."""
+    """Chain of named arbors, with its end."""
 
     chain: Chain
     """Chain without names."""
     through: tuple[TopologyArbor, ...]
     """Surviving arbors."""
     added: tuple[tuple[TopologyArbor, TopologyArbor], ...]
-    """Added arbors in order, each as an arbor with two wheels and as an idler."""
+    """Added arbors in order, each both as an arbor with two wheels and as an idler."""
     end: NamedBranching | tuple[NamedChain, ...]
     """Branching at which the chain ends, or the chains that its last driving wheel drives."""
 
@@ -223,7 +222,7 @@ class NamedBranching:
     here: Dials
     """Dials that the arbor shows."""
     hanging: tuple[tuple[TopologyWheel, tuple[NamedChain, ...]], ...]
-    """Wheels, each with the chains that it drives."""
+    """Wheels of the arbor, each with the chains that it drives."""
 
     def wheels(self) -> Iterator[TopologyWheel]:
         """Yield the meshing wheels of the arbor, each once."""
@@ -235,7 +234,7 @@ class NamedBranching:
 def name_topology(
     topology: Topology, dials: Sequence[str], links: Collection[str], wheels: Collection[str]
 ) -> NamedBranching:
-    """Give names to all arbors and wheels of a topology; the other arguments are those of `name_train`."""
+    """Return the input arbor of a topology in which all arbors and wheels have names, as in `name_train`."""
     return _TopologyNaming(tuple(dials), FreeNames(set(links), set(wheels))).branching(topology.root, ())
 
 
@@ -245,7 +244,7 @@ class _TopologyNaming:
     free: FreeNames
 
     def branching(self, branching: Branching, dials: Dials) -> NamedBranching:
-        """Give names to the arbor of a branching and to its subtree; `dials` are all dials of the subtree."""
+        """Return the named arbor of a branching with its subtree. `dials` are all dials of the subtree."""
         name = self.free.link(branching.here) if branching.name is None else branching.name
         past = {dial for chain in branching.passes for dial in chain.dials}
         turned = tuple(dial for dial in dials if dial not in past)
@@ -266,7 +265,7 @@ class _TopologyNaming:
         return NamedBranching(TopologyArbor(name, branching.name is None, driven, None), branching.here, below)
 
     def _chains(self, chains: Sequence[Chain]) -> dict[int, NamedChain]:
-        """Return named chains by identity; names are given in the order of the first dial of each chain."""
+        """Return the named chains by `id`. Names are given in the order of the first dial of each chain."""
         return {id(chain): self._chain(chain) for chain in sorted(chains, key=lambda chain: self._first((chain,)))}
 
     def _first(self, chains: Sequence[Chain]) -> int:

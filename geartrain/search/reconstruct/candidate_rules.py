@@ -1,4 +1,4 @@
-"""Rules of a question applied to one candidate: the rules that it breaks, and the question that would admit it.
+"""Rules of a problem applied to one candidate: the rules that it breaks, and the problem that would admit it.
 
 A published train is read as a candidate: its surviving wheels are identified by their names.
 """
@@ -59,14 +59,14 @@ distance  the radii of meshing wheels fit the distance of their axes
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """Rule that a candidate breaks."""
+    """Rule of the problem that a candidate breaks."""
 
     KEYS = ("rule", "subject", "what", "change")
 
     rule: Rule
     """Kind of the rule."""
     subject: tuple[str, ...]
-    """Names of the dial, wheels or arbors; empty if the rule concerns added parts."""
+    """Names of the dial, wheels or arbors concerned; empty for a rule on added parts."""
     what: str
     """Property of the candidate that breaks the rule."""
     change: str | None
@@ -83,10 +83,10 @@ def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[Brok
     Parameters
     ----------
     candidate : Arbor
-        Candidate from its input arbor. Its surviving arbors and wheels have the names of the question, and it shows no
+        Candidate from its input arbor. Its surviving arbors and wheels have the names of the problem, and it shows no
         other dials.
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     """
     return (
         *_dial_rules(candidate, problem),
@@ -119,7 +119,7 @@ def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
 
 
 def as_missing_dial(broken: BrokenRule) -> BrokenRule:
-    """Convert a rule broken by the speed of a dial to a dial that is not shown; return other rules unchanged."""
+    """Return a broken rule on the speed of a dial as a dial that is not shown; return other rules unchanged."""
     if broken.rule != "speed":
         return broken
     return replace(broken, rule="dial", change=_without(*broken.subject), values=())
@@ -130,7 +130,7 @@ def _without(dial: str) -> str:
 
 
 def speed_text(dial: SearchedDial) -> str:
-    """Format the required speed of a dial."""
+    """Return the required speed of a dial as text [turns per unit]."""
     bounds = dict.fromkeys((dial.minimum, dial.maximum))
     text = " to ".join(fraction_text(each) if dial.is_exact else f"{float(each):.7g}" for each in bounds)
     return text + ("" if dial.signed else " in either sense")
@@ -141,6 +141,7 @@ def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterato
     yield candidate, speed
     for wheel, child in candidate.driven_arbors():
         assert child.driven is not None
+        # an internal mesh keeps the sense of rotation
         sense = 1 if {wheel.name, child.driven.name} & rings else -1
         yield from _speeds(child, sense * speed * wheel.teeth / child.driven.teeth, rings)
 
@@ -164,7 +165,7 @@ def _use_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
 
 
 def counts_text(counts: Sequence[tuple[int, Fraction]]) -> str:
-    """Format possible tooth counts as a range `60-63` or as a list `60/62`."""
+    """Return possible tooth counts as text: as a range `60-63` or as a list `60/62`."""
     teeth = [count for count, _ in counts]
     if len(teeth) > 1 and teeth == list(range(teeth[0], teeth[-1] + 1)):
         return f"{teeth[0]}-{teeth[-1]}"
@@ -206,7 +207,7 @@ def _addition_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterato
 
 
 def _wheel_names(arbor: Arbor) -> set[str | None]:
-    """Return the names of the meshing wheels of one arbor, None for added wheels."""
+    """Return the names of the meshing wheels of one arbor, with None for added wheels."""
     driven = set() if arbor.driven is None else {arbor.driven.name}
     return driven | {wheel.name for wheel, _ in arbor.drives}
 
@@ -238,11 +239,11 @@ def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
     return frozenset((one, other))
 
 
-# The question that admits a candidate: all rules that it breaks are removed.
+# The problem that admits a candidate: all rules that it breaks are removed.
 
 
 def admitting_question(problem: ReconstructionProblem, broken: Iterable[BrokenRule]) -> ReconstructionProblem:
-    """Return the question without the rules that candidates break, as the fields `change` describe."""
+    """Return the problem without the rules that candidates break, as their fields `change` describe."""
     return reduce(_admit, broken, problem)
 
 
@@ -267,7 +268,7 @@ def _admit(problem: ReconstructionProblem, broken: BrokenRule) -> Reconstruction
 
 
 def _without_pair(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
-    """Return the question without a known fact of a pair or without all distances; unchanged for other rules."""
+    """Return the problem without a known fact on a pair, or without all distances; unchanged for other rules."""
     pair = frozenset(broken.subject)
     if broken.rule == "seen":
         return replace(problem, meshes=problem.meshes - {pair})
@@ -291,7 +292,7 @@ def _admitted_dial(dial: SearchedDial, broken: BrokenRule) -> SearchedDial | Non
 
 
 def _without_parts(problem: ReconstructionProblem, broken: BrokenRule) -> ReconstructionProblem:
-    """Return the question without a wheel or an arbor, or with another tooth count."""
+    """Return the problem without a wheel or an arbor, or with another tooth count."""
     (name,) = broken.subject
 
     def changed(arbor: SurvivingArbor) -> SurvivingArbor:
@@ -322,35 +323,35 @@ def _read(wheel: SurvivingWheel, broken: BrokenRule) -> SurvivingWheel:
     return replace(wheel, counts=((int(teeth), Fraction(1)),))
 
 
-# ----------------------------------------------------------- a given train as a candidate, in the names of the question
+# ----------------------------------------------------------- a given train as a candidate, in the names of the problem
 
 
 @dataclass(frozen=True)
 class KnownTrain:
-    """Known train, read as a candidate of a question."""
+    """Known train, read as a candidate of a problem."""
 
     name: str
     """Name of the train."""
     arbor: Arbor
-    """Input arbor. It shows the dials of the question that its meshes reach, at any speed."""
+    """Input arbor. The train shows the dials of the problem that its meshes reach, at any speed."""
     added: Mapping[str, int]
-    """Names of the added wheels in the train -> tooth counts."""
+    """Tooth count of each added wheel, by its name in the train."""
     notes: tuple[str, ...]
-    """Features of the train that are not used, or that a candidate cannot have."""
+    """Features of the train that are ignored, because a candidate cannot have them."""
 
 
 def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping[str, str] | None = None) -> KnownTrain:
-    """Read a train as a candidate, with the names of a question.
+    """Read a train as a candidate, with the names of a problem.
 
     Parameters
     ----------
     train : Train
         Known train.
     problem : ReconstructionProblem
-        Typed question whose arbors turn in the frame.
+        Reconstruction problem whose arbors turn in the frame.
     same : mapping of str to str, optional
-        Names of wheels and outputs of the train -> their names in the question. Others must have equal names, except
-        for capitals.
+        Name in the problem of wheels and outputs that the train names differently. Others must have equal names,
+        except for capitals.
 
     Raises
     ------
@@ -361,7 +362,7 @@ def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping
 
 
 class _TrainReading:
-    """Translation of a train into the names of a question."""
+    """Translation of a train into the names of a problem."""
 
     def __init__(self, train: Train, problem: ReconstructionProblem, same: Mapping[str, str]) -> None:
         self.train, self.problem, self.same = train, problem, same
@@ -384,12 +385,13 @@ class _TrainReading:
 
     @cached_property
     def _matches(self) -> dict[str, str]:
-        """Names of wheels of the question -> wheels of the train."""
+        """Wheel of the train by the name of a wheel of the problem."""
         wanted = [wheel.name for arbor in self._arbors.values() for wheel in arbor.wheels]
         found = {self.same[name]: name for name in self.train.wheels if self.same.get(name) in wanted}
         free = [name for name in self.train.wheels if name not in self.same]
         found = {name: name for name in wanted if name in free} | found
         for name in wanted:
+            # names that differ only in capitals
             alike = [own for own in free if own.casefold() == name.casefold() and own not in found.values()]
             if name not in found and len(alike) == 1:
                 found[name] = alike[0]
@@ -397,7 +399,7 @@ class _TrainReading:
 
     @cached_property
     def _links(self) -> dict[str, str]:
-        """Arbors of the question -> links of the train, each the link with most of the wheels of the arbor."""
+        """Link of the train for each arbor of the problem: the link with most of the arbor's wheels."""
         found: dict[str, str] = {}
         for arbor in self._arbors.values():
             links = [self._link(self._matches[wheel.name]) for wheel in arbor.wheels if wheel.name in self._matches]
@@ -413,7 +415,7 @@ class _TrainReading:
 
     @cached_property
     def _joined(self) -> dict[str, str]:
-        """Links of the train -> first link of the group that pins and slots on the frame join, or the link itself."""
+        """First link of the group that pins and slots on the frame join, for each link of the train."""
         tree, frame = find_tree(self.train), self.train.frame
         pairs = ((coupling.pin, coupling.slot) for coupling in self.train.couplings if coupling.kind == "pin_and_slot")
         joints = (pair for pair in pairs if all(tree.bears(frame, link) for link in pair))
@@ -421,12 +423,12 @@ class _TrainReading:
 
     @cached_property
     def _names(self) -> dict[str, str]:
-        """Links of the train -> arbors of the question."""
+        """Arbor of the problem by the name of a link of the train."""
         return {link: arbor for arbor, link in self._links.items()}
 
     @cached_property
     def _survivors(self) -> dict[str, str]:
-        """Wheels of the train -> wheels of the question, only for wheels on the link of the right arbor."""
+        """Wheel of the problem by the name of a wheel of the train, only for wheels on the link of the right arbor."""
         return {
             self._matches[wheel.name]: wheel.name
             for arbor in self._arbors.values()
@@ -450,14 +452,14 @@ class _TrainReading:
         name = self.problem.input.name
         found = self._links.get(name) or self._joined.get(name)
         if found is None:
-            what = f"'{self.train.name}' has no wheel of '{name}', the input of the question"
+            what = f"'{self.train.name}' has no wheel of '{name}', the input of the evidence"
             fix = "name one of its wheels with `--same ITS=OURS`"
             raise QuestionError(Problem(what, "wheels are identified by their names", fix))
         return found
 
     @cached_property
     def _driven(self) -> dict[str, DrivenArbor]:
-        """Link -> mesh that drives it, for all links reached from the input on the frame, breadth first."""
+        """Mesh that drives each link that is reached from the input on the frame, breadth first."""
         rings = {own for own, name in self._survivors.items() if name in self.problem.rings}
         return walk_meshes(self.train, self._source, self._joined, rings)
 
@@ -466,14 +468,16 @@ class _TrainReading:
         if count is None:
             place = self.train.place("links")
             what = f"the tooth count of '{wheel}' is not known"
-            raise QuestionError(Problem(what, "a train is ranked with all its counts", "give it a `value`", place))
+            raise QuestionError(
+                Problem(what, "a rank requires all tooth counts", "declare it, such as `teeth: {value: 64}`", place)
+            )
         return count
 
     # pointers
 
     @cached_property
     def _shown(self) -> dict[str, str]:
-        """Dials -> links that show them, if meshes reach the link."""
+        """Link that shows each dial, if meshes reach it."""
         found = {}
         for dial in self.problem.dials:
             link = self._links.get(dial.place) if dial.place not in (None, NEW) else self._pointer(dial)
@@ -482,7 +486,9 @@ class _TrainReading:
         return found
 
     def _pointer(self, dial: SearchedDial) -> str | None:
-        """Return the link of a dial of unknown place: the output of the same name, else a link of the same speed."""
+        """Return the link of a dial of unknown place: the output of the same name, otherwise a link of the same
+        speed.
+        """
         called = {**{name: name for name in self.train.outputs}, **self.same}
         for name, output in self.train.case(None).outputs.items():
             if called[name] == dial.name and output.relative_to in (None, self.train.frame):
@@ -528,7 +534,7 @@ class _TrainReading:
 
 
 def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: ReconstructionProblem) -> None:
-    """Raise `QuestionError` if a pair of equal names does not name parts of a train and of the question."""
+    """Raise `QuestionError` if a pair of equal names does not name parts of a train and of the problem."""
     own = {name for train in trains for name in (*train.wheels, *train.outputs)}
     requested = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}
     requested |= {dial.name for dial in problem.dials}
@@ -536,10 +542,12 @@ def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: Recon
         if name not in own:
             what = f"'{name}' is not a wheel or an output of a ranked train"
             raise QuestionError(
-                Problem(what, "`--same ITS=OURS` begins with its name there", suggest(name, sorted(own)))
+                Problem(what, "in `--same ITS=OURS`, ITS is a name in the ranked train", suggest(name, sorted(own)))
             )
         if called not in requested:
             what = f"'{called}' is not a wheel or a dial of the evidence"
             raise QuestionError(
-                Problem(what, "`--same ITS=OURS` ends with its name there", suggest(called, sorted(requested)))
+                Problem(
+                    what, "in `--same ITS=OURS`, OURS is a name in the evidence", suggest(called, sorted(requested))
+                )
             )

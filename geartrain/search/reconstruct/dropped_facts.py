@@ -1,4 +1,4 @@
-"""Sensitivity of the counts to each hard fact: the search is repeated without it."""
+"""Sensitivity of the number of explanations to each hard fact: the search is repeated without it."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 )
 from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
-_MINIMUM_TEETH = 3
+_MINIMUM_TEETH = 3  # lower end of the widened range of added tooth counts
 
 
 @dataclass(frozen=True)
 class ChangedQuestion:
-    """Question with one change, and a description of the change."""
+    """Problem with one change, and a description of the change."""
 
     change: str
     problem: ReconstructionProblem
@@ -33,38 +33,38 @@ class ChangedQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ChangedCount(Result):
-    """Numbers of trains that explain a question with one change."""
+    """Number of trains that explain a problem with one change."""
 
-    KEYS = ("change", "mechanisms", "complete", "refused")
+    KEYS = ("change", "solutions", "complete", "refused")
 
     change: str
     """Description of the change."""
-    mechanisms: tuple[int, ...]
-    """Numbers of trains with exactly 0, 1, 2, ... added wheels."""
+    solutions: tuple[int, ...]
+    """Number of trains with exactly 0, 1, 2, ... added wheels."""
     complete: bool = True
     """True if the search covered all candidates."""
     refused: str | None = None
-    """Reason why the changed question could not be searched."""
+    """Reason why the changed problem could not be searched; None if it was."""
 
     @property
     def total(self) -> int:
         """Total number of trains."""
-        return sum(self.mechanisms)
+        return sum(self.solutions)
 
     @property
     def fewest(self) -> int | None:
         """Minimum number of added wheels of a train; None if no train was found."""
-        return next((added for added, count in enumerate(self.mechanisms) if count), None)
+        return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
 def changed_counts(questions: list[ChangedQuestion], execution: Execution | None = None) -> Iterator[ChangedCount]:
-    """Yield the counts of changed questions in their order, as soon as each is complete.
+    """Yield the counts of changed problems in their order, as soon as each is complete.
 
-    An interrupted search is omitted, so that no journal stores a partial result.
+    An interrupted search is omitted, so no journal stores a partial result.
     """
     answers = (execution or Execution()).run(_count, [question.problem for question in questions])
-    for question, (mechanisms, complete, refused) in zip(questions, answers, strict=True):
-        yield ChangedCount(question.change, tuple(mechanisms), complete, refused)
+    for question, (solutions, complete, refused) in zip(questions, answers, strict=True):
+        yield ChangedCount(question.change, tuple(solutions), complete, refused)
 
 
 def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]:
@@ -74,16 +74,16 @@ def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]
         return [], False, error.problems[0].what
     if not found.complete:  # an interrupted search returns a partial result
         raise KeyboardInterrupt
-    return [count.mechanisms for count in found.counts], True, None
+    return [count.solutions for count in found.counts], True, None
 
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """Return the question without each of its hard facts in turn."""
+    """Return the problems that result from dropping each hard fact in turn."""
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
 
 def without_each_dial(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """Return the question without each of its dials in turn, if there are several."""
+    """Return the problems that result from dropping each dial in turn; empty for a single dial."""
     if len(problem.dials) < 2:
         return []
     return [
@@ -149,7 +149,7 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
 
 
 def _unsigned(dial: SearchedDial) -> SearchedDial:
-    """Return the dial with bounds of the magnitude of its speed."""
+    """Return the dial with bounds of the magnitude of its speed instead of the speed."""
     ends = sorted(map(abs, (dial.minimum, dial.maximum)))
     minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
     return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
@@ -172,24 +172,24 @@ MISREAD = 3
 
 @dataclass(frozen=True, slots=True)
 class LoneDial(Result):
-    """Minimum number of added wheels that explain one dial without the others."""
+    """Minimum number of added wheels that explain one dial if the other dials are dropped."""
 
     dial: str
     """Name of the dial."""
     fewest: int | None
-    """Minimum number of added wheels that explain the dial; None if the permitted number does not suffice."""
+    """Minimum number of added wheels that explain the dial; None if the permitted number is not sufficient."""
     refused: str | None = None
-    """Reason why the dial could not be searched."""
+    """Reason why the dial could not be searched; None if it was."""
 
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Reasons why a question has no explanation."""
+    """Reasons why a problem has no explanation."""
 
     dials: tuple[LoneDial, ...]
-    """Results for each dial without the others."""
-    doubts: tuple[ChangedCount, ...]
-    """Single changes that would leave an explanation, those with the fewest added wheels first."""
+    """Results for each dial by itself."""
+    uncertainties: tuple[ChangedCount, ...]
+    """Single changes of the evidence that would leave an explanation, ordered by the number of added wheels."""
     requested: int
     """Number of changes that were tried."""
     refused: tuple[str, ...]
@@ -197,7 +197,7 @@ class MissingExplanation(Result):
 
 
 def explain_missing(problem: ReconstructionProblem, execution: Execution | None = None) -> MissingExplanation:
-    """Search for the reasons why a question has no explanation."""
+    """Search for the reasons why a problem has no explanation."""
     dials = tuple(_lone_dial(problem, at) for at in range(len(problem.dials)))
     changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread_counts(problem)]
     counts = tuple(changed_counts(changed, execution))
@@ -207,21 +207,22 @@ def explain_missing(problem: ReconstructionProblem, execution: Execution | None 
 
 
 def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
-    """Search one dial without the others; surviving arbors that do not lead to it may be unused."""
+    """Search an explanation of one dial by itself. Surviving arbors that do not lead to it may be unused."""
     dial = problem.dials[at]
+    # known meshes may belong to arbors of other dials
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
     for wheels in range(problem.additions.wheels + 1):
         try:
             found = find_reconstructions(replace(lone, additions=replace(problem.additions, wheels=wheels)))
         except QuestionError as error:
             return LoneDial(dial.name, None, error.problems[0].what)
-        if any(count.mechanisms for count in found.counts):
+        if any(count.solutions for count in found.counts):
             return LoneDial(dial.name, wheels)
     return LoneDial(dial.name, None)
 
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield a changed question for each other count of a surviving wheel, small differences first."""
+    """Yield the problem with each other count of each surviving wheel, small differences first."""
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:
             counts = {count for count, _ in wheel.counts}

@@ -1,4 +1,6 @@
-"""Translation of declared evidence into a typed question. Unsupported declarations are refused with their place."""
+"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are refused with their
+place.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +50,7 @@ Limits = tuple[Fraction, Fraction]
 class PointerBounds:
     """Minimum and maximum speed of a pointer, and declared facts that do not bound it.
 
-    The bounds are bounds of the magnitude if `signed` is false.
+    The bounds are bounds of the magnitude if `signed` is False.
     """
 
     limits: Limits
@@ -61,9 +63,9 @@ class PointerBounds:
 
 
 def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Return the bounds of the speed of an output relative to the base; with `free_sense` bounds of its magnitude.
+    """Return the bounds of the speed of an output relative to the base; with `free_sense`, bounds of its magnitude.
 
-    Raise `DeclarationError` if the speed is not one range.
+    Raise `DeclarationError` if the admissible speeds are not one range.
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     if output.relative_to not in (None, evidence.frame, base.name):
@@ -73,7 +75,9 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
         raise DeclarationError(Problem(what, why, f"give its speed relative to the frame{carrier}", place))
     if output.of == evidence.frame:
         what = f"the pointer '{name}' is on the frame"
-        raise DeclarationError(Problem(what, "the frame does not turn", "correct `of`", place))
+        raise DeclarationError(
+            Problem(what, "the frame does not turn", "name in `of` the link that carries the pointer", place)
+        )
     found = _bounds(evidence, name, free_sense)
     found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
@@ -102,7 +106,7 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
 
 
 def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
-    """Convert bounds relative to the frame to bounds relative to a base that turns at a given speed."""
+    """Convert bounds relative to the frame to bounds relative to a base that turns with a given speed."""
     if not turning:
         return bounds
     if not bounds.signed:
@@ -114,7 +118,7 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """Yield the declared ranges of a speed, and whether each has a sign."""
+    """Yield the declared ranges of a speed, each with True if it has a sign."""
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
         half = tolerance.value if tolerance is not None else value.half or Fraction(0)
@@ -122,6 +126,7 @@ def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
     for target in output.targets:
         goal = goal_of(evidence, target)
         if target.tolerance is not None:
+            # absolute tolerance if the speed is 0
             half = target.tolerance.base * (abs(goal.speed) or 1)
         elif target.speed is not None and output.expect is None:
             half = (target.speed.half or Fraction(0)) * target.turns.value
@@ -151,13 +156,14 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
     if minimum > maximum:
         why = "no speed is within `expect` and all targets with a tolerance"
         raise DeclarationError(
-            Problem(f"the declared speeds of '{name}' contradict each other", why, "correct one of them", place)
+            Problem(
+                f"the declared speeds of '{name}' contradict each other", why, "correct `expect` or a target", place
+            )
         )
     return minimum, maximum
 
 
 def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) -> Limits:
-    """Intersect a range of speeds with a range of magnitudes."""
     low, high = magnitude
     if limits[0] >= 0:
         return _common([limits, (low, high)], name, place)
@@ -165,7 +171,7 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, -low)], name, place)
     if low <= 0:
         return _common([limits, (-high, high)], name, place)
-    why = "claims with a sense allow both signs, and a claim on the magnitude leaves one range of each sign"
+    why = "the targets with a sense allow both senses, and a target on the magnitude leaves one range in each sense"
     raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target only", place))
 
 
@@ -178,25 +184,25 @@ _MOST_COUNTS = 10_000
 
 @dataclass(frozen=True)
 class EvidenceQuestion(Shown):
-    """Typed question of declared evidence, with its base and the unused declarations.
+    """Reconstruction problem of declared evidence, with its base and the unused declarations.
 
     See Also
     --------
-    evidence_question : makes it.
+    evidence_question : Convert declared evidence to a problem.
     """
 
     problem: ReconstructionProblem
-    """Typed question."""
+    """Reconstruction problem, the input of the search."""
     base: BaseLink
     """Link that carries the arbors. Speeds of the problem are relative to it."""
     joined: Joined
-    """Arbor -> links that given couplings join to it."""
+    """Links that given couplings join to each arbor."""
     unused: tuple[str, ...]
-    """Declarations that do not affect the answer, one line each."""
+    """Declarations that do not affect the answer, one line for each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
-    """Translate declared evidence into a typed question.
+    """Convert declared evidence to a reconstruction problem.
 
     Parameters
     ----------
@@ -214,7 +220,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Raises
     ------
     DeclarationError
-        For every declaration that is unsupported or does not define a question, with its place.
+        For every declaration that is unsupported or does not define a problem, with its place.
 
     Examples
     --------
@@ -307,11 +313,11 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return ((teeth, Fraction(1)),)
-    chances = teeth.chances
-    if not chances:
+    probabilities = teeth.probabilities
+    if not probabilities:
         assert teeth.value is not None
         return ((teeth.value, Fraction(1)),)
-    return tuple(chances.items())
+    return tuple(probabilities.items())
 
 
 # declarations that are not supported
@@ -334,7 +340,7 @@ def _unsupported(evidence: Train) -> Iterator[Problem]:
 
 def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem:
     why = "ignoring it could change the trains that are found"
-    return Problem(what, why, "remove it, to search without it", evidence.place(*loc))
+    return Problem(what, why, "remove it from the evidence", evidence.place(*loc))
 
 
 def _wheels(evidence: Train) -> Iterator[Problem]:

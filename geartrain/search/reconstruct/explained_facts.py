@@ -1,8 +1,8 @@
-"""Facts derived from all candidates: marginal weights of single facts, the fact of maximum entropy, the family tree.
+"""Facts derived from all candidates: marginal probabilities, the fact of maximum entropy, the family tree.
 
 A fact has one answer in each candidate: whether two wheels mesh, which wheel drives an arbor, the tooth count of a
-wheel. Its marginals are the weights of its answers. The candidate determines the answer, so the expected information
-of an observation is the entropy of these weights.
+wheel. Its marginals are the probabilities of its answers. The candidate determines the answer, so the expected
+information of an observation is the entropy of these probabilities.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _KINDS: tuple[FactKind, ...] = get_args(FactKind)
 AN_ADDED_ARBOR = "an added arbor"
 YES, NO, NONE, OUTSIDE, UNUSED = "yes", "no", "none", "not in the train", "not used"
 _ELSE: dict[FactKind, str] = {"driver": OUTSIDE, "pointer": OUTSIDE, "count": UNUSED, "added": NONE}
-"""Answer of a candidate without an entry for a fact; `NO` for the other kinds."""
+"""Answer that applies if a candidate has no entry for a fact; `NO` for the other kinds."""
 
 LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer")
 """Kinds of facts that an examination of surviving or new fragments can establish."""
@@ -54,25 +54,25 @@ _MOST_FACTS = 200
 
 
 class Fact(NamedTuple):
-    """Question with one answer in each candidate."""
+    """Property with one answer in each candidate."""
 
     kind: FactKind
     """Kind of the fact."""
     subject: str
-    """Wheels, arbor, dial or tooth count of the fact."""
+    """Names of wheels, arbor or dial, or the tooth count, that the fact is about."""
 
 
 @dataclass(frozen=True, slots=True)
 class FactAnswer(Result):
-    """One answer to a fact, with its weight."""
+    """Answer to a fact, with its probability."""
 
-    KEYS = ("answer", Key("weight", "share", float), "mechanisms")
+    KEYS = ("answer", Key("weight", "share", float), "solutions")
 
     answer: str
     """Name, tooth count, `yes` or `no`."""
     share: Fraction
-    """Share of the weight of the candidates with this answer, 0 to 1."""
-    mechanisms: int
+    """Posterior probability of this answer, 0 to 1."""
+    solutions: int
     """Number of candidates with this answer."""
 
 
@@ -85,9 +85,9 @@ class FactMarginal(Result):
     kind: FactKind
     """Kind of the fact."""
     subject: str
-    """Wheels, arbor, dial or tooth count of the fact."""
+    """Names of wheels, arbor or dial, or the tooth count, that the fact is about."""
     answers: tuple[FactAnswer, ...]
-    """Answers in descending order of weight."""
+    """Answers in descending order of probability."""
 
     @property
     def bits(self) -> float:
@@ -97,10 +97,10 @@ class FactMarginal(Result):
     @property
     def trains(self) -> int:
         """Number of candidates."""
-        return sum(answer.mechanisms for answer in self.answers)
+        return sum(answer.solutions for answer in self.answers)
 
     def share(self, answer: str) -> Fraction:
-        """Return the share of the weight of one answer."""
+        """Return the posterior probability of one answer."""
         return next((one.share for one in self.answers if one.answer == answer), Fraction(0))
 
 
@@ -118,7 +118,7 @@ class NextFact(Result):
 
 @dataclass(frozen=True)
 class WeighedTrains:
-    """Candidates in descending order of weight. Integer weights make sums exact and fast."""
+    """Candidates in descending order of weight, with integer weights, so that sums are exact and fast."""
 
     trains: tuple[NamedArbor, ...]
     weights: tuple[int, ...]
@@ -135,7 +135,7 @@ class WeighedTrains:
 
 
 class FactTally:
-    """Accumulated weights and numbers of trains, for each answer to each fact."""
+    """Sums of weights and numbers of trains, for each answer to each fact."""
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         self.trains = 0
@@ -144,18 +144,18 @@ class FactTally:
         self._wheels = [wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels]
 
     def add_trains(self, weight: Fraction | int, number: int = 1) -> None:
-        """Add `number` trains of one weight each to the totals."""
+        """Add `number` trains, each with this weight, to the totals."""
         self._whole += weight * number
         self.trains += number
 
     def add(self, fact: Fact, answer: str, weight: Fraction | int, number: int = 1) -> None:
-        """Add `number` trains to an answer. Each train has one answer to a fact."""
+        """Add `number` trains, each with this weight, to an answer. Each train has one answer to a fact."""
         answers = self._found.setdefault(fact, {})
         before = answers.get(answer, (Fraction(0), 0))
         answers[answer] = before[0] + weight * number, before[1] + number
 
     def facts(self) -> Iterator[Fact]:
-        """Yield all facts, including unused wheels, but without wheels that every train uses."""
+        """Yield all facts, without those on wheels that every train uses."""
         used = {wheel: Fact("used", wheel) for wheel in self._wheels}
         used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
         yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
@@ -164,7 +164,7 @@ class FactTally:
         """Return the marginal distribution of a fact."""
         found = self._found.get(fact, {})
         answers = [FactAnswer(answer, weight / self._whole, number) for answer, (weight, number) in found.items()]
-        left = self.trains - sum(answer.mechanisms for answer in answers)
+        left = self.trains - sum(answer.solutions for answer in answers)
         if left:
             rest = 1 - sum((answer.share for answer in answers), Fraction(0))
             answers.append(FactAnswer(_ELSE.get(fact.kind, NO), rest, left))
@@ -180,7 +180,7 @@ class ExplainedFacts:
     weighed : WeighedTrains
         All trains, or the best.
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     tally : FactTally, optional
         Sums over all trains, if known. Facts are then equivalent if they partition `weighed` in the same way and have
         equal sums.
@@ -199,17 +199,18 @@ class ExplainedFacts:
         self._tally = own if tally is None else tally
 
     def marginals(self) -> tuple[FactMarginal, ...]:
-        """Return the marginal of every fact except `pair`, by kind and in descending order of weight."""
+        """Return the marginal of every fact except `pair`, by kind and in descending order of probability."""
         found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
         return tuple(
             sorted(found, key=lambda one: (_KINDS.index(one.kind), -_yes_weight(one), _answer_order(one.subject)))
         )
 
     def next_facts(self) -> tuple[NextFact, ...]:
-        """Return facts that partition the trains, in descending order of their entropy."""
+        """Return the facts whose answer differs among the trains, in descending order of their entropy."""
         requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
         requested = [one for one in requested if len(one.answers) > 1]
         order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
+        # rounded, so that equal entropies are ordered by kind
         requested.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
         alike: dict[Hashable, list[FactMarginal]] = {}
         for one in requested[:_MOST_FACTS]:
@@ -226,13 +227,13 @@ class ExplainedFacts:
         found = frozenset([*parts, *([rest] if rest else [])])
         if len(found) < len(one.answers):  # the listed trains do not show the whole partition
             return fact
-        return found, frozenset((answer.share, answer.mechanisms) for answer in one.answers)
+        return found, frozenset((answer.share, answer.solutions) for answer in one.answers)
 
 
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
     """Yield all facts of a candidate with their answers, each fact once.
 
-    Tooth counts are facts only for wheels in `doubtful`, pointers only for dials in `lost`.
+    Tooth counts of surviving wheels are facts only for wheels in `doubtful`, pointers only for dials in `lost`.
     """
     wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
     for arbor in train.arbors():
@@ -257,7 +258,7 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
 
 
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
-    """Return the names of dials whose place is not known."""
+    """Return the names of dials whose arbor is not known."""
     return {dial.name for dial in problem.dials if dial.place is None}
 
 
@@ -271,12 +272,12 @@ def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
 
 
 def _yes_weight(fact: FactMarginal) -> Fraction:
-    """Return the weight of yes, or of the most probable answer of a fact without yes and no."""
+    """Return the probability of yes, or of the most probable answer of a fact without yes and no."""
     return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
 
 
 def _answer_order(answer: str) -> tuple[int, str]:
-    """Return a sorting key that orders tooth counts by size, before words."""
+    """Return a sort key that orders tooth counts by size, before words."""
     return (int(answer), "") if answer.isdigit() else (1 << 62, answer)
 
 
@@ -290,7 +291,7 @@ MOST_SUMMED = 20_000_000
 def sum_facts(
     weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, dials: Sequence[str]
 ) -> FactTally:
-    """Sum the facts of all trains of topologies, each given with the weight of one of its trains."""
+    """Sum the facts of all trains of some topologies, each given with the prior weight of one of its trains."""
     trains, sums = TopologyTrains(problem, dials), FactTally(problem)
     lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
     for topology, weight in weighed:
@@ -306,7 +307,7 @@ def sum_facts(
 
 
 def _topology_facts(topology: Topology, lost: set[str], doubtful: set[str]) -> Iterator[tuple[Fact, str]]:
-    """Yield facts that are true of every train of a topology."""
+    """Yield the facts that are true of every train of a topology."""
     for branching in topology.branchings:
         for dial in lost.intersection(branching.here):
             yield Fact("pointer", dial), branching.name or AN_ADDED_ARBOR
@@ -318,7 +319,7 @@ def _topology_facts(topology: Topology, lost: set[str], doubtful: set[str]) -> I
 
 
 def _part_facts(part: OrderPart, trains: TopologyTrains) -> Iterator[tuple[Fact, str, int]]:
-    """Yield facts that are true of some trains of a part, with the number of these trains."""
+    """Yield the facts that are true of some trains of a part, with the number of these trains."""
     for fact_key, orders in part.orders.marginals.items():
         if isinstance(fact_key, NamedMesh):
             for fact, answer in _mesh_facts(fact_key):
@@ -354,33 +355,33 @@ class FamilyTrain(Result):
     KEYS = ("rank", Key("weight", "share", float), "counts")
 
     rank: int
-    """Rank by weight, from 1."""
+    """Rank by probability, from 1."""
     share: Fraction
-    """Share of the weight of all candidates in the tree, 0 to 1."""
+    """Probability of the candidate among those in the tree, 0 to 1."""
     counts: dict[str, int]
     """Tooth counts of added wheels, then of surviving wheels whose counts differ among the candidates."""
 
 
 @dataclass(frozen=True, slots=True)
 class FamilyBranch(Result):
-    """Consecutive meshes that all candidates of a branch have in common."""
+    """Consecutive meshes that all candidates of a branch of the family tree have in common."""
 
-    KEYS = ("parent", "meshes", Key("weight", "share", float), "mechanisms", "trains")
+    KEYS = ("parent", "meshes", Key("weight", "share", float), "solutions", "trains")
 
     parent: int | None
     """Index of the parent branch; None for the root."""
     meshes: tuple[str, ...]
     """Meshes as "driving > driven", with the pointers of the driven arbor in parentheses."""
     share: Fraction
-    """Share of the weight of all candidates in the tree, 0 to 1."""
-    mechanisms: int
+    """Total probability of the candidates in the branch among those in the tree, 0 to 1."""
+    solutions: int
     """Number of candidates in the branch."""
     trains: tuple[FamilyTrain, ...]
-    """Candidates that end here, in descending order of weight."""
+    """Candidates that end at this branch, in descending order of probability."""
 
 
 def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tuple[FamilyBranch, ...]:
-    """Build the family tree in depth-first order, branches in descending order of weight.
+    """Build the family tree in depth-first order, with branches in descending order of probability.
 
     doubtful   names of surviving wheels whose tooth counts are included
     """
@@ -392,10 +393,10 @@ def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tu
 
 @dataclass
 class _Node:
-    """Node of the trie: a mesh with the subtree of the meshes that follow it."""
+    """Node of the trie: a mesh, with the meshes that follow it in some candidate."""
 
     weight: int = 0
-    mechanisms: int = 0
+    solutions: int = 0
     below: dict[str, _Node] = field(default_factory=dict)
     ends: list[FamilyTrain] = field(default_factory=list)
 
@@ -409,11 +410,11 @@ class _Node:
 
     def _count(self, weight: int) -> None:
         self.weight += weight
-        self.mechanisms += 1
+        self.solutions += 1
 
 
 def _branches(root: _Node) -> Iterator[FamilyBranch]:
-    """Yield the branches in depth-first order; a sequence of meshes without alternatives is one branch."""
+    """Yield the branches in depth-first order. A sequence of meshes without alternatives is one branch."""
     waiting: list[tuple[int | None, list[str], _Node]] = [(None, [], root)]
     number = 0
     while waiting:
@@ -422,7 +423,7 @@ def _branches(root: _Node) -> Iterator[FamilyBranch]:
             ((mesh, node),) = node.below.items()
             meshes.append(mesh)
         share = Fraction(node.weight, root.weight)
-        yield FamilyBranch(parent, tuple(meshes), share, node.mechanisms, tuple(node.ends))
+        yield FamilyBranch(parent, tuple(meshes), share, node.solutions, tuple(node.ends))
         heaviest_first = sorted(node.below.items(), key=lambda one: -one[1].weight)
         waiting += [(number, [mesh], below) for mesh, below in reversed(heaviest_first)]
         number += 1
@@ -437,7 +438,6 @@ def _steps(train: NamedArbor) -> Iterator[str]:
 
 
 def _pointers_text(arbor: NamedArbor) -> str:
-    """Return the pointers of an arbor in parentheses."""
     return f"({', '.join(arbor.dials)})" if arbor.dials else ""
 
 
@@ -453,24 +453,24 @@ def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
 
 @dataclass(frozen=True, slots=True)
 class CandidateFindings(Result):
-    """Facts derived from the candidates, besides their numbers."""
+    """Facts derived from the candidates, in addition to their numbers."""
 
     listed: int = 0
     """Number of candidates in the family tree."""
     share: float = 0.0
-    """Share of the weight of all explanations that the family tree covers, 0 to 1."""
+    """Total posterior probability of the candidates in the family tree, 0 to 1."""
     of_all: bool = False
-    """True if the facts cover all trains, False if only the trains of the family tree."""
+    """True if the facts cover all trains, False if they cover only the trains of the family tree."""
     marginals: tuple[FactMarginal, ...] = ()
     """Marginal distribution of every fact."""
     next_facts: tuple[NextFact, ...] = ()
     """Facts to observe next, in descending order of their entropy."""
     family: tuple[FamilyBranch, ...] = ()
-    """Family tree of the candidates. Shares are shares of their weight."""
+    """Family tree of the candidates. Its probabilities are relative to these candidates."""
     assumptions: tuple[ChangedCount, ...] = ()
-    """Counts without each hard fact, if requested."""
+    """Number of explanations without each hard fact, if requested."""
     missing: MissingExplanation | None = None
-    """Reasons why nothing explains the evidence; None if something does."""
+    """Reasons why the evidence has no explanation; None if it has one."""
 
 
 NO_FINDINGS = CandidateFindings()
@@ -482,9 +482,9 @@ def find_facts(
     found: Reconstructions,
     assumptions: tuple[ChangedCount, ...] = (),
 ) -> CandidateFindings:
-    """Compute marginals, next facts and the family tree of the listed candidates.
+    """Compute the marginals, the facts to observe next, and the family tree of the listed candidates.
 
-    Marginals and next facts cover all trains if these can be summed.
+    Marginals and facts to observe next cover all trains if these can be summed.
     """
     candidates = found.candidates
     if not candidates:
@@ -492,7 +492,7 @@ def find_facts(
     trains = (named_candidate(evidence, one.arbor) for one in candidates)
     weighed = WeighedTrains.of(trains, (one.weight for one in candidates))
     tally = None
-    if found.topologies and sum(each.mechanisms for each in found.topologies) <= MOST_SUMMED:
+    if found.topologies and sum(each.solutions for each in found.topologies) <= MOST_SUMMED:
         every = ((each.topology, topology_prior(each.topology, problem)) for each in found.topologies)
         tally = sum_facts(every, problem, tuple(evidence.outputs))
     facts = ExplainedFacts(weighed, problem, tally)
@@ -501,7 +501,7 @@ def find_facts(
     return CandidateFindings(
         len(candidates),
         float(min(1, sum(one.weight for one in candidates))),
-        tally is not None or len(candidates) == sum(count.mechanisms for count in found.counts),
+        tally is not None or len(candidates) == sum(count.solutions for count in found.counts),
         marginals,
         facts.next_facts(),
         grow_family_tree(weighed, [name for name in evidence.wheels if name in differ]),

@@ -33,7 +33,7 @@ Sides = tuple[tuple[float, float], ...]
 """Minimum and maximum axis distance of each mesh of a chain [mm]."""
 
 _Chain = tuple[str, Sides]
-"""Arbor with a known position at which a chain ends, and the axis distances of its meshes."""
+"""Arbor with a known position at which a chain ends, and the axis distances of the meshes on the chain."""
 _ROUNDING = 1e-9  # relative rounding error of a length
 
 
@@ -43,7 +43,7 @@ def chains_close(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
 
 
 def can_close(distance: float, sides: Sides) -> bool:
-    """Return whether a polygon can be closed with one side of a given length and the others within bounds [mm]."""
+    """Return whether a polygon can be closed with one side of length `distance` and the others within bounds [mm]."""
     slack = _ROUNDING * (distance + sum(low for low, _ in sides))
     lengths = ((distance, distance), *sides)
     return all(
@@ -53,7 +53,7 @@ def can_close(distance: float, sides: Sides) -> bool:
 
 
 def _chains(arbor: Arbor, geometry: SurvivingGeometry) -> list[_Chain] | None:
-    """Return the chains from an arbor down to arbors of known position, or None if one of them cannot be closed."""
+    """Return the chains from an arbor down to arbors of known position; None if one of them cannot be closed."""
     by_child: list[list[_Chain]] = []
     for wheel, child in arbor.driven_arbors():
         below = _chains(child, geometry)
@@ -92,7 +92,7 @@ def _side(wheel: PlacedWheel, child: Arbor, geometry: SurvivingGeometry) -> tupl
 
 
 _MOST_LAYERS = 16
-"""Maximum number of layers that are checked. The number of subsets doubles with each layer."""
+"""Maximum number of layers that are checked, because the number of subsets doubles with each layer."""
 _Member = tuple[str | None, Fraction]
 """Arbor of a wheel, and the minimum pitch radius of the wheel [mm]."""
 _Layer = tuple[_Member, ...]
@@ -100,7 +100,9 @@ _Layer = tuple[_Member, ...]
 
 
 def layers_exist(arbor: Arbor, geometry: SurvivingGeometry) -> bool:
-    """Return whether the wheels can be stacked in layers; True if distances are not bounded."""
+    """Return whether the wheels can be stacked in layers without intersecting arbors; True if distances are not
+    bounded.
+    """
     if geometry.reach is None:
         return True
     layers = list(_layers(arbor, geometry))
@@ -141,7 +143,7 @@ def _layers(arbor: Arbor, geometry: SurvivingGeometry) -> Iterator[_Layer]:
 
 
 def _layers_below(arbor: Arbor, geometry: SurvivingGeometry) -> Iterator[_Layer]:
-    """Yield the layers of the subtree of an arbor, except those of its driven wheel."""
+    """Yield the layers in the subtree of an arbor, without the layer of its driven wheel."""
     yield from _layers(arbor, geometry)
     for child in arbor.passes:
         yield from _layers_below(child, geometry)
@@ -168,7 +170,7 @@ def _layers_of(name: str | None, layers: Sequence[_Layer]) -> frozenset[int]:
 
 
 def _contains_axis(wheel: _Member, name: str | None, geometry: SurvivingGeometry) -> bool:
-    """Return whether the axis of an arbor passes through a wheel."""
+    """Return whether the axis of an arbor is within the pitch circle of a wheel."""
     return _is_nearer(wheel[0], name, wheel[1], geometry)
 
 
@@ -184,7 +186,7 @@ def _is_nearer(one: str | None, other: str | None, length: Fraction, geometry: S
 
 
 def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
-    """Return the likelihood of the measurements up to a common factor; 0 if the candidate is impossible.
+    """Return the likelihood of the measurements given a candidate, up to a common factor; 0 if it is impossible.
 
     arbor   input arbor of the candidate
     """
@@ -202,7 +204,7 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
 
 _MINIMUM = -700.0  # exp(-700) is still positive; only an impossible candidate has likelihood 0
 _End = tuple[str | None, tuple[str | None, int]]
-"""Arbor, and name and tooth count of a wheel on it."""
+"""Name of an arbor, and name and tooth count of a wheel on it."""
 
 
 class _Mesh(NamedTuple):
@@ -229,7 +231,7 @@ def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
 
 
 class _Pull(NamedTuple):
-    """Misfit of a part of a train: stiffness * (x - centre)^2 + misfit, x the logarithm of a module."""
+    """Misfit of a part of a train, stiffness * (x - centre)^2 + misfit, where x is the logarithm of a module."""
 
     stiffness: float
     centre: float
@@ -238,7 +240,7 @@ class _Pull(NamedTuple):
 
 @dataclass(frozen=True)
 class _Modules:
-    """Minimum sum of squared misfits of modules, by elimination of the unknown modules from the leaves up."""
+    """Minimum sum of squared misfits of modules, computed by elimination of the unknown modules from the leaves up."""
 
     geometry: SurvivingGeometry
 
@@ -249,7 +251,9 @@ class _Modules:
         return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 
     def _misfit_of_wheel(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
-        """Return the misfit as a function of the module of a wheel, from its own and its driven wheels."""
+        """Return the misfit as a function of the module of a wheel, from its measurement and the wheels that it
+        drives.
+        """
         pulls = [self._misfit_through_mesh(child) for child in children]
         module = self.geometry.module_of(_size(wheel))
         stiffness = 0.0 if module is None else self._stiffness(module * wheel.teeth / 2)
@@ -265,13 +269,14 @@ class _Modules:
         return _Pull(stiffness, centre, misfit)
 
     def _stiffness(self, radius: Fraction) -> float:
-        """Return the stiffness of a measured pitch radius, relative to a mesh."""
+        """Return the stiffness of a measured pitch radius [mm], relative to the stiffness of a mesh."""
         error = self.geometry.radius
         return math.inf if error is None else float(self.geometry.module * radius / error) ** 2
 
     def _misfit_through_mesh(self, child: Arbor) -> _Pull:
-        """Return the misfit as a function of the module of a wheel, from a mesh with a wheel that it drives."""
+        """Return the misfit as a function of the module of a driving wheel, from its mesh with the arbor `child`."""
         assert child.driven is not None
         held = self._misfit_of_wheel(child.driven, child.passes)
+        # springs in series: the mesh has stiffness 1
         stiffness = 1.0 if held.stiffness == math.inf else held.stiffness / (1 + held.stiffness)
         return _Pull(stiffness, held.centre, held.misfit)

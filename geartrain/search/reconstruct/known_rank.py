@@ -28,16 +28,16 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, Reconstru
 from geartrain.search.reconstruct.reconstruction_search import (
     Reconstructions,
     is_all_listed,
-    prior,
     rank_of,
     train_key,
+    train_prior,
     weight_ranks,
 )
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
 Search = Callable[[ReconstructionProblem], Reconstructions]
-"""Function that finds all explanations of a question."""
+"""Function that finds all explanations of a problem."""
 
 # Facts that distinguish one train from all other explanations: single facts, and the smallest sets of facts.
 
@@ -47,23 +47,23 @@ MAXIMUM, MINIMUM = "maximum", "minimum"
 _KINDS = (*LOOKED_FOR, MAXIMUM, MINIMUM)
 _Subject = tuple[str, str]
 _MOST_TOGETHER = 3
-"""Maximum number of facts in a set."""
+"""Maximum number of facts in a distinguishing set."""
 _MOST_TRAINS = 2000
-"""Maximum number of trains from which one is distinguished."""
+"""Maximum number of trains among which one is distinguished."""
 
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """Distinguishing fact: it is true of one train and not of all."""
+    """Distinguishing fact, which is true of one train and not of all."""
 
     kind: str
     """Kind of the fact: one of `LOOKED_FOR`, or `MAXIMUM` or `MINIMUM`."""
     subject: str
     """Wheels, arbor or dial of the fact; empty for `MAXIMUM` and `MINIMUM`."""
     answer: str
-    """Value of the fact in the train."""
-    mechanisms: int
-    """Number of trains with this value, including the train itself."""
+    """Answer to the fact in the train."""
+    solutions: int
+    """Number of trains with this answer, including the train itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ class TellingFacts(Result):
     """Facts that distinguish one train from all other explanations."""
 
     facts: tuple[TellingFact, ...]
-    """All distinguishing facts, those of the fewest trains first."""
+    """All distinguishing facts, in ascending order of the number of trains that share them."""
     sets: tuple[tuple[TellingFact, ...], ...]
     """Smallest sets of facts that only this train satisfies, all of one size of at most three.
 
@@ -91,9 +91,9 @@ def find_telling_facts(
     evidence : Train
         Declared evidence.
     problem : ReconstructionProblem
-        Typed question of the evidence.
+        Reconstruction problem of the evidence.
     found : Reconstructions
-        All explanations of the question.
+        All explanations of the problem.
     candidate : Arbor
         One of the explanations.
     """
@@ -110,7 +110,7 @@ def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], los
 
     which     index of the train
     doubtful  surviving wheels with uncertain tooth counts
-    lost      dials whose place is not known
+    lost      dials whose arbor is not known
     """
     said = [dict(_observable_facts(train, doubtful, lost)) for train in trains]
     left: dict[TellingFact, frozenset[int]] = {}
@@ -118,10 +118,10 @@ def single_out(trains: Sequence[NamedArbor], which: int, doubtful: set[str], los
         alike = frozenset(_trains_with(said, fact, answer))
         if len(alike) < len(trains):
             left[TellingFact(*fact, answer, len(alike))] = alike
-    facts = sorted(left, key=lambda one: (one.mechanisms, _KINDS.index(one.kind), one.subject))
+    facts = sorted(left, key=lambda one: (one.solutions, _KINDS.index(one.kind), one.subject))
     first: dict[frozenset[int], TellingFact] = {}
     for each in facts:
-        first.setdefault(left[each], each)
+        first.setdefault(left[each], each)  # equivalent facts are represented by the first
     return TellingFacts(tuple(facts), tuple(_smallest_sets(first, which)))
 
 
@@ -137,7 +137,7 @@ def _observable_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> 
 
 
 def _trains_with(said: Sequence[Mapping[_Subject, str]], fact: _Subject, answer: str) -> Iterator[int]:
-    """Yield the indices of trains for which a fact is true; a limit is true if a train respects it."""
+    """Yield the indices of trains for which a fact is true. A fact on a limit is true if a train respects the limit."""
     for at, one in enumerate(said):
         own = one.get(fact)
         if fact[0] == MAXIMUM:
@@ -165,12 +165,12 @@ def _smallest_sets(first: Mapping[frozenset[int], TellingFact], which: int) -> I
 
 @dataclass(frozen=True, slots=True)
 class TrainPlace(Result):
-    """Rank and weight of one explanation among all."""
+    """Rank and probability of one explanation among all."""
 
     KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
 
     ranks: tuple[int, int]
-    """First and last rank by weight. They differ if several trains have the same weight."""
+    """First and last rank by probability. They differ if several trains are equally probable."""
     trains: int
     """Number of explanations."""
     ranks_alike: tuple[int, int]
@@ -178,78 +178,78 @@ class TrainPlace(Result):
     trains_alike: int
     """Number of explanations with the same number of added wheels."""
     weight: float
-    """Share of the weight of all explanations, 0 to 1."""
+    """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
-    """Weight of the best explanation over the weight of this one, at least 1."""
+    """Probability of the best explanation over the probability of this one, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class AdmittingQuestion(Result):
-    """Changed question for which a train is an explanation."""
+    """Changed problem for which a train is an explanation."""
 
     changes: tuple[str, ...]
-    """Descriptions of the changes."""
+    """Descriptions of the changes of the problem."""
     wheels: dict[str, int]
-    """Names of the wheels that the train adds -> tooth counts."""
+    """Tooth count of each wheel that the train adds."""
     arbors: int
     """Number of arbors that the train adds."""
     requested: int
-    """Maximum number of added wheels of the search: as many as the train adds, if permitted."""
-    mechanisms: tuple[int, ...]
-    """Numbers of explanations with exactly 0, 1, 2, ... added wheels."""
+    """Maximum number of added wheels of the search: the number that the train adds, if permitted."""
+    solutions: tuple[int, ...]
+    """Number of explanations with exactly 0, 1, 2, ... added wheels."""
     place: TrainPlace | None
     """Rank of the train; None if it adds more wheels than were searched."""
     refused: str | None = None
-    """Reason why the question could not be searched, or was not."""
+    """Reason why the changed problem was not searched; None if it was."""
 
 
 @dataclass(frozen=True, slots=True)
 class KnownRank(Result):
-    """Rank of a known train in a question, or the rules that it breaks."""
+    """Rank of a known train in a problem, or the rules that it breaks."""
 
     train: str
     """Name of the train."""
     wheels: dict[str, int]
-    """Names in the train of the wheels that it adds -> tooth counts."""
+    """Tooth count of each wheel that the train adds, by its name in the train."""
     arbors: int
     """Number of arbors that the train adds."""
     broken: tuple[BrokenRule, ...]
     """Rules that the train breaks; empty if it is an explanation."""
     notes: tuple[str, ...] = ()
-    """Features of the train that are not used."""
+    """Features of the train that are ignored."""
     place: TrainPlace | None = None
     """Rank of the train; None if it breaks rules or adds more wheels than permitted."""
     admitted: tuple[AdmittingQuestion, ...] = ()
-    """Ranks in questions without the broken rules: with the dial speeds of the train, then without these dials."""
+    """Ranks in problems without the broken rules: first with the dial speeds of the train, then without these dials."""
     telling: TellingFacts | None = None
-    """Facts that distinguish the train, if all explanations are listed."""
+    """Facts that distinguish the train; None unless all explanations are listed."""
 
 
 @dataclass(frozen=True)
 class RankedQuestion:
-    """Question with all its explanations, in which known trains are ranked."""
+    """Problem with all its explanations, among which known trains are ranked."""
 
     evidence: Train
-    """Declared evidence; its arbors turn in the frame."""
+    """Declared evidence, whose arbors turn in the frame."""
     problem: ReconstructionProblem
-    """Typed question of the evidence."""
+    """Reconstruction problem of the evidence."""
     found: Reconstructions
-    """All explanations of the question."""
+    """All explanations of the problem."""
     search: Search
-    """Search for all explanations of a changed question. It ranks a train that breaks rules."""
+    """Function that finds all explanations of a changed problem, used to rank a train that breaks rules."""
 
 
 def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, str] | None = None) -> KnownRank:
-    """Rank a known train among the explanations of a question.
+    """Rank a known train among the explanations of a problem.
 
     Parameters
     ----------
     train : Train
         Known train.
     question : RankedQuestion
-        Question with all its explanations.
+        Problem with all its explanations.
     same : mapping of str to str, optional
-        Names of the train -> names of the question; see `find_known_train`.
+        Name in the problem of each part that the train names differently; see `find_known_train`.
     """
     problem, found = question.problem, question.found
     known = find_known_train(train, problem, same)
@@ -263,21 +263,20 @@ def rank_known_train(train: Train, question: RankedQuestion, same: Mapping[str, 
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
-    """Return the rank and weight of one explanation among all.
+    """Return the rank and probability of one explanation among all.
 
-    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the
-    weight depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is
-    listed.
+    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the prior
+    depends only on the topology, the rank follows from the numbers of trains of each weight, and no train is listed.
     """
     added = candidate.added_wheels
-    counts = {count.added: count.mechanisms for count in found.counts}
+    counts = {count.added: count.solutions for count in found.counts}
     if not counts.get(added):
         return None
     if not found.weights:
         return _listed_place(candidate, found)
-    weight = prior(candidate, problem)
-    every = [(each.weight, each.mechanisms) for each in found.weights]
-    alike = [(each.weight, each.mechanisms) for each in found.weights if each.added == added]
+    weight = train_prior(candidate, problem)
+    every = [(each.weight, each.solutions) for each in found.weights]
+    alike = [(each.weight, each.solutions) for each in found.weights if each.added == added]
     whole = sum(own * number for own, number in every)
     return TrainPlace(
         weight_ranks(every)[weight],
@@ -290,7 +289,7 @@ def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstr
 
 
 def _listed_place(candidate: Arbor, found: Reconstructions) -> TrainPlace | None:
-    """Return the rank and weight of an explanation if all explanations are weighed one by one and listed."""
+    """Return the rank and probability of an explanation if all explanations are weighted one by one and listed."""
     ranks = rank_of(candidate, found)
     if ranks is None:
         return None
@@ -310,7 +309,7 @@ def _listed_place(candidate: Arbor, found: Reconstructions) -> TrainPlace | None
 def _all_admitted(
     train: Train, problem: ReconstructionProblem, search: Search, same: Mapping[str, str]
 ) -> Iterator[AdmittingQuestion]:
-    """Yield changed questions that admit a train, with its rank in each."""
+    """Yield the changed problems that admit a train, with its rank in each."""
     known_changes = set[tuple[str, ...]]()
     for without_dials in (False, True):
         changes, changed, known = _changed(train, problem, same, without_dials)
@@ -318,6 +317,7 @@ def _all_admitted(
             continue
         known_changes.add(changes)
         own = known.arbor.added_wheels
+        # trains with more added wheels than this one are not searched
         requested = replace(changed, additions=replace(changed.additions, wheels=min(own, changed.additions.wheels)))
         said = changes, dict(known.added), known.arbor.added_arbors, requested.additions.wheels
         try:
@@ -325,16 +325,16 @@ def _all_admitted(
         except QuestionError as error:
             yield AdmittingQuestion(*said, (), None, error.problems[0].what)
         else:
-            mechanisms = tuple(count.mechanisms for count in found.counts)
-            yield AdmittingQuestion(*said, mechanisms, find_place(known.arbor, requested, found))
+            solutions = tuple(count.solutions for count in found.counts)
+            yield AdmittingQuestion(*said, solutions, find_place(known.arbor, requested, found))
 
 
 def _changed(
     train: Train, problem: ReconstructionProblem, same: Mapping[str, str], without_dials: bool
 ) -> tuple[tuple[str, ...], ReconstructionProblem, KnownTrain | None]:
-    """Return the changes by which a train breaks no rule, the changed question, and the train as read in it; or None.
+    """Return the changes by which a train breaks no rule, the changed problem, and the train as read in it (or None).
 
-    The train is read again after each round, because without a dial the question needs fewer of its arbors and wheels.
+    The train is read again after each round, because without a dial the problem needs fewer of its arbors and wheels.
     """
     changes: dict[str, None] = {}
     known = find_known_train(train, problem, same)

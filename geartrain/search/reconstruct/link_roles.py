@@ -1,4 +1,4 @@
-"""Roles of declared links in a question: the link that carries the arbors, and links that are joined to one arbor."""
+"""Roles of declared links in a reconstruction: the link that carries the arbors, and links that form one arbor."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _ONE_START = "a train on a carrier begins at one link: the frame, or one other d
 
 @dataclass(frozen=True)
 class BaseLink:
-    """Link that carries the arbors of a train, and the link that drives the train."""
+    """Base of a train: the link that carries its arbors, and the link that drives it."""
 
     name: str
     """Name of the frame or of a carrier."""
@@ -35,16 +35,16 @@ class BaseLink:
 
     @property
     def is_carrier(self) -> bool:
-        """True if the base turns."""
+        """True if the base is a carrier, which turns."""
         return bool(self.speed)
 
     def seen(self, relative_to: str) -> Fraction:
-        """Return the speed of the base relative to a link, which is the base itself or the frame."""
+        """Return the speed of the base relative to the base itself or to the frame [turns per unit]."""
         return Fraction(0) if relative_to == self.name else self.speed
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of evidence for which `base_problems` yields no problem."""
+    """Return the base of evidence for which `base_problems` yields nothing."""
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
     if carrier is None:
@@ -55,7 +55,7 @@ def find_base(evidence: Train) -> BaseLink:
 
 
 def base_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield problems that leave the base or the input of the train undetermined, or are not supported."""
+    """Yield problems that leave the base or the input of the train undetermined or that are not supported."""
     carrier = _carrier(evidence)
     if not evidence.case(None).exact:
         place = evidence.place("inputs")
@@ -136,7 +136,7 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
         elif speed == inputs.get(carrier):
             what = f"'{link}' has the same speed as the carrier"
             why = "it does not turn relative to the carrier, so it cannot drive arbors on it"
-            yield Problem(what, why, "correct one of the speeds", place)
+            yield Problem(what, why, "correct one of the two speeds in `inputs`", place)
         elif not speed:
             fix = f"remove '{link}' from `inputs`, and put its wheels on the frame"
             yield Problem(f"the speed of the input '{link}' is 0", _ONE_START, fix, place)
@@ -169,7 +169,7 @@ def _carrier_arbor_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:
-    """Return the label of the declared axis about which the carrier turns, or None."""
+    """Return the label of the declared axis about which the carrier turns; None if it is not declared."""
     pair = {evidence.frame, carrier}
     return next((joint.axis for joint in evidence.revolutes if set(joint.pair) == pair), None)
 
@@ -191,19 +191,19 @@ def _carrier_geometry_problems(evidence: Train) -> Iterator[Problem]:
         yield Problem(what, "axes on a carrier move", fix, evidence.place("reconstruct", "geometry"))
 
 
-# Arbors that a given coupling joins: they have the same mean speed, and are one arbor in the question, with the wheels
+# Arbors that a given coupling joins: they have the same mean speed, and are one arbor in the problem, with the wheels
 # and pointers of all. When a candidate is written, each wheel remains on its own link, and added wheels are on the
 # first link.
 
 
 Joined = Mapping[str, tuple[str, ...]]
-"""Name of an arbor in the question -> links that it represents, itself first."""
+"""Links that each arbor of the problem represents, the link of the same name first."""
 
 
 def joined_arbors(evidence: Train) -> Joined:
-    """Group the links that given couplings join.
+    """Return the groups of links that given couplings join.
 
-    A group is named after the input if it is in the group, else after its first link with wheels.
+    A group is named after the input if that is in the group, otherwise after its first link with wheels.
     """
     found = {}
     for links in joined_groups(evidence.links, (pair for pair, _ in _pairs(evidence))):
@@ -214,7 +214,7 @@ def joined_arbors(evidence: Train) -> Joined:
 
 
 def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, Any]]:
-    """Yield the couplings of joined links with the keys of a declaration."""
+    """Yield the couplings of joined links as plain data, with the keys of a declaration."""
     requested = evidence.reconstruct
     for coupling in evidence.couplings:
         if coupling.pin in links:
@@ -225,7 +225,6 @@ def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, An
 
 
 def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
-    """Yield the pairs of links that a coupling joins, each with its place in the evidence."""
     assert evidence.reconstruct is not None, "no evidence"
     for at, coupling in enumerate(evidence.couplings):
         yield (coupling.pin, coupling.slot), ("couplings", at)
@@ -234,7 +233,7 @@ def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
 
 
 def join_arbors(problem: ReconstructionProblem, joined: Joined) -> ReconstructionProblem:
-    """Return the question in which the links of each group are one arbor."""
+    """Return the problem in which the links of each group are one arbor."""
     if not joined:
         return problem
     names = {link: name for name, links in joined.items() for link in links}
@@ -317,7 +316,7 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:
     """Yield problems of joined links on different axes, because the axes restrict their meshes differently.
 
-    problem   question in which the links are not yet joined
+    problem   problem in which the links are not yet joined
     """
     for name, links in joined.items():
         places = {problem.geometry.places.get(link) for link in links}
@@ -332,7 +331,6 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
 
 
 def _coaxial_arbors(problem: ReconstructionProblem, link: str) -> Iterator[str]:
-    """Yield the other arbors on the axis of a link."""
     for pair in problem.coaxial:
         if link in pair:
             yield from pair

@@ -1,4 +1,4 @@
-"""Backtracking search for one path for every dial, such that all of them are paths of one train.
+"""Backtracking search for one path to every dial, such that all of them are paths of one train.
 
 A hash join on quotients finds pairs of paths, bit masks represent shared arbors and wheels, and the length of the
 shortest tour of the dials is the lower bound that prunes branches.
@@ -52,7 +52,9 @@ def shortest_tour(number: int, far: tuple[int, ...]) -> int:
 
 @lru_cache(maxsize=1 << 16)
 def tours_with_one_more(number: int, far: tuple[int, ...]) -> tuple[tuple[int, int, int], ...]:
-    """Return the minimum length of the rest of a tour for each pair of ends between which one more end is inserted."""
+    """Return pairs of ends between which one more end is inserted, each with the minimum length of the rest of the
+    tour.
+    """
     orders, first, pairs = _orders(number)
     lengths = np.array(far, dtype=np.int64)[orders].sum(axis=1)
     minimum = np.minimum.reduceat(lengths, first)
@@ -79,16 +81,16 @@ def _orders(number: int) -> tuple[NDArray[np.int64], NDArray[np.int64], tuple[tu
 
 
 _NEVER = 100
-"""Distance of two paths that differ by a prime larger than every tooth count."""
+"""Distance of two paths that differ by a prime larger than every tooth count, so that they are incompatible."""
 
 
 class PathColumns:
     """Columns of a path list for fast comparison of many paths with a path to another dial.
 
     powers         large prime -> its power in the quotient of the added wheels, for each row
-    codes          code of the pass, 0 if the arbor is avoided; (arbors, rows)
-    driven         number of the driven wheel with its count, 0 if absent; (arbors, rows)
-    driver         number of the driving wheel by name, 0 if absent; (arbors, rows)
+    codes          code of the pass, 0 if the arbor is avoided, shape (arbors, rows)
+    driven         number of the driven wheel with its count, 0 if absent, shape (arbors, rows)
+    driver         number of the driving wheel by name, 0 if absent, shape (arbors, rows)
     ends           bit of the surviving arbor that shows the dial, for each row
     passes_added   True if the path has an added idler
     used           bit mask of the used surviving arbors, then wheels, for each row
@@ -98,7 +100,7 @@ class PathColumns:
         self.paths = paths
         self._clusters = [sum(1 << at - 1 for at in each) for each in seen_clusters(problem) if 0 not in each]
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
-        number = {name: at for at, name in enumerate(names, 1)}
+        number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
         self.codes = np.ascontiguousarray(paths.codes.T)
         self.powers = {prime: np.ascontiguousarray(paths.powers[:, at]) for at, prime in enumerate(paths.primes)}
         self.driven = np.ascontiguousarray(paths.driven_at(np.arange(len(paths))).T.astype(np.int16)) + np.int16(1)
@@ -118,10 +120,10 @@ class PathColumns:
                 self.ends |= np.where(last[taken], np.int64(1) << (at - 1), 0)
 
     def fit(self, rows: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
-        """Test which paths can be in one tree with a path to another dial, or each with one of several paths.
+        """Return whether each path can be in one tree with a path to another dial, or with one of several paths.
 
-        Two paths may leave only the arbor at which they separate by different wheels, and enter every shared arbor by
-        the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
+        Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared arbor
+        by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = self._end_in(rows, both, other, row)
@@ -154,7 +156,9 @@ class PathColumns:
         return np.minimum(found, _NEVER).astype(np.int8)
 
     def _end_in(self, rows: Rows, both: Rows, other: PathColumns, row: int | Rows) -> NDArray[np.bool_]:
-        """Test which paths satisfy the rule that a path which ends at an arbor of the other is a part of it."""
+        """Return whether each path satisfies the rule that a path which ends at an arbor of the other is a part
+        of it.
+        """
         mine, theirs = self.paths, other.paths
         ends, their_end = (self.ends[rows] & both) != 0, (other.ends[row] & both) != 0
         compounds = mine.compounds[rows] - theirs.compounds[row]
@@ -184,14 +188,14 @@ def _bits(each: ArborPass, number: dict[str, int]) -> int:
 
 
 Choice = dict[str, int]
-"""Dial -> row of its path list."""
+"""Row of the path list of each dial."""
 
 _INPUT = ""
 """Name of the input as an end of all paths."""
 _NEAR = 2
 """Maximum number of added wheels whose quotients are all tabulated."""
 _SHORT = 2
-"""Number of added wheels that a short path has fewer than the train. Without a short path, few paths are compatible."""
+"""Difference between the number of added wheels of the train and of a short path; few others are then compatible."""
 _MOST_ENDS = 6
 """Maximum number of dials in tours, which are tried in all orders. Further dials are ignored."""
 _PIECE = 1 << 21
@@ -205,7 +209,7 @@ _EVEN_SHARES = 50
 class PathChoice:
     """Enumeration of all compatible choices of one path per dial.
 
-    lists   dial -> list of its paths
+    lists   list of the paths to each dial
     """
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], keys: QuotientKeys) -> None:
@@ -215,7 +219,9 @@ class PathChoice:
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
-        """Yield all choices for trains with exactly `added` added wheels; only those of part `part` of `parts`."""
+        """Yield all choices for trains with exactly `added` added wheels that belong to part number `part` of
+        `parts`.
+        """
         self._added = added
         whole = {
             dial: _Compatible(rows, {_INPUT: self.lists[dial].wheels[rows].astype(np.int8)})
@@ -247,7 +253,6 @@ class PathChoice:
     def _partners(
         self, one: str, groups: list[Rows], other: str, others: list[Rows], added: int
     ) -> tuple[list[Rows], list[Rows]]:
-        """Return the paths of two dials that have compatible partners, grouped by their number of added wheels."""
         some, more = ([np.zeros(len(rows), dtype=bool) for rows in each] for each in (groups, others))
         for own, another in product(range(added + 1), repeat=2):
             far = 2 * added - own - another + self._idlers
@@ -263,7 +268,7 @@ class PathChoice:
     # first choices
 
     def _from_short(self, most: int, lists: dict[str, _Compatible], share: _RoundRobin) -> Iterator[Choice]:
-        """Yield all choices with a path of at most `most` added wheels, beginning with the path of the fewest."""
+        """Yield all choices that include a path of at most `most` added wheels, beginning with its shortest path."""
         for wheels in range(most + 1):
             for at, (dial, near) in enumerate(lists.items()):
                 others = {
@@ -322,8 +327,8 @@ class PathChoice:
     ) -> Iterator[Choice]:
         """Yield all choices that extend the chosen paths by one more.
 
-        minimum   pair of dials -> minimum distance; smaller distances were searched before
-        known     dials -> lists that are already restricted to paths compatible with the new one
+        minimum   minimum distance of each pair of dials; smaller distances were searched before
+        known     lists of dials that are already restricted to paths compatible with the new one
         """
         paths = {**chosen.paths, dial: row}
         kept: dict[str, _Compatible] = dict(known)
@@ -335,7 +340,7 @@ class PathChoice:
         missing = self._missing(paths)
         if missing & ~reduce(or_, (self._reach(each, near) for each, near in kept.items()), 0):
             return
-        following = min(kept, key=lambda each: len(kept[each].rows))
+        following = min(kept, key=lambda each: len(kept[each].rows))  # most constrained dial first
         near = kept.pop(following)
         if not kept:
             near = near.kept(np.int64(missing) & ~self._columns[following].used[near.rows] == 0)
@@ -353,7 +358,7 @@ class PathChoice:
     def _fitting(
         self, dial: str, row: int, other: str, near: _Compatible, chosen: _Chosen, minimum: Mapping[EndPair, int]
     ) -> _Compatible:
-        """Return the paths of another dial that are compatible with one more chosen path."""
+        """Return the paths to another dial that are compatible with one more chosen path."""
         known = self._compared(dial, row, other) if self._are_few(dial, other) else None
         fits = self._columns[other].fit(near.rows, self._columns[dial], row) if known is None else known[0][near.rows]
         near = near.kept(fits)
@@ -372,7 +377,7 @@ class PathChoice:
 
     @cache  # noqa: B019 -- lives as long as the lists
     def _compared(self, dial: str, row: int, other: str) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
-        """Return the compatibility and minimum distance of all paths to another dial with a chosen path."""
+        """Return the compatibility and the minimum distance of all paths to another dial with a chosen path."""
         every = np.arange(len(self.lists[other]))
         return self._columns[other].fit(every, self._columns[dial], row), self._apart(dial, row, other, every)
 
@@ -398,7 +403,9 @@ class PathChoice:
     # compatibility of ends
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> NDArray[np.bool_]:
-        """Test which paths form a tree with two others: of three paths, two separate from the third together."""
+        """Return whether each path forms a tree with two others: of three paths, two separate from the third
+        together.
+        """
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
         third = self.lists[dial].arbors[rows]
         in_all = first & second & third
@@ -426,21 +433,20 @@ class PathChoice:
         return np.asarray(far, dtype=np.int8)
 
     def _closes(self, ends: Sequence[str], far: Mapping[EndPair, int], near: _Compatible) -> NDArray[np.bool_]:
-        """Test for which paths a tour of some ends and their own end is short enough."""
+        """Return for each path whether a tour of some ends and its own end is short enough."""
         good = np.zeros(len(near.rows), dtype=bool)
         for one, two, rest in tours_with_one_more(len(ends), distances(ends, far)):
             good |= near.far[ends[one]].astype(np.int16) + near.far[ends[two]] + rest <= 2 * self._added
         return good
 
     def _may_close(self, ends: Sequence[str], far: Mapping[EndPair, int]) -> bool:
-        """Return whether a tour of some ends may be short enough."""
         ends = ends[: _MOST_ENDS + 1]
         return shortest_tour(len(ends), distances(ends, far)) <= 2 * self._added
 
     # surviving wheels that must be used
 
     def _missing(self, paths: Mapping[str, int]) -> int:
-        """Return the bit mask of what must be used and is on none of the paths."""
+        """Return the bit mask of the arbors and wheels that must be used and are on none of the paths."""
         used = (int(self._columns[dial].used[row]) for dial, row in paths.items())
         return self._must & ~reduce(or_, used, 0)
 
@@ -450,7 +456,7 @@ class PathChoice:
 
 @dataclass(frozen=True)
 class _Chosen:
-    """Chosen path of each dial, and lower bounds of the distances of two ends."""
+    """Chosen path of each dial, and lower bounds of the distance of each pair of ends."""
 
     paths: Mapping[str, int] = field(default_factory=dict)
     far: Mapping[EndPair, int] = field(default_factory=dict)
@@ -464,20 +470,19 @@ class _Compatible:
     far: Mapping[str, NDArray[np.int8]]
 
     def kept(self, good: NDArray[np.bool_]) -> _Compatible:
-        """Return the selected rows of all arrays."""
         return _Compatible(self.rows[good], {end: each[good] for end, each in self.far.items()})
 
     def also(self, end: str, far: NDArray[np.int8]) -> _Compatible:
-        """Add the distances from one more end."""
+        """Return the paths with their distances from one more end."""
         return _Compatible(self.rows, {**self.far, end: far})
 
     def beyond(self, minimum: Mapping[str, int]) -> _Compatible:
-        """Select the paths that have at least the given distances from some ends."""
+        """Return the paths that have at least the given distances from some ends."""
         return self.kept(reduce(np.logical_and, (self.far[end] >= number for end, number in minimum.items())))
 
 
 def _equal_pairs(keys: NDArray[np.uint64], wanted: NDArray[np.uint64]) -> tuple[Rows, Rows]:
-    """Return all pairs of indices of equal entries of `wanted` and of the sorted `keys`, by the first index."""
+    """Return all pairs of indices of equal entries of `wanted` and of the sorted `keys`, ordered by the first index."""
     start, end = np.searchsorted(keys, wanted), np.searchsorted(keys, wanted, side="right")
     number = end - start
     at = np.repeat(np.arange(len(wanted)), number)
@@ -493,6 +498,5 @@ class _RoundRobin:
         self._number = -1
 
     def is_own(self) -> bool:
-        """Return whether the next item belongs to this part."""
         self._number += 1
         return self._number % self.parts == self.part

@@ -35,7 +35,7 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, arbor_
 
 
 _Fits = NDArray[np.bool_]
-"""Compatibility matrix of the passes of two arbors, with codes from 1; code 0 means that the path avoids the arbor."""
+"""Compatibility matrix of the passes of two arbors, by their codes; code 0 means that the path avoids the arbor."""
 
 
 def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
@@ -58,7 +58,7 @@ def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]
 
 
 def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str]]:
-    """Yield each known mesh as (arbor index, wheel, arbor index, wheel)."""
+    """Yield each known mesh as (arbor index, wheel, arbor index, wheel), with index 0 for the input."""
     owner = {wheel.name: at for at, arbor in enumerate((problem.input, *problem.arbors)) for wheel in arbor.wheels}
     for one, other in sorted(map(sorted, problem.meshes)):
         yield owner[one], one, owner[other], other
@@ -97,7 +97,7 @@ class SeenMeshes:
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
     def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> NDArray[np.bool_] | None:
-        """Return a mask of the paths that may take a given pass of one more arbor, or None if all may."""
+        """Return a mask of the paths that may take a given pass of one more arbor; None if all may."""
         if not self._fits[at]:
             return None
         found = np.ones(len(codes), dtype=bool)
@@ -132,7 +132,7 @@ def _is_named(wheel: PlacedWheel | None, name: str) -> bool:
 
 @dataclass(frozen=True)
 class PathGrowth:
-    """Partial paths through some of the arbors, one per row."""
+    """Partial paths through some of the arbors, one in each row of the arrays."""
 
     codes: NDArray[np.uint16]
     """Code of the pass of each arbor, from 1; 0 if the path avoids the arbor."""
@@ -149,13 +149,13 @@ class PathGrowth:
     idle: NDArray[np.int8]
     """Number of surviving wheels on the path that it does not use."""
     need: NDArray[np.int8]
-    """Number of added wheels that must contain a large prime, because no later arbor does."""
+    """Number of added wheels that must contain a large prime, because no later arbor contains it."""
     ended: NDArray[np.bool_]
     """True if the path ends at one of the arbors."""
 
     @staticmethod
     def start(arbors: int, key: int, powers: NDArray[np.int8]) -> PathGrowth:
-        """Return the single path through no arbor."""
+        """Return the single path through no arbor, from which the enumeration starts."""
         none = np.zeros(1, dtype=np.int8)
         return PathGrowth(
             np.zeros((1, arbors), dtype=np.uint16),
@@ -236,7 +236,7 @@ _PIECE = 1 << 19
 
 @dataclass(frozen=True)
 class AddedArbors:
-    """Numbers of added arbors on a path: `compounds` have two wheels, `idlers` one that is driven and drives."""
+    """Number of added arbors on a path: `compounds` have two wheels, `idlers` have one that is driven and drives."""
 
     compounds: int
     idlers: int
@@ -252,7 +252,7 @@ class PathList:
 
     along   surviving arbor -> the only pass that is permitted, all other arbors excluded; None for all paths
 
-    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided;
+    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; , shape
                          (rows, arbors)
     arbors               bit mask of the surviving arbors on the path, bit i - 1 for arbor i
     idle                 bit mask of the arbors with unused surviving wheels that must mesh
@@ -260,7 +260,7 @@ class PathList:
     compounds, idlers    numbers of added arbors before the last
     wheels, new          numbers of added wheels and of added arbors
     wanted               hash key of the quotient of the added wheels, if the dial is exact
-    powers               power of each large prime of `primes` in that quotient; (rows, primes)
+    powers               power of each large prime of `primes` in that quotient, shape (rows, primes)
     """
 
     def __init__(
@@ -353,7 +353,8 @@ class PathList:
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
     def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
-        """Return the paths extended by one arbor or avoiding it; primes in `closing` have no later arbor."""
+        """Return the paths extended by one arbor or avoiding it. No later arbor contains the primes in `closing`."""
+        # wheels unused on this path must be used on paths to the other dials
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
         parts = []
@@ -374,7 +375,7 @@ class PathList:
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _is_listed(self, at: int, each: ArborPass | None) -> bool:
-        """Return whether a pass of an arbor, or avoiding it, is permitted by `along`."""
+        """Return whether `along` permits a pass of an arbor, or avoiding the arbor."""
         if self._along is None:
             return True
         arbor = (self.problem.input, *self.problem.arbors)[at]
@@ -391,7 +392,7 @@ class PathList:
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Large primes: an added tooth count contains at most one of them. Empty if the dial has a tolerance."""
+        """Large primes, of which an added tooth count contains at most one; empty if the dial has a tolerance."""
         if not self.dial.is_exact:
             return ()
         minimum = self.problem.additions.maximum
@@ -417,7 +418,7 @@ class PathList:
 
     @cached_property
     def _wanted(self) -> Fraction:
-        """Magnitude of the speed of the dial over that of the input; its minimum if the dial has a tolerance."""
+        """Magnitude of the speed of the dial over the speed of the input; the minimum if the dial has a tolerance."""
         minimum = self.dial.minimum
         return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
 
@@ -432,7 +433,7 @@ class PathList:
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> NDArray[np.bool_]:
-        """Return a matrix of whether each plan of added arbors is possible on each path."""
+        """Return a boolean matrix of which plans of added arbors are possible on which paths."""
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, plan in enumerate(plans):
@@ -446,7 +447,7 @@ class PathList:
         return found
 
     def _ring_meshes(self, codes: NDArray[np.uint16]) -> NDArray[np.int64]:
-        """Count the meshes with a ring on each path. They do not reverse the sense of rotation."""
+        """Return the number of meshes with a ring on each path. They do not reverse the sense of rotation."""
         found = np.zeros(len(codes), dtype=np.int64)
         if self.problem.rings:
             for at, passes in enumerate(self.passes):
@@ -458,7 +459,9 @@ class PathList:
         return self._magnitudes(turned)[1] > 0
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
-        """Return the minimum and maximum speed magnitude of the dial in one sense; maximum 0 if it is excluded."""
+        """Return the minimum and maximum speed magnitude of the dial in one sense; maximum 0 if the sense is
+        excluded.
+        """
         low, high = self.dial.minimum, self.dial.maximum
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
             low, high = -high, -low
@@ -498,7 +501,7 @@ class PathList:
         return minimum / known, np.where(turned, float(turned_high), float(high)) / known
 
     def known_ratio(self, row: int) -> Fraction:
-        """Return the product of surviving driving counts over surviving driven counts on a path."""
+        """Return the product of surviving driving counts over the product of surviving driven counts on a path."""
         taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
         taken = [each for each in taken if not each.idler]
         return Fraction(
@@ -506,11 +509,11 @@ class PathList:
         )
 
     def turns(self, row: int) -> bool:
-        """Return whether the dial of a path turns opposite to the input."""
+        """Return whether the dial turns opposite to the input on a path."""
         return bool(self._turned(self.codes[row : row + 1], self.new[row : row + 1])[0])
 
     def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Test which dials turn opposite to the input, for paths with given numbers of added arbors."""
+        """Return for each path whether the dial turns opposite to the input, for given numbers of added arbors."""
         return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:

@@ -22,7 +22,7 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branch
 HERE = "="
 IDLER = "~"
 BESIDE = "+"
-"""Exits of an arbor besides its surviving wheels: its own dial, its driven wheel, an added wheel."""
+"""Exits of an arbor other than its surviving wheels: its own dial, its driven wheel, an added wheel."""
 
 Block = tuple[str, Dials]
 """Exit of an arbor, and the dials to which it leads."""
@@ -44,7 +44,7 @@ def dial_partitions(
 
     Dials that leave by added wheels are partitioned into blocks, one added wheel for each block.
 
-    arbors   dial -> bit mask of the surviving arbors on its path; dials with a common arbor stay in one block
+    arbors   bit mask of the surviving arbors on the path to each dial; dials with a common arbor stay in one block
     """
     for chosen in product(*(ways[dial] for dial in dials)):
         by_way: dict[str, list[str]] = {}
@@ -65,7 +65,7 @@ def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials,
 
 
 def _connected_dials(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
-    """Group dials into connected components, where dials with a common surviving arbor are connected."""
+    """Return the connected components of dials, where dials with a common surviving arbor are connected."""
     groups: list[tuple[int, Dials]] = []
     for dial in dials:
         joined = [group for group in groups if group[0] & arbors[dial]]
@@ -88,16 +88,16 @@ def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ..
 
 
 _Drive = tuple[PlacedWheel | None, tuple[Chain, ...]]
-_ENDLESS = 1 << 20
+_ENDLESS = 1 << 20  # number of added arbors if it is not limited
 
 
 class DialPath(NamedTuple):
-    """Remaining part of the path to a dial."""
+    """Part of the path to a dial that is not yet in the tree."""
 
     arbors: int
     """Bit mask of the surviving arbors."""
     passes: Mapping[int, ArborPass]
-    """Index of a surviving arbor, 0 for the input -> wheels by which the path passes through it."""
+    """Driven and driving wheel of the path on each surviving arbor, by the index of the arbor; 0 is the input."""
     compounds: int
     """Number of added arbors with two wheels before the last arbor."""
     idlers: int
@@ -119,7 +119,7 @@ class DialPath(NamedTuple):
 
 
 Paths = dict[str, DialPath]
-"""Dials, sorted by name -> their paths."""
+"""Path to each dial, sorted by the name of the dial."""
 
 
 class _Budget(NamedTuple):
@@ -139,7 +139,7 @@ class _Budget(NamedTuple):
 class PathTrees:
     """Enumeration of the topologies that have given paths.
 
-    lists   dials, sorted by name -> lists of their paths
+    lists   list of the paths to each dial, sorted by the name of the dial
     """
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList]) -> None:
@@ -169,7 +169,7 @@ class PathTrees:
     # subtrees of a driving wheel
 
     def _forest(self, paths: Paths, left: _Budget, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
-        """Yield sets of chains that lead to some dials; dials with a common surviving arbor share a chain."""
+        """Yield sets of chains that lead to some dials. Dials with a common surviving arbor share a chain."""
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= minimum:
                 yield from self._chains([_restricted(paths, block) for block in blocks], left)
@@ -219,7 +219,7 @@ class PathTrees:
             yield from self._split_by_added(paths, through, left)
 
     def _split_by_added(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
-        """Yield chains that end at a surviving arbor which all paths leave by several added wheels."""
+        """Yield chains that end at a surviving arbor which the paths leave by several added wheels."""
         for end in through:
             if paths_first(paths).passes[end].driver != ADDED or paths_first(paths).passes[end].idler:
                 continue
@@ -263,7 +263,6 @@ class PathTrees:
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
     def _single_chain(self, dial: str, path: DialPath, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
-        """Yield the only chain that leads to a single dial."""
         after = left.without(path.wheels, path.new)
         if not after.is_possible:
             return
@@ -305,6 +304,7 @@ class PathTrees:
         if not after.is_possible or not all(ways.values()):
             return
         for here, blocks in dial_partitions(tuple(paths), ways, _own_arbors(paths)):
+            # otherwise it is an arbor on a chain, not a branching
             if not here and len(blocks) < 2:
                 continue
             below = dict(paths)
@@ -371,13 +371,12 @@ def _needed_wheels(paths: Paths) -> int:
 
 
 def _are_disjoint(blocks: Sequence[Dials], paths: Paths) -> bool:
-    """Return whether dials of different blocks have no surviving arbor in common."""
     masks = [reduce(lambda bits, dial: bits | paths[dial].arbors, block, 0) for block in blocks]
     return not any(one & other for one, other in combinations(masks, 2))
 
 
 def _below(paths: Paths, through: tuple[int, ...], compounds: int, idlers: int) -> Paths:
-    """Return the remaining parts of paths after a chain."""
+    """Return the parts of the paths that remain after a chain."""
     bits = sum(1 << (at - 1) for at in through)
     added = sum(paths_first(paths).passes[at].added for at in through) + 2 * compounds + idlers
     return {
@@ -401,7 +400,7 @@ def _ways_from_added(path: DialPath) -> Iterator[str]:
 
 
 def _arbors(bits: int) -> Iterator[int]:
-    """Yield the indices of the bits that are set, from 1."""
+    """Yield the indices, from 1, of the bits that are set."""
     at = 1
     while bits:
         if bits & 1:

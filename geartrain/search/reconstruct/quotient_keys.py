@@ -17,7 +17,7 @@ from geartrain.search.reconstruct.added_counts import quotient_table
 
 Keys = NDArray[np.uint64]
 
-_WHOLE = 1 << 64
+_WHOLE = 1 << 64  # keys are added modulo 2^64
 _LONGEST = 3_000_000
 """Maximum number of quotients in a table. Larger tables are not built, and every number is then accepted."""
 
@@ -55,14 +55,18 @@ class QuotientKeys:
         return self._words[prime]
 
     def may_be_quotients(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """Test which keys belong to quotients of `drivers` over `driven` added counts, without false negatives."""
+        """Return whether each key belongs to a quotient of `drivers` over `driven` added counts, without false
+        negatives.
+        """
         if drivers + driven == 3 and (drivers, driven) not in self._tables and len(keys) < _SCARCE:
             return self._one_by_one(keys, drivers, driven)
         table = self._table(drivers, driven)
         return np.ones(keys.shape, dtype=bool) if table is None else _are_in(table, keys)
 
     def _one_by_one(self, keys: Keys, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """Test the keys by trying each count of one wheel, which is faster than a long table if there are few keys."""
+        """Return the result of `may_be_quotients` by trying each count of one wheel, which is faster if there are few
+        keys.
+        """
         fewer = self._table(drivers - (drivers > driven), driven - (driven >= drivers))
         if fewer is None:
             return np.ones(keys.shape, dtype=bool)
@@ -70,7 +74,7 @@ class QuotientKeys:
         return np.asarray(_are_in(fewer, np.subtract.outer(keys, counts)).any(axis=-1))
 
     def need_few(self, keys: Keys, wheels: int) -> NDArray[np.bool_]:
-        """Test which keys belong to quotients of at most `wheels` added counts, without false negatives."""
+        """Return whether each key belongs to a quotient of at most `wheels` added counts, without false negatives."""
         few = self.few(wheels) if wheels <= _FEW else None
         return np.ones(keys.shape, dtype=bool) if few is None else _are_in(few, keys)
 
@@ -82,7 +86,9 @@ class QuotientKeys:
         return found
 
     def agreeing(self, keys: Keys, others: Keys, wheels: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Test which keys of each array have a partner whose quotient needs at most `wheels` added wheels."""
+        """Return for the keys of each array whether a key of the other differs from them by at most `wheels` added
+        wheels.
+        """
         if wheels < 0 or not len(keys) or not len(others):
             return np.zeros(keys.shape, dtype=bool), np.zeros(others.shape, dtype=bool)
         few = self.few(wheels) if wheels <= _FEW else None
@@ -99,7 +105,7 @@ class QuotientKeys:
         return np.asarray(_are_in(_unique(others), reached).any(axis=1)), _are_in(_unique(reached), others)
 
     def few(self, wheels: int) -> Keys | None:
-        """Return the sorted keys of all quotients of at most `wheels` added counts, or None if too many."""
+        """Return the sorted keys of all quotients of at most `wheels` added counts; None if there are too many."""
         if wheels not in self._fewer:
             tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
             known = [table for table in tables if table is not None]
@@ -140,7 +146,7 @@ def _are_in(table: Keys, keys: Keys) -> NDArray[np.bool_]:
 
 @lru_cache(maxsize=1 << 16)
 def prime_powers(number: int) -> tuple[tuple[int, int], ...]:
-    """Factor a positive integer by trial division into pairs (prime, power).
+    """Return the prime factorisation of a positive integer by trial division, as pairs (prime, power).
 
     A remainder without a prime factor below 10 000 is treated as prime.
     """
@@ -181,13 +187,15 @@ class QuotientRanges:
         self.counts = minimum, maximum
 
     def may_hold(self, bounds: Bounds, drivers: int, driven: int) -> NDArray[np.bool_]:
-        """Test which bounds contain a quotient of `drivers` over `driven` added counts, without false negatives."""
+        """Return whether each range contains a quotient of `drivers` over `driven` added counts, without false
+        negatives.
+        """
         if not self._is_listed(drivers + driven):
             return np.ones(bounds[0].shape, dtype=bool)
         return _contain_quotient(quotient_table(drivers, driven, self.counts).values, bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
-        """Return a lower bound, at most 3, of the number of added wheels with a quotient within each bounds."""
+        """Return a lower bound, at most 3, of the number of added wheels with a quotient in each range."""
         found = np.full(bounds[0].shape, _LISTED + 1, dtype=np.int8)
         for wheels in range(_LISTED, -1, -1):
             held = _contain_quotient(self._few(wheels), bounds) if self._is_listed(wheels) else np.True_

@@ -37,7 +37,7 @@ from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_arbors, 
 from geartrain.search.reconstruct.train_construction import TrainConstruction
 from geartrain.train import Train
 
-_MOST_LISTED = 1_000_000
+_MOST_LISTED = 1_000_000  # list of all trains, `best` None
 _MINIMUM_COMPARED = 2000
 """Minimum number of candidates whose meshes and counts are compared, even if fewer are listed."""
 
@@ -48,7 +48,7 @@ class ReconstructionRequest(Shown):
 
     See Also
     --------
-    reconstruct : answers it.
+    reconstruct : Find the trains that explain the evidence.
     """
 
     evidence: Train
@@ -56,21 +56,22 @@ class ReconstructionRequest(Shown):
     lost: tuple[str, ...] = ()
     """Arbors of the train that are treated as lost."""
     source: str | None = None
-    """Link at which the part of the train begins (with `lost`). The default is the first part that has the arbors."""
+    """Link at which the part of the train begins (with `lost`); by default that of the first part with these arbors."""
     seen: bool = False
-    """True if the meshes of surviving wheels are known, and no more arbors may be added than are lost (with `lost`)."""
+    """True if the meshes of surviving wheels are known, and at most as many arbors are added as are lost (with `lost`).
+    """
     wheels: int | None = None
-    """Maximum number of added wheels. The default is the number in the evidence."""
+    """Maximum number of added wheels; by default the number in the evidence."""
     idlers: bool = False
-    """True if a driven wheel may also drive."""
+    """True if a driven wheel may also drive (an idler)."""
     best: int | None = 20
-    """Number of trains to list, or None for all of them."""
+    """Number of trains to list; None lists all of them."""
     counts_only: bool = False
     """True if trains are counted but not listed."""
-    per: Literal["mechanism", "class"] = "mechanism"
+    prior_of: Literal["solution", "class"] = "solution"
     """Unit of the prior: one weight for every train, or one for every equivalence class of equal ratios."""
     sample: int = 0
-    """Number of trains drawn at random in proportion to their weight."""
+    """Number of trains drawn at random, with their posterior probabilities."""
     seed: int = 1
     """Random seed."""
     assumptions: bool = False
@@ -78,7 +79,7 @@ class ReconstructionRequest(Shown):
     known: tuple[Train, ...] = ()
     """Known trains whose ranks among the explanations are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
-    """Names of wheels and outputs of the known trains -> their names in the evidence."""
+    """Name in the evidence of each wheel and output of the known trains that has another name there."""
 
 
 class ReconstructionRun:
@@ -89,10 +90,10 @@ class ReconstructionRun:
     """
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Accept the question before the search begins."""
+        """Receive the problem before the search begins."""
 
     def expect(self, problem: ReconstructionProblem, cost: ExpectedCost) -> None:
-        """Accept the expected cost of the search."""
+        """Receive the expected cost of the search."""
 
     def search(self, problem: ReconstructionProblem, cost: ExpectedCost) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor of the search."""
@@ -101,17 +102,17 @@ class ReconstructionRun:
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> AbstractContextManager[Execution]:
-        """Return a context manager that provides the executor of the counts of changed questions.
+        """Return a context manager that provides the executor for the counts of changed problems.
 
         If the manager suppresses an interruption, the results in `counted` are kept.
         """
         return nullcontext(Execution())
 
     def searched(self, complete: bool) -> None:
-        """Accept the end of all searches, and whether they are complete."""
+        """Receive the end of all searches, and whether they are complete."""
 
     def part(self, what: str) -> AbstractContextManager[Execution]:
-        """Return a context manager that provides the executor of another part.
+        """Return a context manager that provides the executor for another part of the work.
 
         If the manager suppresses an interruption, the part is omitted from the answer.
         """
@@ -120,11 +121,11 @@ class ReconstructionRun:
 
 @dataclass(frozen=True, slots=True)
 class RankedTrain(Result):
-    """One train of the list of best or sampled explanations.
+    """Explanation in the list of the best or of the sampled trains.
 
     See Also
     --------
-    reconstruct : lists the best.
+    reconstruct : Find the trains that explain the evidence.
     """
 
     KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
@@ -132,15 +133,15 @@ class RankedTrain(Result):
     rank: int
     """Position in the list, from 1."""
     ranks: tuple[int, int]
-    """First and last rank by weight. They differ if several trains have the same weight."""
+    """First and last rank by probability. They differ if several trains are equally probable."""
     added: int
     """Number of added wheels."""
     weight: float
-    """Posterior weight, as a share of the weight of all explanations, 0 to 1."""
+    """Posterior probability of the train, 0 to 1."""
     wheels: dict[str, int]
-    """Names of the added wheels -> tooth counts."""
+    """Tooth count of each added wheel."""
     doubtful: dict[str, int]
-    """Names of surviving wheels with uncertain tooth counts -> their counts in this train."""
+    """Tooth count in this train of each surviving wheel with an uncertain count."""
     meshes: tuple[str, ...]
     """All meshes as "driving > driven"."""
 
@@ -151,7 +152,7 @@ class ReconstructionAnswer(Result):
 
     See Also
     --------
-    reconstruct : gives it.
+    reconstruct : Find the trains that explain the evidence.
     """
 
     PAGE = "search.reconstruct.reconstruction_report:describe_reconstruction"
@@ -173,33 +174,33 @@ class ReconstructionAnswer(Result):
     name: str
     """Name of the evidence."""
     problem: ReconstructionProblem
-    """Typed question of the search."""
+    """Reconstruction problem that was searched."""
     counts: tuple[ExplanationCount, ...]
-    """Numbers of explanations, one entry per number of added wheels."""
+    """Number of explanations for each number of added wheels."""
     complete: bool
     """True if the search covered all candidates."""
     unused: tuple[str, ...]
-    """Declared evidence that the search does not use, one line each."""
+    """Declared evidence that the search does not use, one line for each fact."""
     best: tuple[RankedTrain, ...]
-    """Best explanations in order of weight, as many as were requested."""
+    """Best explanations, at most the requested number, in descending order of probability."""
     original: tuple[int, int] | None = None
-    """First and last rank by weight of the original train, if arbors of a train are lost."""
+    """First and last rank by probability of the original train, if arbors of a train are lost; None otherwise."""
     findings: CandidateFindings = NO_FINDINGS
     """Facts derived from the explanations: common facts, most informative facts, family tree."""
     base: BaseLink | None = None
     """Link that carries the arbors: the frame or a carrier."""
     joined: Joined = field(default_factory=dict)
-    """Arbor of the question -> links that given couplings join to it."""
+    """Links that given couplings join to each arbor of the problem."""
     expected: ExpectedCost | None = None
     """Cost of the search as estimated before it began."""
     drawn: tuple[RankedTrain, ...] = ()
-    """Randomly drawn trains, as many as were requested. Their field `rank` is the number of the draw."""
+    """Randomly sampled trains, the requested number. Their field `rank` is the number of the draw."""
     known: tuple[KnownRank, ...] = ()
-    """Ranks and costs of the known trains."""
+    """Ranks of the known trains, or the rules that they break."""
     evidence: Train | None = None
-    """Evidence of the question. If arbors of a train are lost, it is the evidence that remains."""
+    """Evidence of the problem; if arbors of a train are lost, the evidence that remains."""
     candidates: tuple[Candidate, ...] = ()
-    """Candidates that correspond to the entries of `best`."""
+    """Candidates in the order of `best`."""
 
     def _summary(self) -> str:
         return f"{self.name}: {explanations_text(self.counts)}, {len(self.best)} listed" + (
@@ -208,17 +209,17 @@ class ReconstructionAnswer(Result):
 
     @property
     def requested(self) -> RequestedQuestion:
-        """Size of the question."""
+        """Size of the reconstruction problem."""
         return RequestedQuestion.of(self.problem)
 
     @property
     def total(self) -> int:
         """Total number of explanations."""
-        return sum(count.mechanisms for count in self.counts)
+        return sum(count.solutions for count in self.counts)
 
 
 def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = None) -> ReconstructionAnswer:
-    """Find every train that explains the evidence, count the trains, and list the best.
+    """Find every train that explains the evidence, count the trains, and list the most probable.
 
     Parameters
     ----------
@@ -255,7 +256,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
         0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
     )
     with run.search(problem, expected) as execution:
-        found = find_reconstructions(problem, execution, listing, request.per)
+        found = find_reconstructions(problem, execution, listing, request.prior_of)
     dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     run.searched(found.complete)
     listed = () if request.counts_only else found.candidates[: request.best]
@@ -287,7 +288,7 @@ def _lost_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
 
 
 def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> None:
-    """Raise `QuestionError` for known trains that cannot be ranked. It is called before the search."""
+    """Raise `QuestionError` for known trains that cannot be ranked. This is done before the search."""
     if request.known and question.base.is_carrier:
         what = "known trains cannot be ranked if arbors turn on a carrier"
         raise QuestionError(Problem(what, "known trains are read with fixed axes", "omit --rank"))
@@ -297,7 +298,7 @@ def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> 
 
 
 def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tuple[ChangedCount, ...]:
-    """Return the counts without each hard fact; after an interruption only those that are complete."""
+    """Return the counts without each hard fact; after an interruption, only the counts that are complete."""
     changed = without_each_fact(problem)
     counted: list[ChangedCount] = []
     with run.assume(problem, changed, counted) as execution:
@@ -313,7 +314,6 @@ def _ranks_of_known(
     found: Reconstructions,
     run: ReconstructionRun,
 ) -> tuple[KnownRank, ...]:
-    """Rank each known train, and omit those whose ranking is interrupted."""
     ranked: list[KnownRank] = []
     for train in request.known:
         with run.part(f"rank of {train.name}") as execution:
@@ -323,7 +323,7 @@ def _ranks_of_known(
 
 
 def _whole_search(execution: Execution) -> Callable[[ReconstructionProblem], Reconstructions]:
-    """Return a search that yields all explanations or raises `KeyboardInterrupt`."""
+    """Return a search that returns all explanations, or raises `KeyboardInterrupt`."""
 
     def search(requested: ReconstructionProblem) -> Reconstructions:
         answer = find_reconstructions(requested, execution, listed=0)
@@ -342,13 +342,13 @@ def _findings(
     counts_only: bool,
     run: ReconstructionRun,
 ) -> CandidateFindings:
-    """Return the facts of the candidates, or the reasons why nothing fits.
+    """Return the facts of the candidates, or the reasons why nothing explains the evidence.
 
-    With `counts_only` the result has only the counts without each assumption.
+    With `counts_only` the result has only the counts without each hard fact.
     """
     if counts_only:
         return CandidateFindings(assumptions=dropped)
-    if found.complete and not any(count.mechanisms for count in found.counts):
+    if found.complete and not any(count.solutions for count in found.counts):
         missing = None
         with run.part("reasons why nothing fits") as execution:
             missing = explain_missing(problem, execution)

@@ -1,7 +1,7 @@
-"""Typed question of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, limits of additions.
+"""Problem of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, limits of additions.
 
-Speeds are exact, in turns per unit of the input arbor, and signed. The input arbor turns at `input_speed`. Lengths
-are exact, in millimetres. All axes are parallel, so the place of an arbor is a point in the plan.
+Speeds are exact, in turns per unit of the input arbor, and signed. The input arbor turns at `input_speed`. Lengths are
+exact, in millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from geartrain.train import Train
 Place = tuple[Fraction, Fraction]
 Bounds = tuple[Fraction, Fraction]
 Size = tuple[str | None, int]
-"""Wheel as a pair of its name (None for an added wheel) and its tooth count."""
+"""Name of a wheel (None for an added wheel) and its tooth count."""
 
 NEW = "new"
 """Value of `SearchedDial.place` for a dial whose arbor does not survive."""
 UNMEASURED_SPREADS = 3
-"""Maximum difference of the modules of a measured wheel and an unmeasured mate, in spreads of `module`."""
-_MOST_DOUBTS = 3
+"""Maximum difference of the modules of a measured wheel and an unmeasured mate, in standard deviations `module`."""
+_MOST_UNCERTAINTIES = 3  # wheels that a message names
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class PlacedArbor:
 
 @dataclass(frozen=True)
 class SurvivingGeometry:
-    """Measured modules, radii and positions of axes, and the spreads by which they are weighed."""
+    """Measured modules, radii and positions of axes, with the standard deviations of their misfits."""
 
     wheels: tuple[MeasuredWheel, ...] = ()
     arbors: tuple[PlacedArbor, ...] = ()
@@ -63,36 +63,36 @@ class SurvivingGeometry:
     distance: Fraction = Fraction(3, 100)
     """Standard deviation of the logarithm of the sum of two pitch radii over the distance of the axes."""
     reach: Fraction | None = None
-    """Maximum possible difference between sum of pitch radii and axis distance [mm]; None if unlimited."""
+    """Maximum possible difference between the sum of pitch radii and the axis distance [mm]; None if unlimited."""
     radius: Fraction | None = None
-    """Error of every measured pitch radius [mm]; None if it is part of the spread of modules."""
+    """Error of every measured pitch radius [mm]; None if it is included in the standard deviation of modules."""
 
     @cached_property
     def places(self) -> Mapping[str | None, Place]:
-        """Names of arbors -> positions of their axes [mm]."""
+        """Position of the axis of each arbor, by name [mm]."""
         return {arbor.name: arbor.place for arbor in self.arbors}
 
     @cached_property
     def measured(self) -> Mapping[str | None, MeasuredWheel]:
-        """Names of wheels -> measured wheels."""
+        """Measured wheels by name."""
         return {wheel.name: wheel for wheel in self.wheels}
 
     def module_of(self, size: Size) -> Fraction | None:
-        """Return the module of a wheel [mm], or None if it was not measured."""
+        """Return the module of a wheel [mm]; None if it was not measured."""
         wheel = self.measured.get(size[0])
         if wheel is None:
             return None
         return wheel.length if wheel.is_module else 2 * wheel.length / size[1]
 
     def square_distance(self, first: str | None, second: str | None) -> Fraction | None:
-        """Return the square of the distance of two axes [mm2], or None if a position is not known."""
+        """Return the square of the distance of two axes [mm2]; None if a position is not known."""
         if first not in self.places or second not in self.places:
             return None
         (x, y), (u, v) = self.places[first], self.places[second]
         return (x - u) ** 2 + (y - v) ** 2
 
     def radii_sum(self, first: Size, second: Size) -> Fraction | None:
-        """Return the sum of the pitch radii of two meshing wheels [mm], or None if neither was measured.
+        """Return the sum of the pitch radii of two meshing wheels [mm]; None if neither was measured.
 
         An unmeasured wheel has the module of its mate.
         """
@@ -105,7 +105,7 @@ class SurvivingGeometry:
         return (module * first[1] + other * second[1]) / 2
 
     def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
-        """Return the minimum and maximum axis distance of two meshing wheels [mm], or None if unlimited."""
+        """Return the minimum and maximum axis distance of two meshing wheels [mm]; None if unlimited."""
         own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
         if own is None or mate is None or self.reach is None:
             return None
@@ -113,18 +113,19 @@ class SurvivingGeometry:
         return max(Fraction(0), minimum - self.reach), maximum + self.reach
 
     def module_bounds(self, size: Size, mate: Size) -> Bounds | None:
-        """Return the minimum and maximum module of a wheel with a given mate [mm], or None if neither was measured."""
+        """Return the minimum and maximum module of a wheel with a given mate [mm]; None if neither was measured."""
         module = self.module_of(size)
         if module is not None:
             return module, module
         module = self.module_of(mate)
         if module is None:
             return None
+        # at most 1, so that the minimum module is not negative
         spread = min(Fraction(1), UNMEASURED_SPREADS * self.module)
         return module * (1 - spread), module * (1 + spread)
 
     def may_mesh(self, arbor: str | None, wheel: Size, other_arbor: str | None, other: Size) -> bool:
-        """Return whether two wheels can mesh at the distance of their axes; True if it is not known."""
+        """Return whether two wheels can mesh at the distance of their axes; True if the distance is not known."""
         square, bounds = self.square_distance(arbor, other_arbor), self.distance_bounds(wheel, other)
         if square is None:
             return True
@@ -142,7 +143,7 @@ class SurvivingWheel:
 
     See Also
     --------
-    ReconstructionProblem : is made of them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     name: str
@@ -160,11 +161,11 @@ class SurvivingWheel:
 
 @dataclass(frozen=True)
 class SurvivingArbor(Shown):
-    """Surviving arbor: wheels that are fixed together.
+    """Surviving arbor, whose wheels are fixed to each other.
 
     See Also
     --------
-    ReconstructionProblem : is made of them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     name: str
@@ -175,11 +176,11 @@ class SurvivingArbor(Shown):
 
 @dataclass(frozen=True)
 class SearchedDial(Shown):
-    """Pointer with the range of its speed and its place.
+    """Pointer with the range of its speed and its arbor, if that is known.
 
     See Also
     --------
-    ReconstructionProblem : is made of them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     name: str
@@ -189,23 +190,25 @@ class SearchedDial(Shown):
     maximum: Fraction
     """Maximum speed [turns per unit of the input]."""
     signed: bool = True
-    """True if the sense of rotation is known; otherwise the bounds are bounds of the magnitude."""
+    """True if the sense of rotation is known. Otherwise the bounds are bounds of the magnitude."""
     place: str | None = None
-    """Surviving arbor with the pointer, "new" if its arbor does not survive, or None if it is not known."""
+    """Name of the surviving arbor that carries the pointer; "new" if its arbor does not survive; None if it is not
+    known.
+    """
 
     @property
     def is_exact(self) -> bool:
-        """True if only one speed is accepted."""
+        """True if exactly one speed is accepted."""
         return self.minimum == self.maximum
 
 
 @dataclass(frozen=True)
 class Additions:
-    """Limits of added wheels and arbors.
+    """Limits of the number and tooth counts of added wheels, and of the number of added arbors.
 
     See Also
     --------
-    ReconstructionProblem : holds them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     wheels: int
@@ -222,11 +225,11 @@ class Additions:
 
 @dataclass(frozen=True)
 class PriorFactors:
-    """Factors by which each addition or unused wheel reduces the prior weight of a candidate.
+    """Factors by which each added or unused part divides the prior weight of a candidate.
 
     See Also
     --------
-    ReconstructionProblem : holds them.
+    ReconstructionProblem : Problem of which this is a part.
     """
 
     wheel: Fraction = Fraction(10)
@@ -239,12 +242,12 @@ class PriorFactors:
 
 @dataclass(frozen=True)
 class ReconstructionProblem(Shown):
-    """Typed question of a reconstruction: surviving arbors, dials and rules.
+    """Problem of a reconstruction: surviving arbors, dials and rules.
 
     See Also
     --------
-    evidence_question : makes it from declared evidence.
-    find_reconstructions : answers it.
+    evidence_question : Convert declared evidence to a problem.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     input: SurvivingArbor
@@ -264,13 +267,15 @@ class ReconstructionProblem(Shown):
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
     """Pairs of names of arbors on one axis. Wheels of such a pair, including added ones, do not mesh."""
     use: Literal["wheels", "arbors", "some"] = "wheels"
-    """Use of survivors: "wheels": every wheel meshes; "arbors": every arbor is in the train; "some": neither."""
+    """Use of surviving parts: "wheels" if every wheel must mesh, "arbors" if every arbor must be in the train, "some"
+    if neither is required.
+    """
     idlers: bool = False
-    """True if a driven wheel may also drive."""
+    """True if a driven wheel may also drive (an idler)."""
     factors: PriorFactors = PriorFactors()
-    """Factors of the prior."""
+    """Factors of the prior weight of a candidate."""
     geometry: SurvivingGeometry = NO_GEOMETRY
-    """Measurements. Pairs that they exclude are already in `apart` and `coaxial`."""
+    """Measurements of survivors. Pairs that they exclude are already in `apart` and `coaxial`."""
 
     @cached_property
     def rings(self) -> frozenset[str]:
@@ -284,7 +289,7 @@ class PlacedWheel:
 
     See Also
     --------
-    Candidate : is made of them.
+    Candidate : Explanation of which this is a part.
     """
 
     name: str | None
@@ -299,8 +304,8 @@ class Arbor(Shown):
 
     See Also
     --------
-    Candidate : holds the input arbor.
-    candidate_train : makes a train of it.
+    Candidate : Explanation with its input arbor.
+    candidate_train : Convert a candidate to a train.
     """
 
     name: str | None
@@ -312,7 +317,7 @@ class Arbor(Shown):
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
     """Driving wheels, each with the arbors that it drives, sorted."""
     passes: tuple[Arbor, ...] = ()
-    """Arbors that the driven wheel itself drives as an idler, sorted."""
+    """Arbors that the driven wheel itself drives, as an idler, sorted."""
 
     def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
         """Yield every arbor that this arbor drives, with the driving wheel."""
@@ -352,12 +357,12 @@ class Arbor(Shown):
         return sum(arbor.name is None for arbor in self.arbors())
 
 
-# --------------------------------------------------------------------------------------------------- size of a question
+# --------------------------------------------------------------------------------------------------- size of a problem
 
 
 @dataclass(frozen=True, slots=True)
 class RequestedQuestion(Result):
-    """Size of a question of reconstruction."""
+    """Size of a reconstruction problem."""
 
     arbors: int
     """Number of surviving arbors, including the input."""
@@ -374,7 +379,7 @@ class RequestedQuestion(Result):
 
     @classmethod
     def of(cls, problem: ReconstructionProblem) -> RequestedQuestion:
-        """Count the arbors, wheels, readings and dials of a question."""
+        """Count the arbors, wheels, combinations of counts, and dials of a problem."""
         arbors, limits = (problem.input, *problem.arbors), problem.additions
         counts = [len(wheel.counts) for arbor in arbors for wheel in arbor.wheels]
         teeth = (limits.minimum, limits.maximum)
@@ -389,19 +394,19 @@ class RequestedQuestion(Result):
 
 
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
-    """Return the message for a question that is too large: its size, and ways to reduce it."""
+    """Return the message for a problem that is too large: its size, and ways to reduce it."""
     wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
-    widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_DOUBTS]
-    doubts = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
-    ways = [f"narrow uncertain tooth counts ({doubts})"] if doubts else []
+    widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_UNCERTAINTIES]
+    uncertainties = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
+    ways = [f"narrow uncertain tooth counts ({uncertainties})"] if uncertainties else []
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
     ways.append("leave out arbors, or dials with the arbors that lead only to them")
-    return Problem(what, f"the question has {RequestedQuestion.of(problem)}", "; or ".join(ways))
+    return Problem(what, f"the problem has {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
 def question_digest(problem: ReconstructionProblem) -> str:
-    """Return the SHA-256 digest of a question, which does not depend on the order of unordered facts."""
+    """Return the SHA-256 digest of a problem, which does not depend on the order of unordered facts."""
     return hashlib.sha256(json.dumps(_plain(problem), sort_keys=True).encode("utf-8")).hexdigest()
 
 
@@ -419,7 +424,7 @@ def _plain(value: object) -> object:
 
 
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
-    """Return the measurements of the evidence, or none if it has no block `geometry`.
+    """Return the measurements of the evidence; `NO_GEOMETRY` if it has no block `geometry`.
 
     Raise `DeclarationError` for a module that is not above 0, and for an arbor with a position if there is a ring.
     """
@@ -469,7 +474,9 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
         if wheel.module.base <= 0:
             place = evidence.place("links", link, "wheels", name, "module")
             what = f"the module of '{name}' is not above 0"
-            raise DeclarationError([Problem(what, "a module is a positive length", "correct it", place)])
+            raise DeclarationError(
+                [Problem(what, "a module is a positive length", "give it such as `module: 0.5 mm`", place)]
+            )
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 
 
@@ -488,8 +495,8 @@ def _placed(evidence: Train) -> Iterator[PlacedArbor]:
 def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
-        what = f"the position of '{link}' cannot be weighed in evidence with the ring '{ring}'"
-        why = "the spread `distance` applies to sums of radii, but the axes of a ring and its mate to their difference"
+        what = f"the position of '{link}' cannot be used in evidence with the ring '{ring}'"
+        why = "`distance` is the spread of sums of radii, but a ring and its mate have the difference as distance"
         fix = "remove the position of its axis, or `geometry`"
         raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 

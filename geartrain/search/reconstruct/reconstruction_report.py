@@ -38,7 +38,7 @@ _MOST_ANSWERS = 4
 _MOST_ALIKE = 2
 _MOST_MESHES = 40
 _MOST_NEXT = 12
-_MOST_DOUBTS = 30
+_MOST_UNCERTAINTIES = 30
 _MOST_SETS = 12
 _MOST_BRANCHES = 60
 _MOST_TRAINS = 6
@@ -116,7 +116,7 @@ def _summary(found: ReconstructionAnswer) -> Iterator[str]:
     if not limits.wheels:
         added = "nothing may be added"
     yield f"Rules: {added}; {_USE[problem.use]}; {idlers}; every arbor at an end carries a pointer."
-    some = next((count for count in found.counts if count.mechanisms), None)
+    some = next((count for count in found.counts if count.solutions), None)
     if some is None:
         yield f"No train explains it with {plural(limits.wheels, 'added wheel')} or fewer."
     else:
@@ -157,11 +157,10 @@ def _sections(found: ReconstructionAnswer, turning: int) -> Iterator[Section]:
     yield from family_section(findings.family, turning)
     yield from shared_sections(findings.marginals)
     yield from next_section(findings.next_facts)
-    yield from assumptions_section([each.mechanisms for each in found.counts], findings.assumptions)
+    yield from assumptions_section([each.solutions for each in found.counts], findings.assumptions)
 
 
 def _given(found: ReconstructionAnswer) -> Iterator[Section]:
-    """Yield the sections on surviving arbors, pointers and known meshes."""
     problem = found.problem
     rows = [
         (
@@ -189,7 +188,6 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
 
 
 def _base_text(found: ReconstructionAnswer) -> str:
-    """Return a sentence on the input of the train and the link that carries the arbors."""
     base, source = found.base, found.problem.input.name
     if base is None or not base.is_carrier:
         return f"{source} is the input."
@@ -224,7 +222,6 @@ def _contents(one: RankedTrain) -> tuple[str, str, str]:
 
 
 def _rank(one: RankedTrain) -> str:
-    """Format a rank, with the range of ranks of equal weight."""
     return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
 
 
@@ -257,7 +254,7 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
 def _telling(train: str, found: TellingFacts, trains: int) -> Section:
     """Return the section on facts that distinguish a train, singly and in the smallest sets."""
     many_facts = {1: "One fact", 2: "Two facts", 3: "Three facts"}
-    alone = [each for each in found.facts if each.mechanisms == 1]
+    alone = [each for each in found.facts if each.solutions == 1]
     lines = ["Facts that are true of this train but not of all, with the number of trains that each would leave."]
     tables = [Table(("fact", f"left of {trains}"), _fact_rows(found.facts))]
     if not found.sets:
@@ -274,10 +271,10 @@ def _telling(train: str, found: TellingFacts, trains: int) -> Section:
 
 
 def _fact_rows(facts: Sequence[TellingFact]) -> list[tuple[str, ...]]:
-    """Return table rows that group facts by the number of trains with them."""
+    """Return table rows that group facts by the number of trains for which they are true."""
     rows: dict[int, list[str]] = {}
     for fact in facts:
-        rows.setdefault(fact.mechanisms, []).append(_fact_text(fact))
+        rows.setdefault(fact.solutions, []).append(_fact_text(fact))
     return [("; ".join(said), str(left)) for left, said in rows.items()]
 
 
@@ -314,7 +311,7 @@ def _note_sentences(one: KnownRank) -> Iterator[str]:
 
 
 def _admission_sentences(one: KnownRank) -> Iterator[str]:
-    """Yield a sentence on the rank of a train in each question that admits it."""
+    """Yield a sentence on the rank of a train in each changed problem that admits it."""
     all_that = tuple(dict.fromkeys(each.change for each in one.broken))
     for admitted in one.admitted:
         changes = (
@@ -328,7 +325,7 @@ def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
     begins = f"With {changes} it adds {own}"
     if admitted.refused is not None:
         return f"{begins}. Not searched: {admitted.refused}."
-    listed = [f"{number} with {added}" for added, number in enumerate(admitted.mechanisms) if number]
+    listed = [f"{number} with {added}" for added, number in enumerate(admitted.solutions) if number]
     if admitted.place is None:
         trains = f"the trains by added wheels are {', '.join(listed)}" if listed else "nothing fits"
         return f"{begins}. With at most {plural(admitted.requested, 'wheel')} {trains}."
@@ -344,7 +341,7 @@ def _admission_text(changes: str, admitted: AdmittingQuestion) -> str:
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
-    """Yield sections on facts common to all candidates, and on the weights of answers that differ."""
+    """Yield sections on facts common to all candidates, and on the probabilities of answers that differ."""
     if not marginals or marginals[0].trains < 2:
         return
     agreed = list(_agreed(marginals))
@@ -378,7 +375,7 @@ def _needed(facts: Sequence[FactMarginal]) -> Table:
 
 def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
     rows = [
-        (fact.subject, share_text(float(answer.share)), str(answer.mechanisms))
+        (fact.subject, share_text(float(answer.share)), str(answer.solutions))
         for fact in facts
         for answer in fact.answers
         if answer.answer == YES
@@ -397,7 +394,7 @@ def _answers(facts: Sequence[FactMarginal]) -> Table:
 
 
 def _answers_text(answers: Sequence[FactAnswer]) -> str:
-    listed = [f"{one.answer}: {share_text(float(one.share))} ({one.mechanisms})" for one in answers[:_MOST_ANSWERS]]
+    listed = [f"{one.answer}: {share_text(float(one.share))} ({one.solutions})" for one in answers[:_MOST_ANSWERS]]
     if len(answers) > _MOST_ANSWERS:
         rest = answers[_MOST_ANSWERS:]
         listed.append(f"{len(rest)} more: {share_text(float(sum(one.share for one in rest)))}")
@@ -437,13 +434,13 @@ def _equivalent_text(facts: Sequence[Fact]) -> str:
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
-    """Yield the section on numbers of trains without each hard fact; `given` are the numbers with all facts."""
+    """Yield the section on the numbers of trains without each hard fact; `given` are the numbers with all facts."""
     if not changes:
         return
     header = ("assumption", *(f"{added} added" for added in range(len(given))), "trains")
     rows = [("all facts", *map(str, given), str(sum(given)))]
     for one in changes:
-        counts = [str(count) for count in one.mechanisms] or ["-"] * len(given)
+        counts = [str(count) for count in one.solutions] or ["-"] * len(given)
         total = one.refused or f"{one.total}{'' if one.complete else ' or more'}"
         rows.append((one.change, *counts, total))
     line = "Number of trains without one fact or rule, which shows how much it excludes."
@@ -451,22 +448,22 @@ def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
-    """Yield sections on the reasons why nothing fits; `most` is the maximum number of added wheels."""
+    """Yield sections on the reasons why nothing explains the evidence; `most` is the maximum number of added wheels."""
     if found is None:
         return
     line = "Each dial without the others; surviving arbors that do not lead to it need not be used."
     rows = [(dial.dial, _lone_dial_text(dial, most)) for dial in found.dials]
     yield Section("Why nothing fits", [line], [Table(("dial", "alone"), rows)])
-    doubts = [(one.change, str(one.fewest), str(one.total)) for one in found.doubts]
+    uncertainties = [(one.change, str(one.fewest), str(one.total)) for one in found.uncertainties]
     tried = (
         f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard fact is dropped, or a "
         f"surviving count is changed by up to {MISREAD} teeth."
     )
-    lines = [tried] if doubts else [tried, "No single change leaves an explanation."]
+    lines = [tried] if uncertainties else [tried, "No single change leaves an explanation."]
     if found.refused:
         lines.append(f"Not searched: {'; '.join(found.refused)}.")
     header = ("change", "added wheels", "trains")
-    tables = [Table(header, cut(doubts, most=_MOST_DOUBTS))] if doubts else []
+    tables = [Table(header, cut(uncertainties, most=_MOST_UNCERTAINTIES))] if uncertainties else []
     yield Section("Changes of the evidence that would help", lines, tables)
 
 
@@ -482,9 +479,10 @@ def _lone_dial_text(dial: LoneDial, most: int) -> str:
 
 
 def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[Section]:
-    """Yield the section on the family tree; the first `turning` trains are animated on the page."""
+    """Yield the section on the family tree. The first `turning` trains are animated on the HTML page."""
     if not tree:
         return
+    # the most probable branches
     shown = set(sorted(range(len(tree)), key=lambda at: -tree[at].share)[:_MOST_BRANCHES])
     below: dict[int, list[int]] = {}
     for at, branch in enumerate(tree):
@@ -498,7 +496,7 @@ def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[S
         left = [tree[at] for at in places if at not in shown]
         if left:
             share = share_text(float(sum(branch.share for branch in left)))
-            trains = plural(sum(branch.mechanisms for branch in left), "train")
+            trains = plural(sum(branch.solutions for branch in left), "train")
             yield Branch(f"{plural(len(left), 'lighter branch').replace('branchs', 'branches')}: {share}, {trains}")
 
     said = [
@@ -519,7 +517,7 @@ def _branch(branch: FamilyBranch, turning: int, below: Sequence[Branch]) -> Bran
     ]
     if len(trains) > _MOST_TRAINS:
         ends.append(Branch(f"{len(trains) - _MOST_TRAINS} more"))
-    return Branch(f"{meshes}: {share}, {plural(branch.mechanisms, 'train')}", [*ends, *below])
+    return Branch(f"{meshes}: {share}, {plural(branch.solutions, 'train')}", [*ends, *below])
 
 
 def _train(train: FamilyTrain) -> str:
@@ -535,16 +533,16 @@ def _scene(text: str, rank: int, turning: int) -> str:
 
 
 def share_text(share: float) -> str:
-    """Format a share of the weight in percent with three digits."""
+    """Return a probability as text, in per cent with three digits."""
     return f"{100 * share:.3g} %"
 
 
 def teeth_text(wheels: Mapping[str, int]) -> str:
-    """Format wheels with their counts, such as `m1 96, n1 53`."""
+    """Return wheels with their tooth counts as text, such as `m1 96, n1 53`."""
     return ", ".join(f"{name} {teeth}" for name, teeth in wheels.items())
 
 
 def ranks_text(ranks: tuple[int, int]) -> str:
-    """Format a rank as `3`, or as `1-4` for trains of equal weight."""
+    """Return a rank as text: `3`, or `1-4` for equally probable trains."""
     first, last = ranks
     return str(first) if first == last else f"{first}-{last}"

@@ -1,4 +1,4 @@
-"""Execution of `geartrain reconstruct`: progress bars, journals and interruptions; and its HTML page."""
+"""Execution of `geartrain reconstruct` with progress bars, journals and interruptions, and its HTML page."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class CommandRun(ReconstructionRun):
         self._is_needed_to_resume = False
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Print the size of the question."""
-        tell(f"question: {RequestedQuestion.of(problem)}")
+        """Print the size of the problem."""
+        tell(f"problem: {RequestedQuestion.of(problem)}")
         if (size := count_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} choices")
 
@@ -47,7 +47,7 @@ class CommandRun(ReconstructionRun):
         tell(f"possible paths: {', '.join(f'{paths} to {dial}' for dial, paths in cost.paths.items())}")
         if seconds := rough(cost.whole):
             workers = self._options.workers
-            shared = f", shared by {workers} processes" if workers not in (None, 1) else ""
+            shared = f", shared by {workers} processes" if workers not in (None, "1") else ""
             timed = f"one part in {cost.parts} of the search was timed"
             tell(f"expected time: about {_duration_text(seconds)} in one process{shared}; {timed}")
 
@@ -64,7 +64,7 @@ class CommandRun(ReconstructionRun):
     def assume(
         self, problem: ReconstructionProblem, changed: Sequence[ChangedQuestion], counted: Sequence[ChangedCount]
     ) -> Iterator[Execution]:
-        """Yield an executor; an interruption keeps the finished counts and the journal."""
+        """Yield an executor. An interruption keeps the finished counts and the journal."""
         requested = {"question": question_digest(problem), "without": [each.change for each in changed]}
         with long_run("reconstruct_assumptions", requested, self._folder, self._options) as given:
             try:
@@ -76,13 +76,13 @@ class CommandRun(ReconstructionRun):
             close_journal(given.journal, cut)
 
     def searched(self, complete: bool) -> None:
-        """Close the journal of the search unless the interrupted count of assumptions needs it."""
+        """Close the journal of the search, unless the interrupted count of assumptions needs it."""
         if not self._is_needed_to_resume:
             close_journal(self._journal, not complete)
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """Yield an executor with a progress bar; an interruption omits the part from the answer."""
+        """Yield an executor with a progress bar. An interruption omits the part from the answer."""
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
                 yield Execution(executor, tell=bar.reach)
@@ -102,7 +102,7 @@ def _weighted(execution: Execution, problem: ReconstructionProblem, expected: Ex
 
 
 def _duration_text(seconds: float) -> str:
-    """Format a rough duration [s] in seconds, minutes, hours or days."""
+    """Return a rough duration [s] as text, in seconds, minutes, hours or days."""
     for size, unit in ((86400, "days"), (3600, "hours"), (60, "minutes")):
         if seconds >= 2 * size:
             return f"{seconds / size:.0f} {unit}"

@@ -1,4 +1,4 @@
-"""Exact counts and candidates of a question: topologies are weighed, and the best trains are listed or drawn."""
+"""Exact counts and candidates of a problem: topologies are weighted, and the best trains are listed or sampled."""
 
 from __future__ import annotations
 
@@ -25,50 +25,50 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.train_topology import Topology
 
 _LISTED = 20_000
-"""Maximum number of candidates that are built. If more have the same weight, the first ones found are used."""
+"""Maximum number of candidates that are constructed. If more have the same weight, the first ones are used."""
 _MOST_CLASSIFIED = 300_000
 """Maximum number of choices of tooth counts for which multisets of arbors and ratio classes are counted."""
 
 _Weight = TypeVar("_Weight", Fraction, float)
 _Wheel = tuple[str, int]
 _Step = tuple[str, _Wheel, _Wheel]
-"""Arbor on a path: its name, driven wheel and driving wheel."""
+"""Arbor on a path: name, driven wheel and driving wheel."""
 
 _NONE: _Wheel = ("", 0)
 
 
 @dataclass(frozen=True, slots=True)
 class ExplanationCount(Result):
-    """Numbers of explanations with a given number of added wheels.
+    """Number of explanations with a given number of added wheels.
 
     See Also
     --------
-    find_reconstructions : gives it.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     added: int
     """Number of added wheels."""
-    mechanisms: int
+    solutions: int
     """Number of different trains."""
-    bags: int | None
-    """Number of multisets of arbors on paths (equivalence classes up to order); None if too many trains."""
+    multisets: int | None
+    """Number of equivalence classes up to the order of arbors on paths; None if there are too many trains."""
     classes: int | None
-    """Number of ratio classes: equal driving and driven wheels on each path; None if too many trains."""
+    """Number of ratio classes: equal driving and driven wheels on each path; None if there are too many trains."""
 
 
 def explanations_text(counts: Sequence[ExplanationCount]) -> str:
-    """Return how many trains explain the evidence, by number of added wheels, in a line."""
-    found = (f"{each.mechanisms:,} with {plural(each.added, 'added wheel')}" for each in counts if each.mechanisms)
+    """Return the number of trains that explain the evidence, by number of added wheels, as one line of text."""
+    found = (f"{each.solutions:,} with {plural(each.added, 'added wheel')}" for each in counts if each.solutions)
     return f"explanations: {', '.join(found) or 'none'}"
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate(Result):
-    """Train that explains a question.
+    """Train that explains the evidence of a problem.
 
     See Also
     --------
-    find_reconstructions : finds it.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     KEYS = ("added", Key("weight", to=float), "ranks")
@@ -78,9 +78,9 @@ class Candidate(Result):
     added: int
     """Number of added wheels."""
     weight: float
-    """Share of the weight of all explanations, 0 to 1."""
+    """Posterior probability of the train, 0 to 1."""
     ranks: tuple[int, int]
-    """First and last rank by weight, from 1. They differ if several trains have the same weight."""
+    """First and last rank by probability, from 1. They differ if several trains are equally probable."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,31 +91,31 @@ class WeightClass(Result):
     """Number of added wheels of each explanation."""
     weight: Fraction
     """Prior weight of each explanation, up to a common factor."""
-    mechanisms: int
-    """Number of explanations."""
+    solutions: int
+    """Number of explanations with this weight."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reconstructions(Result):
-    """Numbers of all explanations of a question, and the best explanations.
+    """Numbers of all explanations of a problem, and the most probable explanations.
 
     See Also
     --------
-    find_reconstructions : gives it.
+    find_reconstructions : Find the explanations of a problem.
     """
 
     KEYS = ("counts", "complete", "candidates")
 
     counts: tuple[ExplanationCount, ...]
-    """Numbers of explanations, for 0, 1, 2, ... added wheels."""
+    """Number of explanations with 0, 1, 2, ... added wheels."""
     complete: bool
     """True if the search covered all candidates."""
     candidates: tuple[Candidate, ...]
-    """Candidates in descending order of weight."""
+    """Candidates in descending order of probability."""
     topologies: tuple[CountedTopology, ...] = ()
-    """All topologies with the numbers of their trains; empty if trains are weighed one by one."""
+    """All topologies with the numbers of their trains; empty if trains are weighted one by one."""
     weights: tuple[WeightClass, ...] = ()
-    """Numbers of trains by added wheels and descending weight; empty if trains are weighed one by one."""
+    """Number of trains by added wheels and prior weight, descending; empty if trains are weighted one by one."""
 
     def _summary(self) -> str:
         listed = f"{len(self.candidates)} listed" + ("" if self.complete else ", incomplete")
@@ -126,19 +126,19 @@ def find_reconstructions(
     problem: ReconstructionProblem,
     execution: Execution | None = None,
     listed: int = 1000,
-    per: Literal["mechanism", "class"] = "mechanism",
+    prior_of: Literal["solution", "class"] = "solution",
 ) -> Reconstructions:
-    """Count all explanations with up to the maximum number of added wheels, and list the best.
+    """Count all explanations with up to the maximum number of added wheels, and list the most probable.
 
     Parameters
     ----------
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     execution : Execution, optional
         Executor of the parts of the search. By default they run one after the other in this process.
     listed : int
-        Minimum number of candidates to list, if there are as many.
-    per : {"mechanism", "class"}
+        Minimum number of candidates to list; fewer if there are not as many.
+    prior_of : {"solution", "class"}
         Unit of the prior: one weight for every train, or one for every ratio class, which its trains share.
 
     Returns
@@ -148,19 +148,19 @@ def find_reconstructions(
     Raises
     ------
     QuestionError
-        If too many trains would have to be listed, to share weights by class or to weigh measured sizes.
+        If too many trains would have to be listed, because weights depend on ratio classes or measured sizes.
 
     Examples
     --------
     >>> from geartrain.search.reconstruct import evidence_question, read_evidence
     >>> found = find_reconstructions(evidence_question(read_evidence("metonic-l-m")).problem)
-    >>> [count.mechanisms for count in found.counts], found.candidates[0].weight
+    >>> [count.solutions for count in found.counts], found.candidates[0].weight
     ([0, 2], 0.5)
     """
     found: dict[int, list[CountedTopology]] = {added: [] for added in range(problem.additions.wheels + 1)}
     whole: set[int] = set()
     geometry = problem.geometry
-    one_by_one = per == "class" or bool(geometry.wheels or geometry.arbors)
+    one_by_one = prior_of == "class" or bool(geometry.wheels or geometry.arbors)
     try:
         for part in count_topologies(problem, execution):
             found[part.added] += part.topologies
@@ -170,7 +170,7 @@ def find_reconstructions(
         found = {added: topologies for added, topologies in found.items() if added in whole}
     complete = len(whole) == problem.additions.wheels + 1
     if one_by_one:
-        return _weighed_one_by_one(problem, found, complete, per)
+        return _weighed_one_by_one(problem, found, complete, prior_of)
     counts = tuple(_count(added, some, problem) for added, some in found.items())
     every = tuple(each for some in found.values() for each in some)
     weights = tuple(_weight_classes(problem, found))
@@ -180,27 +180,26 @@ def find_reconstructions(
 def _weight_classes(
     problem: ReconstructionProblem, found: Mapping[int, Sequence[CountedTopology]]
 ) -> Iterator[WeightClass]:
-    """Yield the numbers of trains with each weight, for each number of added wheels, in descending order of weight."""
     for added, topologies in found.items():
         alike = Counter[Fraction]()
         for each in topologies:
-            alike[topology_prior(each.topology, problem)] += each.mechanisms
+            alike[topology_prior(each.topology, problem)] += each.solutions
         yield from (WeightClass(added, weight, alike[weight]) for weight in sorted(alike, reverse=True))
 
 
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
-    mechanisms = sum(each.mechanisms for each in topologies)
+    solutions = sum(each.solutions for each in topologies)
     # the order of arbors changes neither key, unless a ring limits counts in some orders
     maximum = problem.additions.maximum
     marked = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
-    if sum(each.choices if one_order else each.mechanisms for each, one_order in marked) > _MOST_CLASSIFIED:
-        return ExplanationCount(added, mechanisms, None, None)
+    if sum(each.choices if one_order else each.solutions for each, one_order in marked) > _MOST_CLASSIFIED:
+        return ExplanationCount(added, solutions, None, None)
     some = [arbor for each, one_order in marked for arbor in _trains(each, problem, one_order)]
-    return ExplanationCount(added, mechanisms, len({*map(arbor_multiset, some)}), len({*map(ratio_class, some)}))
+    return ExplanationCount(added, solutions, len({*map(arbor_multiset, some)}), len({*map(ratio_class, some)}))
 
 
 def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
-    """Yield all trains of a topology, or with `one_order` one train for each choice of tooth counts."""
+    """Yield all trains of a topology; with `one_order`, one train for each choice of tooth counts."""
     limits = problem.additions
     facts = MeshFacts() if one_order else MeshFacts.of(problem)
     topology = each.topology
@@ -209,10 +208,11 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
 
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
-    """Yield candidates in descending order of weight, then by the number and teeth of added wheels."""
+    """Yield candidates in descending order of probability, then by the number and the sum of teeth of added wheels."""
     weighed = [(topology_prior(each.topology, problem), added, each) for added, some in found.items() for each in some]
-    whole = sum(weight * each.mechanisms for weight, _, each in weighed)
-    ranks = weight_ranks((weight, each.mechanisms) for weight, _, each in weighed)
+    whole = sum(weight * each.solutions for weight, _, each in weighed)
+    # ranks cover all trains, listed or not
+    ranks = weight_ranks((weight, each.solutions) for weight, _, each in weighed)
     weighed.sort(key=lambda one: (-one[0], one[1]))
     made, most = 0, max(listed, _LISTED)
     for (weight, added), equal in groupby(weighed, key=lambda one: one[:2]):
@@ -229,7 +229,7 @@ def _order(arbor: Arbor) -> tuple[int, str]:
 
 
 def _written_out(value: object) -> str:
-    """Return a candidate with all its parts as text, which orders candidates of equal weight and size."""
+    """Return a candidate with all its parts as text, used to order candidates of equal weight and size."""
     if isinstance(value, Arbor | PlacedWheel):
         parts = (f"{each.name}={_written_out(getattr(value, each.name))}" for each in fields(value))
         return f"{type(value).__name__}({', '.join(parts)})"
@@ -239,14 +239,14 @@ def _written_out(value: object) -> str:
 
 
 def _weighed_one_by_one(
-    problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, per: str
+    problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior_of: str
 ) -> Reconstructions:
-    """Weigh every candidate by its misfits, or as a part of its class, and drop impossible ones."""
-    number = sum(each.mechanisms for some in found.values() for each in some)
+    """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
+    number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
-        what = f"{number} trains would have to be weighed one by one, more than {_LISTED}"
+        what = f"{number} trains would have to be weighted one by one, more than {_LISTED}"
         why = "weights per class and weights of measured sizes need every train"
-        fix = "add fewer wheels (-k), or use `--per mechanism` without `geometry`"
+        fix = "add fewer wheels (--max-added), or use `--prior solution` without `geometry`"
         raise QuestionError(Problem(what, why, fix))
     counts, weighed = [], []
     for added, topologies in found.items():
@@ -254,16 +254,17 @@ def _weighed_one_by_one(
         for arbor in (arbor for each in topologies for arbor in _trains(each, problem)):
             likelihood = candidate_likelihood(arbor, problem.geometry)
             if likelihood:
-                own.append((float(prior(arbor, problem)) * likelihood, added, arbor))
+                own.append((float(train_prior(arbor, problem)) * likelihood, added, arbor))
         arbors = [arbor for _, _, arbor in own]
         counts.append(
             ExplanationCount(added, len(own), len({*map(arbor_multiset, arbors)}), len({*map(ratio_class, arbors)}))
         )
         weighed += own
-    if per == "class":
+    if prior_of == "class":
         classes: dict[object, int] = {}
         for _, _, arbor in weighed:
             classes[ratio_class(arbor)] = classes.get(ratio_class(arbor), 0) + 1
+        # the trains of a class share its weight
         weighed = [(weight / classes[ratio_class(arbor)], added, arbor) for weight, added, arbor in weighed]
     weighed.sort(key=lambda one: (-one[0], one[1], _order(one[2])))
     whole = sum(weight for weight, _, _ in weighed)
@@ -275,14 +276,14 @@ def _weighed_one_by_one(
 def draw_candidates(
     found: Reconstructions, problem: ReconstructionProblem, dials: Sequence[str], number: int, seed: int
 ) -> tuple[Candidate, ...]:
-    """Draw candidates independently of each other, with replacement.
+    """Draw candidates with their posterior probabilities, independently and with replacement.
 
     Parameters
     ----------
     found : Reconstructions
-        All explanations of the question.
+        All explanations of the problem.
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     dials : sequence of str
         Dials in the order of the evidence.
     number : int
@@ -297,7 +298,7 @@ def draw_candidates(
     Raises
     ------
     QuestionError
-        If trains are weighed one by one, by measured sizes or by class.
+        If trains are weighted one by one, because weights depend on ratio classes or measured sizes.
 
     Examples
     --------
@@ -307,34 +308,34 @@ def draw_candidates(
     [1, 1, 1]
     """
     if not found.topologies:
-        if not sum(each.mechanisms for each in found.counts):
+        if not sum(each.solutions for each in found.counts):
             return ()
-        what = "trains cannot be drawn if they are weighed one by one"
-        fix = "list them instead (--all), or use `--per mechanism` without `geometry`"
-        raise QuestionError(Problem(what, "draws need sums over trains of equal weight", fix))
+        what = "trains cannot be sampled if they are weighted one by one"
+        fix = "list them instead (--all), or use `--prior solution` without `geometry`"
+        raise QuestionError(Problem(what, "sampling needs sums over trains of equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
-    shares = [weight * each.mechanisms for weight, each in zip(whole, found.topologies, strict=True)]
-    ranks = weight_ranks((weight, each.mechanisms) for weight, each in zip(weights, found.topologies, strict=True))
-    trains, chance = TopologyTrains(problem, dials), Random(seed)
+    shares = [weight * each.solutions for weight, each in zip(whole, found.topologies, strict=True)]
+    ranks = weight_ranks((weight, each.solutions) for weight, each in zip(weights, found.topologies, strict=True))
+    trains, probability = TopologyTrains(problem, dials), Random(seed)
     drawn = []
     for _ in range(number):
-        at = draw_index(shares, chance)
+        at = draw_index(shares, probability)
         topology, weight = found.topologies[at].topology, weights[at]
         share = float(Fraction(whole[at], sum(shares)))
-        drawn.append(Candidate(trains.draw(topology, chance), topology.added.number, share, ranks[weight]))
+        drawn.append(Candidate(trains.draw(topology, probability), topology.added.number, share, ranks[weight]))
     return tuple(drawn)
 
 
 def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
-    """Return the first and last rank by weight of a candidate among all, or None if it is not listed."""
+    """Return the first and last rank by probability of a candidate; None if it is not listed."""
     wanted = train_key(arbor)
     return next((one.ranks for one in found.candidates if train_key(one.arbor) == wanted), None)
 
 
 def is_all_listed(found: Reconstructions) -> bool:
-    """Return whether every explanation that is counted is also listed."""
-    return found.complete and len(found.candidates) == sum(count.mechanisms for count in found.counts)
+    """Return whether all explanations that are counted are also listed."""
+    return found.complete and len(found.candidates) == sum(count.solutions for count in found.counts)
 
 
 # ---------------------------------------------------------------------------------- prior weights, and ranks by weight
@@ -346,7 +347,7 @@ def topology_prior(topology: Topology, problem: ReconstructionProblem) -> Fracti
     return added * survivors_prior(problem, topology.used)
 
 
-def prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
+def train_prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
     """Return the prior weight of a candidate, up to a common factor."""
     used = [wheel for wheel in arbor.wheels() if wheel.name is not None]
     return added_prior(problem, arbor.added_wheels, arbor.added_arbors) * survivors_prior(problem, used)
@@ -359,7 +360,7 @@ def added_prior(problem: ReconstructionProblem, wheels: int, arbors: int) -> Fra
 
 
 def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel]) -> Fraction:
-    """Return the factor of the prior weight for used surviving wheels with their counts, and for unused ones."""
+    """Return the factor of the prior weight for the counts of used surviving wheels and for unused ones."""
     counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
     weight, unused = Fraction(1), len(counts)
     for wheel in used:
@@ -369,7 +370,7 @@ def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel])
 
 
 def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
-    """Return weight -> first and last rank, from pairs of a weight and a number of candidates."""
+    """Return the first and last rank of each weight, from pairs of a weight and a number of candidates."""
     alike = Counter[_Weight]()
     for weight, number in weighed:
         alike[weight] += number
@@ -384,14 +385,14 @@ def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[
 
 
 def train_key(arbor: Arbor) -> tuple[object, ...]:
-    """Return a hashable key of a whole candidate, independent of the order of its parts."""
+    """Return a hashable key of a whole candidate that does not depend on the order of its parts."""
     passed = tuple(sorted(map(train_key, arbor.passes)))
     drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(train_key, below)))) for wheel, below in arbor.drives))
     return arbor.name or "", _wheel(arbor.driven), arbor.dials, drives, passed
 
 
 def arbor_multiset(arbor: Arbor) -> tuple[object, ...]:
-    """Return the multiset of arbors on the path of each dial, with their wheels, independent of their order."""
+    """Return the multiset of arbors, with their wheels, on the path of each dial."""
     return tuple(sorted((dial, tuple(sorted(path))) for dial, path in _paths(arbor)))
 
 

@@ -50,11 +50,13 @@ from geartrain.search.weighted_alternatives import Alternative, WeightedAlternat
 
 QUICK = 2
 """Maximum number of added wheels for which a search is not divided into parts."""
-_PARTS = 24
+_PARTS = 24  # divides evenly over 2, 3, 4, 6, 8 and 12 processes
 _SAMPLES = {4096: 3, 512: 4, 64: 5}
-"""Number of parts of the search -> number of timed parts. Larger parts are timed until the time suffices."""
+"""Number of timed parts, by the number of parts of the search. Fewer, larger parts are timed until the time is
+measurable.
+"""
 _ENOUGH = 0.3
-"""Minimum time [s] of a sample for each number of added wheels."""
+"""Minimum total time of a sample for each number of added wheels [s]."""
 _MOST_CHOICES = 40
 """Maximum decimal logarithm of the number of choices of added tooth counts; searches of hours have about 20."""
 _YEAR = 3.2e7  # s
@@ -80,12 +82,12 @@ class OrderPart(NamedTuple):
 
 
 class TopologyTrains:
-    """Sums over the trains of the topologies of a question, and random draws from them.
+    """Sums over the trains of the topologies of a problem, and random draws from them.
 
     Parameters
     ----------
     problem : ReconstructionProblem
-        Typed question.
+        Reconstruction problem.
     dials : sequence of str
         Dials in the order of the evidence.
     """
@@ -104,7 +106,7 @@ class TopologyTrains:
         return sum(part.choices * part.orders.total for part in self.parts(topology))
 
     def parts(self, topology: Topology) -> list[OrderPart]:
-        """Partition the trains of a topology by the tooth-count limits that ring gears impose."""
+        """Partition the trains of a topology by the tooth-count limits that rings impose."""
         if not rings_limit(topology, self._facts.rings, self._maximum):
             orders = topology_orders(name_topology(topology, *self._names), self._facts)
             return [self._part(OpenCounts(topology.added, topology.wanted), orders)]
@@ -119,7 +121,7 @@ class TopologyTrains:
         return OrderPart(requested, self.counts.total(requested), orders)
 
     def _listed(self, tokens: CountTokens, arbors: list[Arbor]) -> WeightedAlternatives[Hashable]:
-        """Return listed orders as alternatives, each given as a train with tokens for tooth counts."""
+        """Return listed orders as alternatives. Each order is given as a train with tokens for tooth counts."""
 
         def each(_: Hashable) -> Iterator[Alternative[Hashable]]:
             for arbor in arbors:
@@ -137,11 +139,11 @@ class TopologyTrains:
         most = tokens.most(arbor, self._facts.rings, self._maximum)
         return lambda token: AddedKind(*tokens.owner(token), most.get(token))
 
-    def draw(self, topology: Topology, chance: Random) -> Arbor:
+    def draw(self, topology: Topology, probability: Random) -> Arbor:
         """Draw one of the trains of a topology with equal probability."""
         parts = self.parts(topology)
-        part = parts[draw_index([part.choices * part.orders.total for part in parts], chance)]
-        drawn, tokens = part.orders.draw(chance), CountTokens(topology.added)
+        part = parts[draw_index([part.choices * part.orders.total for part in parts], probability)]
+        drawn, tokens = part.orders.draw(probability), CountTokens(topology.added)
         arbor = next((one for one in drawn if isinstance(one, Arbor)), None)
         if arbor is None:
             steps = sorted((one for one in drawn if isinstance(one, ChainStep)), key=lambda one: one.place)
@@ -151,7 +153,7 @@ class TopologyTrains:
             arbor = in_order(topology, orders, tokens.counts, tokens.idle)
         kinds, requested, counts = self._kinds(tokens, arbor), part.open, dict[int, int]()
         for token in _tokens(arbor):
-            counts[token], requested = self.counts.draw(requested, kinds(token), chance)
+            counts[token], requested = self.counts.draw(requested, kinds(token), probability)
         return _with_counts(arbor, counts)
 
 
@@ -177,8 +179,6 @@ def _tokens(arbor: Arbor) -> Iterator[int]:
 
 
 def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
-    """Replace the tokens of a train by tooth counts."""
-
     def counted(wheel: PlacedWheel) -> PlacedWheel:
         return wheel if wheel.name is not None else PlacedWheel(None, counts[wheel.teeth])
 
@@ -193,7 +193,7 @@ def _with_counts(arbor: Arbor, counts: Mapping[int, int]) -> Arbor:
 
 
 class TopologySearch:
-    """Enumeration of all topologies of a question with a given number of added wheels.
+    """Enumeration of all topologies of a problem with a given number of added wheels.
 
     Parameters
     ----------
@@ -207,7 +207,7 @@ class TopologySearch:
 
     @cached_property
     def paths(self) -> dict[str, PathList]:
-        """Dial -> list of its paths."""
+        """List of the paths to each dial."""
         dials = sorted(self.problem.dials, key=lambda dial: dial.name)
         return {dial.name: PathList(dial, self.problem, self._keys) for dial in dials}
 
@@ -216,7 +216,9 @@ class TopologySearch:
         return PathChoice(self.problem, self.paths, self._keys), PathTrees(self.problem, self.paths)
 
     def topologies(self, added: int, part: int = 0, parts: int = 1) -> Iterator[tuple[Topology, int]]:
-        """Yield topologies with exactly `added` added wheels in one part of the search, with their choices."""
+        """Yield topologies with exactly `added` added wheels in one part of the search, each with its number of
+        choices.
+        """
         choice, trees = self._by_paths
         for chosen in choice.choices(added, part, parts):
             for topology in trees.topologies(chosen, added):
@@ -230,11 +232,11 @@ class TopologySearch:
 
 @dataclass(frozen=True)
 class CountedTopology:
-    """Topology with its positive numbers of choices of added tooth counts and of trains."""
+    """Topology with its number of choices of added tooth counts and its number of trains, both positive."""
 
     topology: Topology
     choices: int
-    mechanisms: int
+    solutions: int
 
 
 class TopologyTask(NamedTuple):
@@ -282,23 +284,23 @@ def total_paths(problem: ReconstructionProblem) -> dict[str, int]:
 
 
 def timed_part(task: TopologyTask) -> float:
-    """Measure the time of one part of the search [s]."""
+    """Run one part of the search and return its time [s]."""
     start = perf_counter()
     _counted(task)
     return perf_counter() - start
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
-    """Return topologies as plain data, each with its numbers of choices and of trains."""
+    """Return the topologies of one part as plain data, each with its numbers of choices and of trains."""
     search, trains = _search(task.problem)
     topologies = search.topologies(task.added, task.part, task.parts)
     return [(plain_topology(each), choices, number) for each, choices in topologies if (number := trains.count(each))]
 
 
 def _search(problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTrains]:
-    """Return the cached search of a question.
+    """Return the cached search of a problem.
 
-    Path lists are made once per process. The cache key is the digest of the question, which need not be hashable.
+    Path lists are made once per process. The cache key is the digest of the problem, which need not be hashable.
     """
     digest = question_digest(problem)
     if digest not in _SEARCHES:
@@ -310,7 +312,7 @@ def _search(problem: ReconstructionProblem) -> tuple[TopologySearch, TopologyTra
 
 
 _SEARCHES: dict[str, tuple[TopologySearch, TopologyTrains]] = {}
-"""Cache of the last two questions, by digest."""
+"""Cache of the searches of the last two problems, by digest."""
 
 
 # ------------------------------------------------------- the time of a search, extrapolated from a sample of its tasks
@@ -327,14 +329,14 @@ def rough(seconds: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ExpectedCost(Result):
-    """Expected cost of a search."""
+    """Expected cost of a search, estimated from a sample of its parts."""
 
     KEYS = ("paths", Key("seconds", "whole", to=rough))
 
     paths: dict[str, int]
-    """Dial -> number of possible paths from the input to it, with the maximum number of added wheels."""
+    """Number of possible paths from the input to each dial, with the maximum number of added wheels."""
     seconds: tuple[float, ...]
-    """Expected time in one process [s] for each number of added wheels, accurate to a factor of about three.
+    """Expected time in one process for each number of added wheels [s], accurate to a factor of about three.
 
     It is 0 up to two added wheels, where nothing is timed. It excludes the comparison of the listed trains.
     """
@@ -348,9 +350,9 @@ class ExpectedCost(Result):
 
 
 def expect_cost(problem: ReconstructionProblem) -> ExpectedCost:
-    """Estimate the cost of a question; its path lists are cached for the search in this process.
+    """Estimate the cost of a problem. Its path lists are cached for the search in this process.
 
-    Raises `QuestionError` if there are too many paths, or if the search would take more than a hundred years.
+    Raise `QuestionError` if there are too many paths, or if the search would take more than a hundred years.
     """
     _refuse_absurd(problem)
     parted = dict.fromkeys(task.added for task in topology_tasks(problem) if task.parts > 1)
@@ -364,7 +366,7 @@ def expect_cost(problem: ReconstructionProblem) -> ExpectedCost:
 
 
 def count_choices(problem: ReconstructionProblem) -> float:
-    """Return the decimal logarithm of the number of choices of tooth counts of the maximum number of added wheels."""
+    """Return the decimal logarithm of the number of choices of tooth counts for the maximum number of added wheels."""
     added = problem.additions
     return added.wheels * log10(max(added.maximum - added.minimum + 1, 1))
 
@@ -385,7 +387,7 @@ def _refuse_absurd(problem: ReconstructionProblem) -> None:
 
 
 def _refuse_endless(problem: ReconstructionProblem, seconds: Sequence[float]) -> None:
-    """Raise `QuestionError` if the times, extrapolated by the ratio of the last two, exceed `_LONGEST`.
+    """Raise `QuestionError` if the expected time, extrapolated by the ratio of the last two times, exceeds `_LONGEST`.
 
     seconds   times [s] for increasing numbers of added wheels, from the first number that is timed
     """
@@ -424,12 +426,13 @@ def _sampled(problem: ReconstructionProblem, added: int) -> tuple[int, float]:
 
 
 def done_shares(problem: ReconstructionProblem, expected: ExpectedCost) -> tuple[float, ...]:
-    """Return the expected share of the total time, 0 to 1, after each number of completed tasks, from none."""
+    """Return the expected fraction of the total time after 0, 1, 2, ... completed tasks."""
     done = list(accumulate(_weights(problem, expected), initial=0.0))
     return tuple(each / done[-1] for each in done)
 
 
 def _weights(problem: ReconstructionProblem, expected: ExpectedCost) -> Iterator[float]:
     """Yield the expected time of each task [s], which is always positive."""
+    # parts that were not timed advance the progress a little
     minimum = 1e-3 * expected.whole + 1e-6
     yield from (minimum + expected.seconds[task.added] / task.parts for task in topology_tasks(problem))

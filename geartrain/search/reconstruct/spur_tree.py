@@ -26,7 +26,7 @@ from geartrain.train.reconstruction import NEW_ARBOR
 # Driving mesh of every arbor, along meshes of spur wheels from the input.
 
 
-_Z_AXIS = (0, 0, 1)
+_Z_AXIS = (0, 0, 1)  # default direction of an axis
 _KEPT_KEYS = ("title", "sources", "unit", "view")
 _WHEEL_KEYS = ("internal", "status", "source", "note")
 
@@ -56,7 +56,7 @@ def walk_arbors(
     meshes    meshes of each arbor
     arbor_of  function that returns the arbor of a wheel
 
-    Raises `QuestionError` if meshes close a loop.
+    Raise `QuestionError` if meshes close a loop.
     """
     driven: dict[str, DrivenArbor] = {}
     waiting, used = deque([source]), set[int]()
@@ -69,7 +69,7 @@ def walk_arbors(
             child = arbor_of(other)
             if child == source or child in driven:
                 what = f"the meshes of '{train.name}' close a loop at '{train.gears[gear].name}'"
-                why = "an arbor is driven in two ways, and only trees of arbors are reconstructed"
+                why = "two wheels drive the same arbor, and only trees of arbors are reconstructed"
                 place = train.place("gears", gear)
                 raise QuestionError(Problem(what, why, "remove a mesh of the loop", place))
             driven[child] = DrivenArbor(arbor, own, other)
@@ -82,7 +82,7 @@ def walk_meshes(
 ) -> dict[str, DrivenArbor]:
     """Return the driving mesh of every arbor on the frame that is reached from a source by breadth-first search.
 
-    arbors  link -> the arbor that it is, or is a part of
+    arbors  arbor to which each link belongs
     rings   wheels that may be internal
     """
     tree = find_tree(train)
@@ -125,29 +125,29 @@ class SpurTree:
     base: BaseLink
     """Link that carries the arbors, and the speed of the first arbor."""
     driven: Mapping[str, DrivenArbor]
-    """Arbor -> mesh by which it is driven. Parents come first."""
+    """Mesh by which each arbor is driven, in topological order."""
     joined: Joined
-    """Arbor -> links that it represents, itself first; only arbors with several links."""
+    """Links that each arbor represents, the link of the same name first; only for arbors with several links."""
     pointers: Mapping[str, str]
-    """Name of an output, or of a link whose speed is given -> its arbor."""
+    """Arbor of each output, or of each link whose speed is given."""
     counts: Mapping[str, int]
-    """Name of each meshing wheel -> its tooth count."""
+    """Tooth count of each meshing wheel."""
     teeth: tuple[int, int]
     """Minimum and maximum tooth count of an added wheel."""
 
     @property
     def source(self) -> str:
-        """First arbor of the part."""
+        """First arbor of the part, which drives the others."""
         return self.base.source
 
     @property
     def arbors(self) -> tuple[str, ...]:
-        """All arbors, the first arbor of the part at the beginning."""
+        """All arbors, beginning with the first arbor of the part."""
         return self.source, *self.driven
 
     @property
     def has_idlers(self) -> bool:
-        """True if a driven wheel also drives."""
+        """True if a driven wheel also drives (an idler)."""
         driving = {mesh.driving for mesh in self.driven.values()}
         return any(mesh.driven in driving for mesh in self.driven.values())
 
@@ -159,7 +159,7 @@ class SpurTree:
 
     @property
     def name(self) -> str:
-        """Label of the part of the train; empty for the part that begins at the input, on the frame."""
+        """Label of the part of the train; "" for the part that begins at the input, on the frame."""
         if self.base.is_carrier:
             return f"on {self.base.name}, from {self.source}"
         return "" if self.source in self.train.case(None).inputs else f"from {self.source}"
@@ -185,7 +185,7 @@ class SpurTree:
         return tuple(name for link in links for name in self.train.links[link].wheels if name in self.counts)
 
     def meshes(self, lost: Collection[str] = ()) -> tuple[tuple[str, str], ...]:
-        """Return the meshes (driving wheel, driven wheel) except those of lost arbors."""
+        """Return the meshes as (driving wheel, driven wheel), without those of lost arbors."""
         return tuple(
             (mesh.driving, mesh.driven)
             for arbor, mesh in self.driven.items()
@@ -229,7 +229,7 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
     A pointer is an output with a target whose speed is known by `expect` or by a target with a tolerance. If no pointer
     follows an arbor of known speed, that arbor is a pointer. Arbors that lead to no pointer belong to no part.
 
-    Raises `QuestionError` if the train has no such part, because it has no single input, no pointer is reached, or its
+    Raise `QuestionError` if the train has no such part, because it has no single input, no pointer is reached, or its
     meshes close a loop.
     """
     _check_input(train)
@@ -251,7 +251,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
 
     source   arbor at which the part begins; the default is any arbor
 
-    Raises `QuestionError` if no part has all of them, for example if the arbors are in different parts.
+    Raise `QuestionError` if no part has all of them, for example if the arbors are in different parts.
     """
     trees = find_spur_trees(train)
     if source is not None:
@@ -287,9 +287,9 @@ class _Base:
     """Joined links and meshes that turn on the frame or on one carrier."""
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Link -> links that couplings join to it, itself included, in the order of the train."""
+    """Links that couplings join to each link, including the link, in the order of the train."""
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
-    """Arbor -> its meshes."""
+    """Meshes of each arbor."""
 
 
 class _Parts:
@@ -345,7 +345,6 @@ class _Parts:
         return (bases or self._bases)[base].joined.get(link, (link,))[0]
 
     def _connected(self, base: str) -> Iterator[set[str]]:
-        """Yield the sets of arbors that meshes connect."""
         meshes = self._bases[base].meshes
         mates = ((arbor, *(self._arbor(base, each.other) for each in own)) for arbor, own in meshes.items())
         yield from map(set, joined_groups(meshes, mates))
@@ -353,7 +352,7 @@ class _Parts:
     # first arbor of a part
 
     def _start_of(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
-        """Return the base and first arbor of a part, or None if no arbor with a known speed is in it."""
+        """Return the base and first arbor of a part; None if it has no arbor with a known speed."""
         frame, speed = self.train.frame, self._speed(base)
         if speed is None or (not speed and base != frame):
             return None
@@ -365,7 +364,7 @@ class _Parts:
         return None
 
     def _speed(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link, or None if it is not determined."""
+        """Return the exact speed of a link [turns per unit]; None if it is not determined."""
         if link == self.train.frame or link in self.train.fixed:
             return Fraction(0)
         if link in self._inputs:
@@ -385,6 +384,7 @@ class _Parts:
             return None
         outputs = [(name, self._arbor_of_link(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
         pointers = {name: arbor for name, arbor, wanted in outputs if arbor in driven and wanted}
+        # reversed: the first output of an arbor names it
         named = {arbor: name for name, arbor, _ in reversed(outputs)}
         # arbors without a pointer below are dropped; a known speed makes a pointer
         for arbor in reversed(list(driven)):
@@ -418,7 +418,7 @@ class _Parts:
 
 
 def _renamed(tree: SpurTree) -> SpurTree:
-    """Return the tree with joined arbors named as in a question: after their first link with meshing wheels."""
+    """Return the tree with joined arbors named as in a problem, after their first link with meshing wheels."""
     names = {}
     for arbor, links in tree.joined.items():
         names[arbor] = min(
@@ -443,7 +443,7 @@ def _renamed(tree: SpurTree) -> SpurTree:
 
 
 def why_not(train: Train, link: str) -> str:
-    """Return the reason why a link is in none of the parts."""
+    """Return the reason, as text, why a link is in none of the parts."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
         return "it does not turn"
@@ -465,7 +465,7 @@ def why_not(train: Train, link: str) -> str:
 
 
 def _unsupported_features(train: Train) -> Iterator[str]:
-    """Yield features of a train that no part supports."""
+    """Yield the features of a train that no part supports."""
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
     if any(one.kind != "pin_and_slot" for one in train.couplings):
@@ -488,9 +488,10 @@ def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Tr
     Every pointer has its speed, on its arbor or on a lost one. As many wheels may be added as are lost. Their tooth
     counts have the range of the first part, or for a later part the range of all parts.
 
-    lost   links; `QuestionError` for the first arbor, for a link that is not in the tree, and for an arbor with a ring
-    seen   True if meshes of surviving wheels are known and no more arbors may be added than are lost; else meshes are
-           unknown
+    lost   links; `QuestionError` is raised for the first arbor, for a link that is not in the tree, and for an arbor
+           with a ring
+    seen   True if meshes of surviving wheels are known and no more arbors may be added than are lost; otherwise meshes
+           are unknown
     """
     return declare(lost_evidence_data(tree, lost, seen))
 
@@ -529,12 +530,12 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
 
 
 def lost_arbors(tree: SpurTree, links: Sequence[str]) -> tuple[str, ...]:
-    """Return the arbors of the tree that represent some links, each once."""
+    """Return the arbors of the tree that represent the given links, each once."""
     return tuple(dict.fromkeys(map(tree.arbor_of, links)))
 
 
 def lost_wheels(tree: SpurTree, lost: Sequence[str]) -> int:
-    """Count the meshing wheels that are lost with some links."""
+    """Return the number of meshing wheels that are lost with the given links."""
     return sum(len(tree.wheels_of(arbor)) for arbor in lost_arbors(tree, lost))
 
 
@@ -553,7 +554,7 @@ def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any
 
 
 def _inputs(tree: SpurTree, given: dict[str, Any]) -> dict[str, Any]:
-    """Return the declared speeds of the base and of the first arbor."""
+    """Return the speeds of the base and of the first arbor as declared inputs."""
     base, frame = tree.base, tree.train.frame
     speeds = {base.name: base.speed, base.source: base.driven + base.speed}
     return {link: given["inputs"].get(link, str(speed)) for link, speed in speeds.items() if link != frame}
@@ -578,7 +579,7 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
 
 
 def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
-    """Return the meshing wheels of a surviving link with their counts, kinds, statuses and sources."""
+    """Return the meshing wheels of a surviving link as plain data, with counts, kinds, statuses and sources."""
     found: dict[str, Any] = {}
     for name in (name for name in tree.train.links[link].wheels if name in tree.counts):
         wheel = given["links"][link]["wheels"][name]
@@ -588,7 +589,7 @@ def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
 
 
 def _shown(tree: SpurTree, given: dict[str, Any], pointer: str) -> dict[str, Any]:
-    """Return the speed of a pointer: its `expect`, else its targets with a tolerance; and its reference link."""
+    """Return the speed of a pointer as plain data: its `expect`, otherwise its targets with a tolerance."""
     output = given["outputs"].get(pointer)
     if output is None:
         return {"expect": given["inputs"][pointer]}

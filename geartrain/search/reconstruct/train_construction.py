@@ -1,6 +1,6 @@
 """Conversion of a candidate to a complete declaration, in which added parts are marked as hypothetical.
 
-Names depend only on the evidence and the candidate, so that equal candidates give equal texts.
+Names depend only on the evidence and the candidate, so equal candidates give equal texts.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
     for group, logs in measured.items():
         if group not in placed and len(logs) == 1 and geometry.measured[next(iter(logs))].is_module:
             continue
-        found |= dict.fromkeys(logs)
+        found |= dict.fromkeys(logs)  # None: the module follows from other wheels
         if group not in placed:
             found[next(iter(logs))] = math.exp(sum(logs.values()) / len(logs))
     return found
@@ -64,7 +64,7 @@ def with_module(declared: Mapping[str, Any], measured: str, module: float | None
 
 
 def _meshing(train: NamedArbor) -> dict[str, str]:
-    """Return wheel -> first wheel of the group that shares its module."""
+    """Return for each wheel the first wheel of the group that shares its module."""
     first: dict[str, str] = {}
     for _, wheel, arbor in train.meshes():
         assert arbor.driven is not None
@@ -94,7 +94,7 @@ def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
 
 
 def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
-    """Convert a candidate to a checked declaration.
+    """Convert a candidate to a validated declaration.
 
     Parameters
     ----------
@@ -177,7 +177,6 @@ class TrainConstruction:
         return made
 
     def _add(self, source: NamedArbor) -> None:
-        """Add all arbors and meshes of a candidate."""
         self.modules = fit_modules(source, read_geometry_evidence(self.evidence))
         self._put(source, self.base.driven)
         speeds = {source.name: self.base.driven}
@@ -232,7 +231,7 @@ class TrainConstruction:
             self._joint(self.evidence.frame, link, self.revolutes[0]["axis"])
 
     def _joint(self, bearing: str, link: str, axis: str | None = None) -> None:
-        """Add the declared joint of a link, or a joint with its bearing about a given or a new axis."""
+        """Add the declared joint of a link, otherwise a joint with its bearing about a given or a new axis."""
         joints = self.given.get("revolutes", ())
         bearings = {bearing, self.evidence.frame, self.base.name} - {link}
         joint = next((joint for joint in joints if link in joint["pair"] and bearings & set(joint["pair"])), None)
@@ -242,7 +241,6 @@ class TrainConstruction:
         self.revolutes.append(joint)
 
     def _wheel(self, link: str, wheel: NamedWheel) -> None:
-        """Add a wheel to its link, with the tooth count of the candidate."""
         wheels = dict(self.links[link].get("wheels", {}))
         if wheel.added:
             self.added[wheel.name] = wheel.teeth
@@ -283,7 +281,7 @@ class TrainConstruction:
 
 
 def _with_count(teeth: Any, count: int) -> Any:
-    """Return a declared tooth count with the value of a candidate; its range or choices remain."""
+    """Return a declared tooth count with the value of a candidate. Its range or choices remain."""
     if not isinstance(teeth, Mapping):
         return count
     found = {"value": count, **{key: part for key, part in teeth.items() if key not in ("value", "search")}}

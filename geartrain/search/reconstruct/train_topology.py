@@ -35,7 +35,7 @@ class ArborPass:
     driven: PlacedWheel | None
     """Driven wheel, by which the path enters; None on the input arbor."""
     driver: PlacedWheel | None
-    """Driving wheel, by which the path leaves. It is the driven wheel of an idler, and None if the path ends here."""
+    """Driving wheel, by which the path leaves; in an idler it is the driven wheel; None if the path ends here."""
     idle: int
     """Number of surviving wheels of the arbor that the path does not use."""
     idler: bool = False
@@ -51,12 +51,15 @@ class ArborPass:
         return int(self.driven == ADDED and not self.idler)
 
     def meshes_with(self, rings: frozenset[str]) -> int:
-        """Count the meshes of the arbor whose wheel on it is one of `rings`; an idler has two meshes."""
+        """Return the number of meshes of the path on this arbor in which the arbor's wheel is one of `rings`.
+
+        An idler has two meshes.
+        """
         return sum(wheel is not None and wheel.name in rings for wheel in (self.driven, self.driver))
 
     @property
     def added(self) -> int:
-        """Number of added wheels."""
+        """Number of added wheels of the path on this arbor."""
         return (self.driven == ADDED) + self.added_drivers
 
 
@@ -128,7 +131,7 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors without a branching between them, on the way to some dials, and the end of the chain."""
+    """Arbors in series on the way to some dials, without a branching between them, and the end of the chain."""
 
     dials: Dials
     """Dials to which the chain leads."""
@@ -153,18 +156,18 @@ class Chain:
 
     @property
     def next_chains(self) -> tuple[Chain, ...]:
-        """Chains that begin at the end of this chain."""
+        """Chains that begin at the end of this one."""
         return tuple(self.end.chains) if isinstance(self.end, Branching) else self.end
 
 
 @dataclass(frozen=True)
 class Topology:
-    """Train without tooth counts of added wheels, and the quotients that these counts must have for each dial."""
+    """Train without tooth counts of added wheels, with the quotients that these counts must have for each dial."""
 
     root: Branching
     """Input arbor."""
     wanted: tuple[tuple[str, Quotients], ...]
-    """Pairs of a dial and the minimum and maximum quotient of the added wheels on its path."""
+    """Dial, and minimum and maximum quotient of the added wheels on its path, for each dial."""
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
@@ -236,12 +239,12 @@ class CountLimit(NamedTuple):
 
 @dataclass(frozen=True)
 class AddedWheels:
-    """Numbers of added wheels, grouped by the dials whose speed they change."""
+    """Number of added wheels, grouped by the dials whose speed they change."""
 
     groups: tuple[tuple[Dials, int, int], ...]
     """Triples (dials, number of driving wheels, number of driven wheels)."""
     idle: int
-    """Number of wheels that change no speed."""
+    """Number of added wheels that change no speed."""
 
     def without(self, limit: CountLimit) -> AddedWheels:
         """Return the added wheels without one wheel to which the limit applies."""
@@ -261,13 +264,14 @@ class AddedWheels:
 
 
 def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Counter[Dials]) -> int:
-    """Count the added wheels of a branching in `drivers` and `driven`, and return the number that change no speed."""
+    """Add the wheels of a branching to `drivers` and `driven`, and return the number of wheels that change no speed."""
     for wheel, chains in end.drives:
         drivers[_dials_of(chains)] += wheel == ADDED
     if end.driven != ADDED:
         return 0
     past = set(_dials_of(end.passes))  # the speeds of dials driven by an idler do not depend on its count
     turned = tuple(dial for dial in dials if dial not in past)
+    # its count changes the speeds of all dials except those that it drives as an idler
     driven[turned] += bool(turned)
     return not turned
 
@@ -290,7 +294,7 @@ def plain_topology(topology: Topology) -> list[Any]:
 
 
 def topology_of(plain: list[Any]) -> Topology:
-    """Restore a topology from nested lists."""
+    """Convert nested lists to a topology, the inverse of `plain_topology`."""
     root, wanted = plain
     return Topology(_branching_of(root), tuple((dial, (Fraction(low), Fraction(high))) for dial, low, high in wanted))
 

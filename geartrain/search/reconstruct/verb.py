@@ -20,10 +20,11 @@ from geartrain.cli.common import (
     as_json,
     check_distinct_outputs,
     give,
+    option_error,
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers
+from geartrain.cli.long_runs import Resume, RunOptions, Workers
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.numerics.exact import plural
 
@@ -34,7 +35,7 @@ Evidence = Annotated[
     str,
     typer.Argument(
         help="YAML declaration with `reconstruct`, or the name of shipped evidence (`geartrain list --evidence`). With "
-        "--without: a train.",
+        "--lost: a train.",
         metavar="FILE",
     ),
 ]
@@ -49,14 +50,14 @@ MOST_TURNING = 200
 
 def run(
     evidence: Evidence,
-    without: Annotated[
-        Names, typer.Option("--without", help="Treat this arbor of a train as lost; may be repeated.")
+    lost: Annotated[
+        Names, typer.Option("--lost", metavar="ARBOR", help="Treat this arbor of a train as lost; may be repeated.")
     ] = None,
     source: Annotated[
         str | None,
         typer.Option(
             "--from",
-            help="With --without: link at which the part of the train begins. Default: the first part that has the "
+            help="With --lost: link at which the part of the train begins. Default: the first part that has the "
             "arbors.",
         ),
     ] = None,
@@ -64,14 +65,17 @@ def run(
         bool,
         typer.Option(
             "--seen",
-            help="With --without: the meshes of surviving wheels are known, and no more arbors are added than "
-            "are lost.",
+            help="With --lost: the meshes of surviving wheels are known, and no more arbors are added than are lost.",
         ),
     ] = False,
     most: Annotated[
         int | None,
         typer.Option(
-            "-k", min=0, max=1000, help="Maximum number of added wheels. Default: the number in the evidence."
+            "--max-added",
+            "-k",
+            min=0,
+            max=1000,
+            help="Maximum number of added wheels. Default: the number in the evidence.",
         ),
     ] = None,
     count: Annotated[bool, typer.Option("--count", help="Count the trains without listing them.")] = False,
@@ -79,20 +83,19 @@ def run(
     every: Annotated[bool, typer.Option("--all", help="List all trains.")] = False,
     idlers: Annotated[bool, typer.Option("--idlers", help="Allow driven wheels to drive.")] = False,
     folder: Annotated[
-        Path | None, typer.Option("--write", help="Write each listed train as a declaration into this folder.")
+        Path | None,
+        typer.Option("--to", metavar="FOLDER", help="Write each listed train as a declaration into this folder."),
     ] = None,
     page: Annotated[
         Path | None, typer.Option("--page", help="Write an HTML page with the family tree and animated trains.")
     ] = None,
     turning: Annotated[
-        int, typer.Option("--turning", min=1, max=MOST_TURNING, help="Number of animated trains on the page.")
+        int, typer.Option("--animated", min=1, max=MOST_TURNING, help="Number of animated trains on the page.")
     ] = 12,
-    per: Annotated[
-        Literal["mechanism", "class"],
-        typer.Option(
-            "--per", help="Unit of the prior: one weight for every train, or for every class of equal ratios."
-        ),
-    ] = "mechanism",
+    prior: Annotated[
+        Literal["solution", "class"],
+        typer.Option("--prior", help="Prior with equal weights of all solutions, or of all classes of equal ratios."),
+    ] = "solution",
     sample: Annotated[
         int,
         typer.Option(
@@ -123,50 +126,52 @@ def run(
         ),
     ] = None,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
     out: Out = None,
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none."""
+    """Find every train that explains surviving wheels and pointers; exit 0 if there is one, 1 if none.
+
+    Example: `geartrain reconstruct metonic-l-m --best 5`.
+    """
     from geartrain.numerics.files import check_folder
     from geartrain.search.reconstruct.reconstruction import ReconstructionRequest, reconstruct
     from geartrain.search.reconstruct.reconstruction_report import describe_reconstruction
     from geartrain.search.reconstruct.reconstruction_run import CommandRun, write_page
     from geartrain.train.declaration_files import read_declaration, read_evidence
 
-    if not without and (seen or source is not None):
-        raise typer.BadParameter("it is used only with --without", param_hint="--seen" if seen else "--from")
+    if not lost and (seen or source is not None):
+        raise option_error("--seen" if seen else "--from", "no arbor is lost", "give --lost too")
     if count and folder is not None:
-        raise typer.BadParameter("--count lists no trains to write", param_hint="--write")
+        raise option_error("--to", "--count lists no trains to write", "omit one of them")
     if count and page is not None:
-        raise typer.BadParameter("--count lists no trains to show", param_hint="--page")
+        raise option_error("--page", "--count lists no trains to show", "omit one of them")
     if same and not rank:
-        raise typer.BadParameter("it is used only with --rank", param_hint="--same")
+        raise option_error("--same", "no train is ranked", "give --rank too")
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
     check_distinct_outputs(to, turning_page)
     if folder is not None:
         check_folder(folder, [_file(1)], force)
     request = ReconstructionRequest(
-        read_declaration(evidence) if without else read_evidence(evidence),
-        lost=tuple(without or ()),
+        read_declaration(evidence) if lost else read_evidence(evidence),
+        lost=tuple(lost or ()),
         source=source,
         seen=seen,
         wheels=most,
         idlers=idlers,
         best=None if every else best,
         counts_only=count,
-        per=per,
+        prior_of=prior,
         sample=sample,
         seed=seed,
         assumptions=assumptions,
         known=tuple(map(read_declaration, rank or ())),
         same=dict(map(_name_pair, same or ())),
     )
-    found = reconstruct(request, CommandRun(folder, RunOptions(workers, dask, resume)))
+    found = reconstruct(request, CommandRun(folder, RunOptions(workers, resume)))
     if folder is not None and found.candidates:
-        _write(found, folder, force, with_evidence=bool(without))
+        _write(found, folder, force, with_evidence=bool(lost))
     if page is not None:
         write_page(turning_page, found, turning)
     give(to, json, lambda: found, lambda: [describe_reconstruction(found)])
@@ -179,7 +184,7 @@ def _name_pair(text: str) -> tuple[str, str]:
     """Parse a pair of names such as `E4=e3`."""
     own, _, called = map(str.strip, text.partition("="))
     if not own or not called:
-        raise typer.BadParameter(f"'{text}' is not of the form ITS=OURS, such as E4=e3", param_hint="--same")
+        raise option_error("--same", f"'{text}' is not a pair of names", "write it as ITS=OURS, such as E4=e3")
     return own, called
 
 

@@ -1,1 +1,1 @@
-"""Search for the tooth counts of the free wheels of a train: all assignments that satisfy every requirement."""
+"""Search for tooth counts of a train: all assignments of the varied wheels that satisfy every requirement."""

@@ -1,4 +1,4 @@
-"""Requirements of a train on its outputs, as exact intervals of speeds, and the errors of speeds."""
+"""Requirements of a train on its output speeds, as exact intervals, and the errors of speeds."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from geartrain.search.join.wheel_monomials import Function, Interval, IntervalCo
 from geartrain.search.train.train_findings import ReachedSpeed
 from geartrain.train import Output, Published, StateCase, Teeth, Train
 
+# both sides of 0, which is excluded by `strict`
 _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 
 
@@ -32,7 +33,7 @@ class SpeedRequirement:
     signed     False if only the magnitude is required
     allowed    admissible speeds, closed disjoint intervals; None for all
     graded     True if the error of the output is computed from this requirement
-    approached True if no tolerance is given, so that the error is minimised
+    approached True if no tolerance is given, so the error is minimised
     target     True for an astronomical target, False for an expected or published value
     """
 
@@ -46,7 +47,10 @@ class SpeedRequirement:
 
     @classmethod
     def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """Build the requirement of a target with a relative tolerance `share`; None minimises the error."""
+        """Return the requirement of a target.
+
+        share   relative tolerance of the speed; if it is None, the error is minimised
+        """
         said = "" if share is None else f" within {decimal(share, 3)}"
         demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
         if share is None:
@@ -54,7 +58,7 @@ class SpeedRequirement:
         return replace(demand, allowed=demand.within(share), approached=False)
 
     def loosened(self) -> SpeedRequirement:
-        """Return the requirement without its tolerance: its error is minimised, and only the sense of rotation is
+        """Return the requirement without its tolerance. Its error is minimised, and only the sense of rotation is
         required.
         """
         allowed: tuple[Interval, ...] | None = None
@@ -63,11 +67,13 @@ class SpeedRequirement:
         return replace(self, allowed=allowed, approached=True)
 
     def error(self, speed: Fraction) -> Fraction:
-        """Return the relative error of a speed; the speed itself if the requested speed is 0."""
+        """Return the relative error of a speed; if the requested speed is 0, return the speed itself."""
         return Fraction(error_against(speed, self.wanted, self.signed))
 
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
-        """Return the admissible speeds; for a graded requirement only those within the relative tolerance `share`."""
+        """Return the admissible speeds. A graded requirement admits only speeds within the relative tolerance
+        `share`.
+        """
         if share is None or not self.graded:
             return self.allowed
         # the tolerance is absolute if the requested speed is 0
@@ -85,12 +91,12 @@ def _around(middle: Fraction, half: Fraction) -> Interval:
 
 
 def _magnitudes(wanted: Fraction, share: Fraction) -> tuple[Interval, ...]:
-    """Return the speeds of either sense whose magnitude is within a relative tolerance of the requested one."""
+    """Return the intervals of speeds, of either sense, whose magnitude is within a relative tolerance of `wanted`."""
     return of_either_sense(wanted * (1 - share), wanted * (1 + share))
 
 
 def of_either_sense(minimum: Fraction, most: Fraction) -> tuple[Interval, ...]:
-    """Return the speeds of either sense whose magnitude is between two numbers."""
+    """Return the intervals of speeds, of either sense, whose magnitude is from `minimum` to `most`."""
     return ((-most, most),) if minimum <= 0 else ((-most, -minimum), (minimum, most))
 
 
@@ -109,41 +115,45 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
 
 @dataclass(frozen=True, slots=True)
 class OutputRequirement:
-    """Output with all its requirements."""
+    """Output with all requirements on its speed."""
 
     name: str
     """Name of the output; "state: output" if several states are searched at once."""
     function: Function
-    """Speed as a function of the free wheels."""
+    """Speed as a function of the tooth counts that are varied."""
     demands: tuple[SpeedRequirement, ...]
     """Requirements that must all be satisfied, at least one."""
 
     @property
     def approached(self) -> bool:
-        """True if the error of a target without a tolerance is minimised."""
+        """True if a target has no tolerance, so that its error is minimised."""
         return any(demand.approached for demand in self.demands)
 
     @property
     def exact(self) -> bool:
-        """True if one exact speed is required, so that no solution has an error."""
+        """True if exactly one speed is admissible, so that no solution has an error."""
         common = self.requested(None)
         return common is not None and all(low == high for low, high in common.intervals)
 
     @property
     def text(self) -> str:
-        """Description of the requirements."""
+        """Name of the output and descriptions of its requirements."""
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
-        """Return the constraint on the function, graded requirements within `share`; None if unconstrained."""
-        common: tuple[Interval, ...] = ((None, None),)
+        """Return the interval constraint on the speed; None if every speed is admissible.
+
+        share    relative tolerance of graded requirements
+        strict   True to exclude the ends of the intervals
+        """
+        common: tuple[Interval, ...] = ((None, None),)  # all speeds
         for demand in self.demands:
             near = demand.within(share)
             common = common if near is None else meet(common, near)
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return the result of the output at a speed, by the graded requirement with the maximum error."""
+        """Return the error of the output at a speed, from the graded requirement with the maximum error."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         met = all(demand.met(speed) for demand in self.demands)
@@ -151,9 +161,9 @@ class OutputRequirement:
 
 
 def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
-    """Yield the conditions for a train to turn: loops that close, and links that are driven consistently.
+    """Yield the conditions for a train to turn: loops must close, and links must not be driven in contradictory ways.
 
-    `QuestionError` is raised if it cannot turn with any counts.
+    Raise `QuestionError` if the train cannot turn with any counts.
     """
     for condition in formulas.conditions:
         if not condition.wheels:
@@ -167,7 +177,7 @@ def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[Interv
 def find_output_requirements(
     train: Train, case: StateCase, functions: Mapping[str, Function], tolerance: Fraction | None
 ) -> list[OutputRequirement]:
-    """Return the outputs of a case that have a function and at least one requirement."""
+    """Return the outputs that depend on varied wheels or fixed speeds and have at least one requirement."""
     moving = [speed for speed in case.inputs.values() if speed]
     found = []
     for name, function in functions.items():
@@ -202,8 +212,9 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
 
 
 def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iterator[SpeedRequirement]:
-    """Yield the requirement of a published figure. A ratio needs the speed of a single input; without it no speed is
-    allowed.
+    """Yield the requirement of a published figure.
+
+    A published ratio needs the speed of a single input. Without it no speed is admissible.
     """
     label = f"published {published.value} {published.as_}"
     half = _half(published.value, published.tolerance)
@@ -211,6 +222,7 @@ def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iter
     if published.as_ == "speed":
         yield SpeedRequirement(label, published.value.value, True, ((low, high),), graded)
     elif drive is None:
+        # no interval: no speed is admissible
         yield SpeedRequirement(label, Fraction(1), True, (), False)
     elif published.as_ == "output/input":
         ends = sorted((low * drive, high * drive))
@@ -222,7 +234,7 @@ def _printed(published: Published, drive: Fraction | None, graded: bool) -> Iter
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
-    """Yield the intervals of speeds for which drive over speed is between two numbers."""
+    """Yield the intervals of speeds for which `drive` over the speed is from `low` to `high`."""
     if low > 0 or high < 0:
         ends = sorted((drive / low, drive / high))
         yield ends[0], ends[1]
@@ -232,47 +244,46 @@ def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interva
     yield from ((None, ray) if ray < 0 else (ray, None) for ray in sorted(rays))
 
 
-# The free wheels of a train and their requirements, in connected components.
+# The varied wheels of a train and their requirements, in connected components.
 
 
-_MOST_COUNTS = 10**6
+_MOST_COUNTS = 10**6  # counts of one wheel that are listed
 
 
 @dataclass(frozen=True, slots=True)
 class SearchPart:
-    """Wheels connected by outputs or constraints, and their requirements."""
+    """Varied wheels that are connected by outputs or constraints, with their requirements."""
 
     domains: Domains
-    """Wheel -> its admissible counts, ascending, in the order of declaration."""
+    """Admissible tooth counts of each wheel, ascending, in the order of declaration."""
     requirements: tuple[OutputRequirement, ...]
-    """Outputs that the wheels influence."""
+    """Requirements on the outputs that the wheels influence."""
     conditions: tuple[IntervalConstraint, ...]
-    """Conditions on loops and locks for the train to turn."""
+    """Conditions on loops and links for the train to turn."""
     rules: tuple[CountConstraint, ...]
     """Constraints on the counts."""
 
     @property
     def considered(self) -> int:
-        """Number of assignments."""
+        """Number of assignments of tooth counts to the wheels."""
         return prod(len(counts) for counts in self.domains.values())
 
 
 @dataclass(frozen=True, slots=True)
 class TrainRequirements:
-    """Requirements of a train in one or several states."""
+    """Requirements on the outputs of a train in one or several states."""
 
     requirements: tuple[OutputRequirement, ...]
     conditions: tuple[IntervalConstraint, ...]
     remarks: tuple[str, ...]
-    """Remarks on outputs that no free wheel influences and that violate their requirements, and on undetermined
-    outputs.
-    """
+    """Remarks on outputs that are undetermined, or that violate their requirements and depend on no varied wheel."""
 
 
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """Return the admissible counts of each free wheel, ascending, in the order of declaration.
+    """Return the admissible counts of each varied wheel, ascending, in the order of declaration.
 
-    See `search_train` for `free`. `QuestionError` is raised if no wheel is free, or if one has no range of counts.
+    `free` is the argument of `search_train`. Raise `QuestionError` if no wheel is varied, or if one has no range of
+    counts.
     """
     if isinstance(free, str) and free not in ("search", "uncertain"):
         free = [free]
@@ -289,16 +300,23 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
         if counts:
             found[wheel] = counts
         elif chosen and not isinstance(free, str):
-            why = f"its count is {teeth.value}, without search, range or choices"
+            why = f"its count is declared as {teeth.value}, without search, range or choices"
             fix = "declare it as {search: [15, 80]}"
             raise QuestionError(
-                Problem(f"wheel '{wheel}' is not free", why, fix, train.place("links", link, "wheels", wheel))
+                Problem(
+                    f"the tooth count of wheel '{wheel}' cannot be varied",
+                    why,
+                    fix,
+                    train.place("links", link, "wheels", wheel),
+                )
             )
     if not found:
         fix = "declare `teeth: {search: [15, 80]}` for the wheels to search"
         if free == "search" and any(train.uncertain_wheels()):
             fix += ", or use --free uncertain"
-        raise QuestionError(Problem(f"'{train.name}' has no free wheel", "no wheel declares `search`", fix))
+        raise QuestionError(
+            Problem(f"'{train.name}' has no wheel whose tooth count is varied", "no wheel declares `search`", fix)
+        )
     return found
 
 
@@ -317,7 +335,7 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
 def find_requirements(
     train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
 ) -> TrainRequirements:
-    """Return all requirements on the outputs, in one state or in all states."""
+    """Return all requirements on the outputs, in one state, or in all states if `state` is None."""
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
     requirements: list[OutputRequirement] = []
@@ -338,17 +356,17 @@ def find_requirements(
 
 
 def _idle(requirement: OutputRequirement) -> Iterator[str]:
-    """Yield a remark on an output that no free wheel influences, if it violates its requirements."""
+    """Yield a remark on an output that depends on no varied wheel, if it violates its requirements."""
     speed = requirement.function.value({})
     if speed is not None:
         reached = requirement.reached(speed)
         if not reached.met:
             said = f"its speed is {speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
-            yield f"no free wheel influences '{requirement.name}', which violates its requirement: {said}"
+            yield f"no varied wheel influences '{requirement.name}', which violates its requirement: {said}"
 
 
 def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
-    """Yield the connected components of the free wheels in the order of declaration; idle wheels are parts."""
+    """Yield the connected components of the varied wheels in the order of declaration, including isolated wheels."""
     scopes = chain(
         (requirement.function.wheels for requirement in demands.requirements),
         (condition.function.wheels for condition in demands.conditions),

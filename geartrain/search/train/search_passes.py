@@ -1,4 +1,4 @@
-"""One pass of a search over a part: its requirements as a join, divided into tasks, and run.
+"""One pass of a search over a part of a train: its requirements as a join, divided into tasks, and run.
 
 If there are very many assignments only the best are kept. Bounds in floats discard most others, and exact errors sort
 the rest.
@@ -33,22 +33,23 @@ from geartrain.search.train.output_requirements import OutputRequirement, Search
 from geartrain.search.train.train_findings import Assignment, By
 
 _SMALL = 3e6
-"""Number of steps below which a pass is one task; they take about a second."""
-_MOST_TASKS = 100_000
+"""Number of steps below which a pass is one task; it takes about a second."""
+_MOST_TASKS = 100_000  # maximum number of tasks of a pass
 _SAMPLED = 16
 """Number of tasks of a random sample."""
 _POOL = 20_000
-"""Number of assignments in a pool at which all but the best are discarded."""
+"""Number of stored assignments at which all but the best are discarded."""
 
 Task = dict[str, Any]
-"""Argument of `do_task`."""
+"""Argument of `do_task`, plain data."""
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
-    """Divide a pass into tasks; also return the share of the pass that they cover, below 1 if the limit is exceeded.
+    """Return the tasks of a pass, and the fraction of the pass that they cover, below 1 if the limit of steps is
+    exceeded.
 
-    Tasks are runs of the values of the first item, and of the next one below if the first has few values. The random
-    sample has a fixed seed.
+    Tasks are runs of the values of the first variable, and of its child in the plan if the first has few values. If the
+    limit is exceeded, the tasks are a random sample with a fixed seed.
     """
     if question.steps <= _SMALL <= limit:
         return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
@@ -67,8 +68,9 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
 
 
 def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
-    """Return items from the root downwards, each with the number of runs of its values; their product is about
-    `wanted`.
+    """Return variables from the root downwards, each with the number of runs into which its values are divided.
+
+    The product of these numbers is about `wanted`.
     """
     node: PlanNode | None = question.plan
     found: list[tuple[int, int]] = []
@@ -101,7 +103,7 @@ class PassWork:
     """Maximum number of assignments that one task may enumerate to list the best."""
 
     def packed(self) -> bytes:
-        """Return the pickled data for a worker process."""
+        """Return the data pickled for a worker process."""
         return pickle.dumps(self)
 
 
@@ -114,10 +116,11 @@ def _unpacked(packed: bytes) -> tuple[PassWork, ExactJoin]:
 
 
 def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
-    """Run one task of a search: a part of the values of some items.
+    """Run one task of a search, which covers a part of the values of some variables.
 
-    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts; `budget`: maximum number of steps;
-           `pieces`: number of pieces, so that the results of finished pieces remain if the budget is exceeded
+    task   `parts`: [[item, number, of], ...], part `number` of `of` equal parts of the values of a variable; `budget`:
+           maximum number of steps; `pieces`: number of pieces, so that the results of finished pieces remain if the
+           budget is exceeded
 
     The result has the keys `count`, `removed` (one number for each constraint), `listed` (True if `best` is complete),
     `best` (counts in the order of the wheels), `steps`, and `cut` (True if the budget was exceeded).
@@ -141,7 +144,7 @@ def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
-    """Yield the runs of values of a task, with the first of them divided into pieces."""
+    """Yield the runs of values of a task, with the run of the first variable divided into pieces."""
     runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
     item = parts[0][0]
     first, last = runs[item]
@@ -152,7 +155,7 @@ def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Ite
 
 
 def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: int) -> dict[str, Any]:
-    """Count the assignments of a piece; enumerate them if they are to be listed or tested by late constraints."""
+    """Count the assignments of a piece. Enumerate them only if they are to be listed or tested by late constraints."""
     question = work.question
     counts, gone = join.count(question.plan, join.start())
     count = int(counts[0])
@@ -170,7 +173,7 @@ def _do_piece(work: PassWork, join: ExactJoin, pool: BestAssignments, before: in
 
 
 def _late(question: JoinProblem, columns: AssignmentColumns, removed: list[int]) -> AssignmentColumns:
-    """Return the assignments that satisfy the late constraints."""
+    """Return the assignments that satisfy the late constraints, which are not part of the join."""
     number = len(question.reasons) - len(question.late)
     for at, rule in enumerate(question.late, number):
         met = rule.holds(columns)
@@ -198,7 +201,7 @@ class PassTally:
 
 
 def merged(work: PassWork, results: Iterable[Mapping[str, Any]]) -> PassTally:
-    """Sum the results of tasks; a keyboard interrupt returns the sum so far."""
+    """Return the sum of the results of tasks; after a keyboard interrupt, the sum so far."""
     count, listed, cut, stopped = 0, True, False, False
     removed = [0] * len(work.question.reasons)
     pool = BestAssignments(work.order, work.question.wheels)
@@ -236,7 +239,7 @@ class PassRunner:
     stopped: bool = False
 
     def run(self, work: PassWork, tasks: Sequence[Task]) -> PassTally:
-        """Run the tasks of a pass; after an interrupt nothing is run."""
+        """Run the tasks of a pass. After an interrupt, return an empty result."""
         if self.stopped:
             return NOTHING
         journal = None if self.journal is None else cast(Journal, _Section(self.journal, self.done))
@@ -253,47 +256,44 @@ class PassRunner:
         return tally
 
     def release(self) -> None:
-        """End the search; later requests run in this process, without journal or progress."""
+        """Remove executor, journal and progress function, so that later computations run in this process."""
         self.executor = self.journal = self.tell = None
         self.stopped = False
 
 
 class _Section:
-    """View of a journal with an offset of the task numbers."""
+    """View of a journal in which task numbers are shifted by an offset."""
 
     def __init__(self, journal: Journal, offset: int) -> None:
         self._journal, self._offset = journal, offset
 
     @property
     def closed(self) -> bool:
-        """True if the journal is closed."""
         return self._journal.closed
 
     def recall(self, task: int, mark: str = "") -> str | None:
-        """Return the stored result of a task of this section."""
         return self._journal.recall(task + self._offset, mark)
 
     def keep(self, task: int, mark: str, text: str) -> None:
-        """Store the result of a task of this section."""
         self._journal.keep(task + self._offset, mark, text)
 
 
 @dataclass(frozen=True, slots=True)
 class PassResult:
-    """Result of a pass."""
+    """Result of one pass of a search."""
 
     share: Fraction | None
-    """Common relative tolerance of the pass, None if there is none."""
+    """Common relative tolerance of the pass; None if there is none."""
     searched: float
-    """Share of the assignments that was searched; 1 if complete."""
+    """Fraction of the assignments that was searched; 1 if complete."""
     tally: PassTally
     """Counts and the best assignments."""
     reasons: tuple[str, ...] = ()
-    """Names of the constraints that reject assignments, parallel to `tally.removed`."""
+    """Names of the constraints that reject assignments, in the order of `tally.removed`."""
     order: tuple[int, ...] = ()
     """Indices of the reasons in the order in which they are evaluated."""
     steps: float = 0.0
-    """Estimated number of steps."""
+    """Estimated number of partial assignments to examine."""
 
     @property
     def complete(self) -> bool:
@@ -302,7 +302,7 @@ class PassResult:
 
     @property
     def removed(self) -> dict[str, int]:
-        """Reason -> number of assignments it rejected, in the order of evaluation, summed by name."""
+        """Number of assignments rejected for each reason, in the order of evaluation."""
         found: dict[str, int] = {}
         for at in self.order:
             reason = self.reasons[at]
@@ -311,18 +311,18 @@ class PassResult:
 
 
 NOT_BEGUN = PassResult(None, 0.0, NOTHING)
-"""Result of a pass that an interrupt prevented."""
+"""Result of a pass that was not started because of an interrupt."""
 
 
 @dataclass
 class PartSearch:
-    """Search of one part in several passes."""
+    """Search of one part of a train in several passes."""
 
     part: SearchPart
     order: AssignmentOrder
     runner: PassRunner
     limit: float
-    """Maximum number of steps of one pass."""
+    """Maximum number of partial assignments that one pass may examine."""
     removed_first: tuple[tuple[str, int], ...] = field(init=False)
     domains: Domains = field(init=False)
     rules: tuple[CountConstraint, ...] = field(init=False)
@@ -336,19 +336,19 @@ class PartSearch:
             if len(rule.wheels) == 1:
                 narrowed = narrow(domains, rule)
                 alone.append((rule.name, size_of(domains) - size_of(narrowed)))
-                domains = narrowed
+                domains = narrowed  # later constraints are counted on what is left
         self.removed_first, self.domains = tuple(alone), domains
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
 
     @property
     def sample(self) -> SelectivitySample:
-        """Random sample of assignments."""
+        """Random sample of assignments, used to estimate probabilities."""
         if self._sample is None:
             self._sample = SelectivitySample.of(self.domains)
         return self._sample
 
     def without(self, *, rule: str = "", requirement: OutputRequirement | None = None) -> PartSearch:
-        """Return the search without the constraints of one name, or without one output."""
+        """Return the search without the constraints of this name, or without this requirement on an output."""
         part = replace(
             self.part,
             rules=tuple(one for one in self.part.rules if one.name != rule),
@@ -357,14 +357,14 @@ class PartSearch:
         return PartSearch(part, self.order, self.runner, self.limit)
 
     def requested(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
-        """Return all interval constraints of a pass."""
+        """Return all interval constraints of a pass with relative tolerance `share`."""
         found = [requirement.requested(share, strict) for requirement in self.part.requirements]
         return (*self.part.conditions, *(one for one in found if one is not None))
 
-    def chances(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
-        """Estimate the share of assignments that satisfies each constraint and requirement."""
-        chances = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
-        return chances | {one.name: self.sample.of_demand(one) for one in requested}
+    def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
+        """Estimate the fraction of assignments that satisfies each constraint and each requirement."""
+        probabilities = {rule.name: self.sample.of_rule(rule) for rule in self.rules}
+        return probabilities | {one.name: self.sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
         """Run one pass: count all solutions, and list the best if there are at most `most`.
@@ -375,7 +375,7 @@ class PartSearch:
         if not size_of(self.domains):
             return PassResult(share, 1.0, PassTally(0, (), (), True, False, False))
         requested = self.requested(share, strict)
-        question = find_join_problem(self.domains, requested, self.rules, self.chances(requested))
+        question = find_join_problem(self.domains, requested, self.rules, self.probabilities(requested))
         tasks, searched = cut(question, self.limit)
         # `most` may be infinite
         work = PassWork(question, self.order, int(min(most, 1 << 62)))
@@ -384,12 +384,12 @@ class PartSearch:
 
 
 def size_of(domains: Domains) -> int:
-    """Return the number of assignments."""
+    """Return the number of assignments, the product of the numbers of counts."""
     return prod(len(counts) for counts in domains.values())
 
 
 def narrow(domains: Domains, rule: CountConstraint) -> Domains:
-    """Restrict the counts of a wheel to those that a constraint on this wheel permits."""
+    """Return the domains with the counts of one wheel restricted by a constraint on this wheel."""
     (wheel,) = rule.wheels
     counts = domains[wheel]
     if not counts:
@@ -403,24 +403,24 @@ def narrow(domains: Domains, rule: CountConstraint) -> Domains:
 
 @dataclass(frozen=True, slots=True)
 class AssignmentOrder:
-    """Total order of assignments."""
+    """Total order of the assignments of tooth counts."""
 
     by: By
-    """Primary criterion; ties are broken by error, total, largest, and the counts in the order of the wheels."""
+    """Primary criterion; ties are broken by error, total, largest count, and the counts in the order of the wheels."""
     best: int
     """Number of assignments to keep."""
     requirements: tuple[OutputRequirement, ...]
     """Outputs whose errors are compared."""
     declared: Mapping[str, int]
-    """Wheel -> declared count, if it has one."""
+    """Declared tooth count of each wheel that has one."""
 
     @property
     def level(self) -> bool:
-        """True if all solutions have the same error, because an exact speed is required of every output."""
+        """True if all solutions have error 0, because exactly one speed of every output is admissible."""
         return all(requirement.exact for requirement in self.requirements)
 
     def assignment(self, teeth: Mapping[str, int]) -> Assignment | None:
-        """Evaluate the outputs for some counts; None if one has no speed."""
+        """Return the assignment with the speeds of all outputs; None if an output has no speed."""
         outputs = {}
         for requirement in self.requirements:
             speed = requirement.function.value(teeth)
@@ -431,7 +431,7 @@ class AssignmentOrder:
         return Assignment(dict(teeth), outputs, changed)
 
     def first(self, columns: AssignmentColumns) -> Ints:
-        """Return the primary criterion of many assignments; 0 for the error, which `errors` bounds."""
+        """Return the primary criterion of many assignments; 0 for the error, which `errors` bounds instead."""
         table = np.stack(list(columns.values()))
         if self.by == "total":
             return np.asarray(table.sum(axis=0))
@@ -446,7 +446,7 @@ class AssignmentOrder:
         return np.zeros(table.shape[1], dtype=np.int64)
 
     def errors(self, columns: AssignmentColumns) -> tuple[Floats, Floats]:
-        """Return lower and upper bounds of the maximum absolute error over the outputs."""
+        """Return lower and upper bounds of the maximum absolute relative error over the outputs."""
         size = len(next(iter(columns.values())))
         minimum, maximum = np.zeros(size), np.zeros(size)
         if not self.level:
@@ -456,7 +456,7 @@ class AssignmentOrder:
         return minimum, maximum
 
     def ranks(self, columns: AssignmentColumns) -> Ints:
-        """Return integer ranks by the maximum absolute error, exactly; equal errors have equal ranks."""
+        """Return integer ranks by the maximum absolute error, compared exactly. Equal errors have equal ranks."""
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
         if self.level:
             return found
@@ -468,7 +468,7 @@ class AssignmentOrder:
 
 
 def _errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
-    """Return lower and upper bounds of the maximum absolute error of one output."""
+    """Return lower and upper bounds of the absolute relative error of one output, for each assignment."""
     function = requirement.function
     # a count is rounded at most once, if it exceeds 2^53
     quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
@@ -492,9 +492,7 @@ def _errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple
 
 
 def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
-    """Return the exact absolute error of each distinct speed of an output, and the index of the speed of each
-    assignment.
-    """
+    """Return the exact absolute error at each distinct speed of an output, and the index of each assignment's speed."""
     function = requirement.function
     above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
     speeds, which = distinct_quotients(above, below)
@@ -528,7 +526,7 @@ class BestAssignments:
         self._new: list[Ints] = []
 
     def add(self, columns: AssignmentColumns) -> None:
-        """Add assignments to the candidates."""
+        """Add candidate assignments to the list."""
         self._new.append(np.stack([columns[wheel] for wheel in self.wheels]))
         if sum(table.shape[1] for table in self._new) > _POOL:
             self._gather()
@@ -552,7 +550,7 @@ class BestAssignments:
         return dict(zip(self.wheels, self._table, strict=True))
 
     def _drop(self) -> None:
-        """Discard assignments whose error bounds exclude them from the best."""
+        """Discard assignments whose lower error bound excludes them from the best."""
         best = self.order.best
         if self._table.shape[1] <= best or self.order.level:
             return
@@ -564,7 +562,6 @@ class BestAssignments:
         self._table = self._table[:, kept]
 
     def _sort(self) -> None:
-        """Sort exactly and keep the best."""
         if self._table.shape[1]:
             columns = self._columns()
             sizes = self._table.max(axis=0), self._table.sum(axis=0)

@@ -20,7 +20,7 @@ ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
 
 @dataclass(frozen=True, slots=True)
 class ReachedSpeed(Result):
-    """Speed and error of an output with an assignment."""
+    """Speed and error of an output for an assignment of tooth counts."""
 
     KEYS = (
         "speed",
@@ -34,10 +34,10 @@ class ReachedSpeed(Result):
     speed: Fraction
     """Exact speed in the unit of the train."""
     label: str
-    """Requirement with the maximum error, such as "period 583.92 d"."""
+    """Description of the requirement with the maximum error, such as "period 583.92 d"."""
     error: Fraction
-    """Relative error of that requirement: |speed| / requested - 1 for a target, speed / expected - 1 for an `expect`
-    (the speed itself if 0 is expected).
+    """Relative error with respect to that requirement: |speed| / requested - 1 for a target, speed / expected - 1 for
+    an `expect`, or the speed itself if 0 is expected.
     """
     met: bool
     """True if the output satisfies all its requirements."""
@@ -45,19 +45,19 @@ class ReachedSpeed(Result):
 
 @dataclass(frozen=True, slots=True)
 class Assignment(CountSizes, Result):
-    """Tooth counts of the free wheels, and the resulting speeds of the outputs.
+    """Tooth counts of the varied wheels, and the resulting speeds of the outputs.
 
     See Also
     --------
-    search_train : finds them.
+    search_train : Search for tooth counts of a train.
     """
 
     KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
 
     teeth: Mapping[str, int]
-    """Wheel -> tooth count, in the order of declaration."""
+    """Tooth count of each wheel, in the order of declaration."""
     outputs: Mapping[str, ReachedSpeed]
-    """Output -> its speed and error; in a train with several states the names are "state: output"."""
+    """Speed and error of each output. For a train with several states the names are "state: output"."""
     changed: tuple[str, ...] = ()
     """Wheels whose count differs from the declared value."""
 
@@ -68,7 +68,7 @@ class Assignment(CountSizes, Result):
 
     @property
     def error(self) -> Fraction:
-        """Maximum absolute error over the outputs; 0 if there are none."""
+        """Maximum absolute error over the outputs; 0 without outputs."""
         return max((abs(reached.error) for reached in self.outputs.values()), default=Fraction(0))
 
     def measure(self, by: By) -> tuple[Fraction | int, ...]:
@@ -92,7 +92,7 @@ class Assignment(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class PartFindings(Result):
-    """Free wheels connected by outputs or constraints, and all their solutions."""
+    """Solutions for one part: varied wheels that are connected by outputs or constraints."""
 
     KEYS = (
         "wheels",
@@ -112,52 +112,56 @@ class PartFindings(Result):
     wheels: tuple[str, ...]
     """Wheels in the order of declaration; no wheel is in two parts."""
     outputs: tuple[str, ...]
-    """Outputs that they influence; empty for wheels without outputs and constraints."""
+    """Outputs that the wheels influence; empty for wheels without outputs and constraints."""
     demands: tuple[str, ...]
     """Descriptions of the requirements on the outputs."""
     rules: tuple[str, ...]
     """Names of the constraints on counts."""
     considered: int
-    """Number of assignments."""
+    """Number of assignments of tooth counts to the wheels."""
     count: int
-    """Number of assignments that satisfy all requirements, and are within `tolerance` if that is not None."""
+    """Number of assignments that satisfy all requirements, within `tolerance` if that is not None."""
     tolerance: Fraction | None
-    """Tolerance for outputs without their own, chosen so that it includes enough assignments; None if not used."""
+    """Relative tolerance of outputs without a declared tolerance, chosen to include enough assignments; None if not
+    used.
+    """
     complete: bool
     """True if every assignment was considered, so that `count` is exact."""
     ranked: bool
     """True if it is proved that `solutions` are the best."""
     reason: str
-    """Reason for which the search is not complete, or the solutions are not ranked."""
+    """Reason why the search is not complete or the solutions are not ranked; "" otherwise."""
     solutions: tuple[Assignment, ...]
     """Best assignments, best first."""
     shortfall: Shortfall
-    """Numbers of rejected assignments. Each is counted under the constraint at which the search rejected it; the
-    constraints are listed in the order of evaluation.
+    """Number of rejected assignments by constraint, in the order of evaluation.
+
+    Each assignment is counted under the constraint at which the search rejected it.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class Standing(Result):
-    """Rank of one assignment of the wheels of a part."""
+    """Rank of one assignment of tooth counts to the wheels of a part."""
 
     wheels: tuple[str, ...]
-    """Wheels of the part."""
+    """Names of the wheels of the part."""
     assignment: Assignment | None
-    """Counts, outputs and errors of the assignment; None if its counts lock the train or leave it free."""
+    """Counts, outputs and errors of the assignment; None if it locks the train or leaves outputs undetermined."""
     rank: int | None
-    """Rank by error, 1 for the best; None if the assignment is rejected or if counting would take too long."""
+    """Rank by error, 1 for the best; None if the assignment is rejected, or if counting better ones exceeds the limit.
+    """
     refused: tuple[str, ...]
-    """Descriptions of all constraints that reject it; empty for a solution."""
+    """Descriptions of all constraints that the assignment violates; empty for a solution."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainFindings(Tabular, Result):
-    """Results of a search in a train.
+    """Results of a search for tooth counts in a train.
 
     See Also
     --------
-    search_train : returns it.
+    search_train : Search for tooth counts of a train.
     """
 
     ROWS = "search.tooth_numbers_report:assignment_rows"
@@ -182,11 +186,11 @@ class TrainFindings(Tabular, Result):
     parts: tuple[PartFindings, ...]
     """Independent parts; their solutions can be combined freely."""
     links: Mapping[str, str]
-    """Free wheel -> its link."""
+    """Link of each varied wheel."""
     remarks: tuple[str, ...] = ()
-    """Remarks, such as on outputs that no free wheel influences and that violate their requirements."""
+    """Remarks, for example on outputs that no varied wheel influences and that violate their requirements."""
     where: tuple[Standing, ...] = ()
-    """Ranks of the queried assignments."""
+    """Ranks of the assignments that were queried."""
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
 
     def _summary(self) -> str:
@@ -196,37 +200,37 @@ class TrainFindings(Tabular, Result):
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """All free wheels, part by part."""
+        """Names of all varied wheels, part by part."""
         return tuple(wheel for part in self.parts for wheel in part.wheels)
 
     @property
     def complete(self) -> bool:
-        """True if every part is complete."""
+        """True if the search of every part is complete."""
         return all(part.complete for part in self.parts)
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """ "interrupted" if the search was interrupted, otherwise "whole", even if only a sample was searched."""
+        """End of the search: "interrupted", or "whole", even if only a sample was searched."""
         return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
     def ranked(self) -> bool:
-        """True if it is proved that the solutions of every part are its best."""
+        """True if the listed solutions of every part are proved to be the best."""
         return all(part.ranked for part in self.parts)
 
     @property
     def count(self) -> int:
-        """Number of assignments of all free wheels that satisfy all requirements: the product over the parts."""
-        return prod(part.count for part in self.parts)
+        """Number of assignments of all varied wheels that satisfy all requirements, the product over the parts."""
+        return prod(part.count for part in self.parts)  # parts are independent
 
     @property
     def considered(self) -> int:
-        """Number of assignments of all free wheels."""
+        """Number of assignments of all varied wheels."""
         return prod(part.considered for part in self.parts)
 
     @property
     def solutions(self) -> tuple[Assignment, ...]:
-        """Best assignments of all free wheels, combined from the solutions of the parts, in the requested order."""
+        """Best assignments of all varied wheels, combined from the solutions of the parts, in the requested order."""
         return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
 
     def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
@@ -235,7 +239,7 @@ class TrainFindings(Tabular, Result):
         Parameters
         ----------
         teeth : mapping of str to int
-            Free wheel -> tooth count. `QuestionError` is raised for wheels that are not free, and if no part is
+            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if no part is
             complete.
         """
         self._check(teeth)
@@ -251,7 +255,7 @@ class TrainFindings(Tabular, Result):
         Parameters
         ----------
         solution : Assignment or mapping of str to int
-            Solution of the whole train or of one part. `QuestionError` is raised for wheels that are not free.
+            Solution of the whole train or of one part. `QuestionError` is raised for wheels that were not varied.
         parent : str
             Train to extend: a shipped train, or a path relative to the file to be written.
         name : str
@@ -267,19 +271,21 @@ class TrainFindings(Tabular, Result):
     def _check(self, teeth: Mapping[str, int]) -> None:
         for wheel in teeth:
             if wheel not in self.links:
-                fix = f"the free wheels are {', '.join(self.links)}"
-                raise QuestionError(Problem(f"wheel '{wheel}' is not free", "the search did not vary it", fix))
+                fix = f"use only wheels among {', '.join(self.links)}"
+                raise QuestionError(
+                    Problem(f"wheel '{wheel}' is not in the solutions", "the search did not vary its tooth count", fix)
+                )
 
 
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
-    """Yield the best combinations of one solution of each part, best first, by a search with a priority queue.
+    """Yield the best combinations of one solution from each part, best first, by a search with a priority queue.
 
     The solutions of every part are sorted, so the next best combination is one step in one part from a combination that
-    was already visited. (Numbers of distinct counts do not add over parts; that order is therefore only approximate.)
+    was already visited. Numbers of distinct counts do not add over parts, so that order is only approximate.
     """
     if not parts or not all(parts):
         return
-    start = (0,) * len(parts)
+    start = (0,) * len(parts)  # the best solution of every part
     heap = [(_joined(parts, start).measure(by), start)]
     seen = {start}
     for _ in range(best):

@@ -1,4 +1,4 @@
-"""Search for tooth counts in a train: all assignments of its free wheels that satisfy all requirements."""
+"""Search for tooth counts in a train: all assignments of its varied wheels that satisfy all requirements."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from geartrain.train import Train
 
 
 _LISTED = 100_000
-"""Maximum number of assignments that are enumerated to find the best by error; if there are more, the tolerance is
+"""Maximum number of assignments that are enumerated to find the best by error. If there are more, the tolerance is
 reduced.
 """
 _TRIES = 40  # maximum number of passes with different tolerances
@@ -42,7 +42,7 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the pass that counts, the best assignments, and whether they are proved to be the best."""
+    """Return the pass that counts the solutions, the best assignments, and whether they are proved to be the best."""
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.tally.best, passed.tally.listed and passed.complete
@@ -59,12 +59,12 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Run passes until the tolerance includes the requested number of assignments, or all."""
+    """Run passes with increasing tolerance until they include the requested number of assignments, or all."""
     return _fitting(search, _initial_tolerance(search), None, 3 * search.order.best)
 
 
 def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: int) -> PassResult:
-    """Find a tolerance that includes enough assignments, all of them listed, and return its pass.
+    """Return a pass whose tolerance includes enough assignments, all of them listed.
 
     long   a tolerance that includes too many to list; None if none is known
     some   approximate number of assignments it should include
@@ -96,20 +96,19 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
 
 
 def _list_limit(search: PartSearch) -> int:
-    """Return the maximum number of assignments that are enumerated to find the best by error."""
     return max(_LISTED, 4 * search.order.best)
 
 
 def _count_inexact(search: PartSearch) -> int:
-    """Return the number of outputs that have an error."""
+    """Return the number of outputs whose error is not necessarily 0."""
     return sum(not requirement.exact for requirement in search.part.requirements)
 
 
 def _initial_tolerance(search: PartSearch) -> Fraction:
-    """Estimate the tolerance that includes about the requested number of assignments."""
+    """Estimate the relative tolerance that includes about three times the requested number of assignments."""
     trial = Fraction(1, 1000)
     # the number of hits is proportional to the tolerance to the power of the number of outputs with errors
-    hits = size_of(search.domains) * prod(search.chances(search.requested(trial)).values())
+    hits = size_of(search.domains) * prod(search.probabilities(search.requested(trial)).values())
     # 1e-300: a forecast may underflow to 0 in float64
     guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_count_inexact(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))
@@ -123,12 +122,12 @@ def _growth(search: PartSearch, count: int, some: int) -> Fraction:
 
 
 def _rounded(share: Fraction) -> Fraction:
-    """Round to two digits, so that the tolerance is easy to print."""
+    """Round a tolerance to two significant digits, so that it is easy to print."""
     return Fraction(f"{float(share):.1e}")
 
 
 def _error_bound(search: PartSearch) -> Fraction:
-    """Return an upper bound of the error of all solutions."""
+    """Return an upper bound of the relative error of all solutions."""
     largest = Fraction(0)
     for requirement in search.part.requirements:
         requested = requirement.requested(None)
@@ -140,7 +139,7 @@ def _error_bound(search: PartSearch) -> Fraction:
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:
-    """Return the search with every graded requirement replaced by the minimisation of its error."""
+    """Return the search in which graded requirements are replaced by the minimisation of their errors."""
     requirements = tuple(
         replace(requirement, demands=tuple(one.loosened() if one.graded else one for one in requirement.demands))
         for requirement in search.part.requirements
@@ -164,7 +163,7 @@ def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
-    """Return the number of assignments that each constraint and requirement rejected, in the order of evaluation."""
+    """Return the number of assignments rejected by each constraint and requirement, in the order of evaluation."""
     removed = dict(search.removed_first)
     for reason, number in passed.removed.items():
         removed[reason] = removed.get(reason, 0) + number
@@ -172,7 +171,7 @@ def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _explain(search: PartSearch) -> tuple[str, str]:
-    """Describe the nearest miss, and the constraints to relax."""
+    """Return the nearest miss and suggestions of constraints to relax, as text."""
     wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(requirement)]
     if wrong:
         names = ", ".join(f"'{requirement.name}'" for requirement in wrong)
@@ -181,6 +180,7 @@ def _explain(search: PartSearch) -> tuple[str, str]:
     others = "; ".join(_relaxations(search))
     if best is None:
         return "", others or "no single requirement is the cause: widen the ranges of the wheels"
+    # with one output it would repeat the nearest miss
     alone = "; ".join(_individual_errors(search)) if len(search.part.requirements) > 1 else ""
     nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (individually, {alone})" if alone else "")
     advice = f"a relative tolerance of {_rounded_up(best.error)} includes it"
@@ -188,17 +188,17 @@ def _explain(search: PartSearch) -> tuple[str, str]:
 
 
 def _has_wrong_sense(requirement: OutputRequirement) -> bool:
-    """Return whether the required sense of rotation cannot be obtained with any counts."""
+    """Return whether no tooth counts give the required sense of rotation."""
     requested = requirement.requested(None)
     senses = [_sense(terms) for terms in (requirement.function.numerator, requirement.function.denominator)]
     if requested is None or not all(senses):
         return False
-    lasting = senses[0] * senses[1]
+    lasting = senses[0] * senses[1]  # sign of the speed for all counts
     return bool(requested.intervals) and all(_is_opposite(interval, lasting) for interval in requested.intervals)
 
 
 def _is_opposite(interval: Interval, sense: int) -> bool:
-    """Return whether an interval has only speeds of the opposite sense."""
+    """Return whether an interval has only speeds of the sense opposite to `sense`."""
     low, high = interval
     # an interval that ends at 0 includes rest, so it is not only of the opposite sense
     near, far = (high, low) if sense > 0 else (low, high)
@@ -206,14 +206,15 @@ def _is_opposite(interval: Interval, sense: int) -> bool:
 
 
 def _sense(terms: Sequence[WholeTerm]) -> int:
-    """Return the common sign of all terms, 1 or -1, or 0 if they differ."""
+    """Return the common sign of all terms, 1 or -1; 0 if they have different signs."""
     signs = {term[0] > 0 for term in terms}
     return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
-    """Return the assignment with the minimum error that satisfies all constraints; None if none was found within the
-    limit.
+    """Return the assignment with the minimum error that satisfies all constraints.
+
+    Return None if none was found within the limit of steps.
     """
     if not search.part.requirements or not size_of(search.domains):
         return None
@@ -222,7 +223,7 @@ def _nearest(search: PartSearch) -> Assignment | None:
 
 
 def _individual_errors(search: PartSearch) -> Iterator[str]:
-    """Yield the minimum error of each output without the requirements on the others."""
+    """Yield the minimum error of each output if the requirements on the other outputs are dropped."""
     for requirement in search.part.requirements:
         part = replace(search.part, requirements=(requirement,))
         order = replace(search.order, requirements=(requirement,))
@@ -232,7 +233,7 @@ def _individual_errors(search: PartSearch) -> Iterator[str]:
 
 
 def _relaxations(search: PartSearch) -> Iterator[str]:
-    """Yield the number of solutions without one constraint, or without one output, if there are several."""
+    """Yield the number of solutions without each constraint and without each output, if there are several."""
     names = dict.fromkeys(rule.name for rule in search.part.rules)
     if len(names) + len(search.part.requirements) < 2:
         return
@@ -264,7 +265,7 @@ def _errors(assignment: Assignment) -> str:
 
 
 def _rounded_up(error: Fraction) -> str:
-    """Format a magnitude rounded up to two digits."""
+    """Return a positive number rounded up to two significant digits, as text."""
     if not error:
         return "0"
     unit = Fraction(10) ** (floor(log10(error)) - 1)
@@ -272,12 +273,12 @@ def _rounded_up(error: Fraction) -> str:
 
 
 LIMIT = 10**9
-"""Default maximum number of steps (partial assignments examined) of a pass: a few minutes."""
+"""Default maximum number of steps (partial assignments examined) of a pass, which take a few minutes."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrainSearchRequest:
-    """Request of a search for tooth counts in a train; its fields are the arguments of `search_train`."""
+    """Arguments of `search_train` as one object."""
 
     train: Train
     state: str | None = None
@@ -290,7 +291,7 @@ class TrainSearchRequest:
     """Assignments whose ranks are also requested."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data, equal for two requests that need the same computation."""
+        """Return plain data that are equal for two requests that need the same computation."""
         return {
             "train": self.train.model_dump(mode="json"),
             "state": self.state,
@@ -303,7 +304,7 @@ class TrainSearchRequest:
 
 
 def answer_search(request: TrainSearchRequest, execution: Execution | None = None) -> TrainFindings:
-    """Run a request: the solutions of `search_train`, and the ranks of the queried assignments.
+    """Run a request: return the solutions of `search_train`, and the ranks of the queried assignments.
 
     Parameters
     ----------
@@ -342,8 +343,7 @@ def search_train(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> TrainFindings:
-    """Find all tooth counts of the free wheels of a train that satisfy every requirement, count them, and list the
-    best.
+    """Find, count and rank all tooth counts of the varied wheels of a train that satisfy every requirement.
 
     The algorithm is an exact join of lists of products of counts along the factors that the outputs share, so that many
     more assignments can be counted than listed; all comparisons are in integers. The requirements on an output are its
@@ -359,8 +359,8 @@ def search_train(
         State of a train with states; by default the requirements of all states.
     free : str or sequence of str
         "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those, and all wheels whose count has a `range`
-        or `choices`. Otherwise names of wheels, each of which must have one of the three. Wheels without any count are
-        always free.
+        or `choices`. Otherwise names of wheels, each of which must have one of the three. Wheels without a count are
+        always varied.
     rules : ConstraintOptions or sequence of constraints, optional
         Further constraints on the counts; by default `ConstraintOptions()`.
     tolerance : Fraction, optional
@@ -389,7 +389,7 @@ def search_train(
     Raises
     ------
     QuestionError
-        If no wheel is free, nothing is required of them, or the order or state does not exist.
+        If no wheel is varied, nothing is required of the varied wheels, or the order or state does not exist.
     RangeError
         If a range of counts is too large to list.
 
@@ -421,7 +421,11 @@ def search_train(
     if not demands.requirements and not rules:
         fix = "declare `targets`, or an `expect`, at an output that the wheels influence"
         raise QuestionError(
-            Problem("nothing is required of the free wheels", "no output with a requirement depends on them", fix)
+            Problem(
+                "nothing is required of the wheels whose counts are varied",
+                "no output with a requirement depends on them",
+                fix,
+            )
         )
     declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
     runner = PassRunner(executor, journal, tell)
@@ -436,7 +440,6 @@ def search_train(
 
 
 def _found(search: PartSearch) -> PartFindings:
-    """Search one part and return its findings."""
     try:
         passed, solutions, ranked = solve(search)
     except KeyboardInterrupt:
@@ -468,7 +471,7 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Describe why a part is not complete or not ranked; empty if it is."""
+    """Return why the search of a part is not complete or its solutions are not ranked; "" if neither applies."""
     if passed.tally.stopped:
         return "interrupted: the count covers only the finished part"
     if passed.searched < 1:
@@ -484,12 +487,12 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Standings:
-    """Ranks of assignments, by counting the assignments with smaller errors."""
+    """Ranks of assignments, obtained by counting the assignments with smaller errors."""
 
     searches: tuple[PartSearch, ...]
 
     def find(self, part: int, teeth: Mapping[str, int]) -> Standing:
-        """Return the rank in one part, all of whose wheels are in `teeth`."""
+        """Return the rank of an assignment in one part; `teeth` must include all wheels of the part."""
         search = self.searches[part]
         own = {wheel: teeth[wheel] for wheel in search.part.domains}
         assignment = search.order.assignment(own)
@@ -499,7 +502,7 @@ class _Standings:
 
 
 def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment | None) -> list[str]:
-    """Return the descriptions of all constraints and requirements that reject an assignment."""
+    """Return the descriptions of all constraints and requirements that an assignment violates."""
     import numpy as np
 
     columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}
@@ -526,5 +529,6 @@ def _rank(search: PartSearch, assignment: Assignment) -> int | None:
     """Return one plus the number of assignments with a smaller error; None if the count is not complete."""
     if not assignment.error or not search.part.requirements:
         return 1
+    # strict: assignments with an equal error are not counted
     passed = search.run(assignment.error, 0, strict=True)
     return passed.tally.count + 1 if passed.complete else None

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import File, Force, Json, Names, Out, StateName
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
-from geartrain.search.teeth_verb import Best, Csv, Pick, SearchAnswer, Tolerance, read_tolerance
+from geartrain.cli.common import File, Force, Json, Names, Out, StateName, option_error
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.search.teeth_verb import Best, Pick, SearchAnswer, Tolerance, read_tolerance
 
 Flag = bool
 
@@ -23,14 +23,14 @@ def run(
     tolerance: Tolerance = None,
     best: Best = 20,
     by: Annotated[
-        str, typer.Option("--by", help="Order of the solutions: error, total, largest, distinct, change.")
+        str, typer.Option("--sort", help="Order of the solutions: error, total, largest, distinct, change.")
     ] = "error",
     planets: Annotated[
         str | None, typer.Option("--planets", help="Number of equal planets: 3, or carrier=3,...")
     ] = None,
     clearance: Annotated[
         str | None,
-        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets [modules]."),
+        typer.Option("--clearance", help="Minimum clearance between the tips of neighbouring planets, in modules."),
     ] = None,
     undercut: Annotated[
         str | None, typer.Option("--undercut", help="Pressure angle at which no wheel may be undercut.")
@@ -39,14 +39,16 @@ def run(
         str | None, typer.Option("--interference", help="Pressure angle at which tips must not interfere.")
     ] = None,
     largest_radius: Annotated[
-        str | None, typer.Option("--largest-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
+        str | None, typer.Option("--max-radius", help="Maximum pitch radius of a free wheel: a length, or modules.")
     ] = None,
-    addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels [modules].")] = None,
-    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings [modules].")] = None,
-    minimum: Annotated[int | None, typer.Option("--minimum", help="Minimum tooth count of a free wheel.")] = None,
-    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Maximum tooth count of a free wheel.")] = None,
+    addendum: Annotated[str | None, typer.Option("--addendum", help="Addendum of external wheels, in modules.")] = None,
+    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Addendum of rings, in modules.")] = None,
+    minimum: Annotated[int | None, typer.Option("--min-teeth", help="Minimum tooth count of a varied wheel.")] = None,
+    maximum_teeth: Annotated[
+        int | None, typer.Option("--max-teeth", help="Maximum tooth count of a varied wheel.")
+    ] = None,
     shift: Annotated[
-        int, typer.Option("--shift", min=0, help="Maximum difference of centre distances [half modules].")
+        int, typer.Option("--centre-tolerance", min=0, help="Maximum difference of centre distances, in half modules.")
     ] = 0,
     coaxial: Annotated[
         bool | None,
@@ -58,24 +60,26 @@ def run(
         Flag, typer.Option("--closure", help="Require that teeth of loops mesh at the declared positions.")
     ] = False,
     where: Annotated[
-        Names, typer.Option("--where", help="Report the rank of an assignment: wheel=32,wheel=50; may be repeated.")
+        Names,
+        typer.Option("--where", metavar="W=32,X=50", help="Report the rank of these tooth counts; may be repeated."),
     ] = None,
     pick: Pick = 1,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
-    csv: Csv = False,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find tooth counts of the free wheels of a train that satisfy all its targets and the given constraints."""
+    """Find tooth counts of the free wheels of a train that satisfy all its targets and the given constraints.
+
+    Example: `geartrain teeth train pennestri-2002-missing --best 5`.
+    """
     from geartrain.search.constraints.constraint_options import read_constraint_options
     from geartrain.search.tooth_numbers_report import assignment_rows, describe_assignments
     from geartrain.search.train.train_search import TrainSearchRequest, answer_search
     from geartrain.train.declaration_files import read_declaration
 
-    answer = SearchAnswer.of(csv, json, out, force, pick)
+    answer = SearchAnswer.of(json, out, force, pick)
     train = read_declaration(file)
     _check_kept(file, answer.out.path)
     request = TrainSearchRequest(
@@ -91,7 +95,7 @@ def run(
             addendum=addendum,
             ring_addendum=ring_addendum,
             minimum=minimum,
-            most_teeth=most_teeth,
+            maximum_teeth=maximum_teeth,
             shift=shift,
             coaxial=coaxial,
             hunting=hunting,
@@ -103,7 +107,7 @@ def run(
         by=by,  # type: ignore[arg-type]
         where=tuple(_assignment(text) for text in where or ()),
     )
-    with long_run("teeth", request.to_dict(), out, RunOptions(workers, dask, resume)) as given:
+    with long_run("teeth", request.to_dict(), out, RunOptions(workers, resume)) as given:
         found = answer_search(request, given)
         close_journal(given.journal, cut=found.ended == "interrupted")
     answer.give(
@@ -120,13 +124,13 @@ def _assignment(text: str) -> dict[str, int]:
         pairs = (part.split("=") for part in text.split(","))
         return {name.strip(): int(count) for name, count in pairs}
     except ValueError:
-        raise typer.BadParameter(f"'{text}' is not of the form wheel=32,wheel=50", param_hint="--where") from None
+        raise option_error("--where", f"'{text}' is not an assignment", "write it as wheel=32,wheel=50") from None
 
 
 def _check_kept(file: str, out: Path | None) -> None:
-    """Raise `typer.BadParameter` if the output file is the train itself, which a solution extends."""
+    """Raise `QuestionError` if the output file is the train itself, which a solution extends."""
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
-        raise typer.BadParameter(f"'{out}' is the train itself; write to another file", param_hint="-o")
+        raise option_error("-o", f"'{out}' is the train itself", "write to another file")
 
 
 def _parent(file: str, out: Path | None) -> str:

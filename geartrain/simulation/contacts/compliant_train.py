@@ -49,13 +49,13 @@ _DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # ranges of 
 
 @dataclass(frozen=True)
 class CompliantTrain(TrainModel):
-    """Contact model of a train with compliant teeth in one case; `restitution` overrides the declared values."""
+    """Contact model of a train with compliant teeth in one case; `restitution` overrides the declared coefficients."""
 
     restitution: float | None = None
 
     @cached_property
     def table(self) -> ToothComplianceTable:
-        """Stiffness and damping of its pairs."""
+        """Stiffness and damping of the pairs of the train."""
         driven = {}
         for gear in self.train.gears:
             first, second = gear.pair
@@ -74,7 +74,7 @@ class CompliantTrain(TrainModel):
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """Estimates that replace missing declarations."""
+        """Texts on the estimates that replace missing declarations."""
         names = [pair.name for pair in self.model.pairs]
         yields = [self.table.pairs[name] for name in names]
         notes = [each.note for each in yields if each.note]
@@ -96,7 +96,7 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def pair_compliances(self) -> tuple[PairCompliance, ...]:
-        """Stiffness and damping of each pair of the model.
+        """Stiffness and damping of each pair of the contact model.
 
         Raises `QuestionError` if a stiffness is missing, and for escapements.
         """
@@ -115,7 +115,7 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def yields(self) -> ToothCompliance:
-        """Stiffness and damping of each pair of the model, as arrays."""
+        """Stiffness [N m/rad] and damping [N m s/rad] of each pair of the contact model, as arrays."""
         stiffness = np.array([each.stiffness for each in self.pair_compliances], dtype=np.float64)
         damping = [
             # damping from the damping ratio: c = 2 zeta sqrt(k m)
@@ -129,11 +129,13 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def free(self) -> list[int]:
-        """Coordinates whose speed is not prescribed."""
+        """Indices of the coordinates whose speed is not prescribed."""
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
     def _row(self, pair: ContactPair) -> Floats:
-        """Return the coefficients of the coordinates' speeds in a pair's opening speed, at its mean ratio."""
+        """Return the coefficients of a pair's opening speed in the speeds of the coordinates, at the mean speed
+        ratio.
+        """
         row = np.zeros(len(self.coordinates))
         for at, value in pair.driven.items():
             row[at] += value
@@ -142,14 +144,14 @@ class CompliantTrain(TrainModel):
         return row
 
     def _inertia(self, row: Floats) -> float:
-        """Return the effective inertia of a row [kg m2], 1/(r M^-1 r^T); 0 if all its speeds are prescribed."""
+        """Return the effective inertia of a pair's row [kg m2], 1/(r M^-1 r^T); 0 if all its speeds are prescribed."""
         free = row[self.free]
         ease = float(free @ np.linalg.solve(self.mass[np.ix_(self.free, self.free)], free)) if free.any() else 0.0
         return 1 / ease if ease else 0.0
 
     @cached_property
     def matrices(self) -> tuple[Floats, Floats, Floats]:
-        """Matrices M, C and K of the free coordinates."""
+        """Mass [kg m2], damping [N m s/rad] and stiffness matrix [N m/rad] of the free coordinates."""
         stiffness, damping = np.zeros_like(self.mass), np.array(self.model.viscous)
         for pair, k, c in zip(self.model.pairs, *self.yields, strict=True):
             row = self._row(pair)
@@ -165,7 +167,9 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def vibration(self) -> tuple[Floats, Floats]:
-        """Squared angular frequencies in ascending order, and modes of the free coordinates with phi^T M phi = 1."""
+        """Squared angular frequencies in ascending order [rad2/s2], and modes of the free coordinates with phi^T M phi
+        = 1.
+        """
         from scipy.linalg import eigh
 
         if not self.free:
@@ -183,7 +187,7 @@ class CompliantTrain(TrainModel):
 
     @property
     def fastest(self) -> float:
-        """Angular frequency [rad/s] that time steps must resolve.
+        """Maximum angular frequency that time steps must resolve [rad/s].
 
         It is that of the fastest mode, or half the decay rate of the most damped pair.
         """
@@ -206,25 +210,25 @@ class PairCompliance:
     source: Literal["declared", "estimated"]
     """Source of the stiffness; `note` describes the estimate."""
     damping: float | None
-    """Damping [N m s/rad]; None if it follows from `ratio`, the damping ratio."""
+    """Damping [N m s/rad]; None if it is computed from the damping ratio `ratio`."""
     ratio: float
     note: str = ""
 
 
 @dataclass(frozen=True)
 class ToothComplianceTable:
-    """Stiffness and damping of the pairs of a train."""
+    """Stiffness and damping of the pairs of a train, declared or estimated."""
 
     train: Train
     meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth; `driven` is the driven wheel of each pair."""
+    """Pairs with real teeth by name; `driven` has the driven wheel of each pair."""
     driven: Mapping[str, str]
     restitution: float | None = None
     """Coefficient of restitution of every pair; None for the declared values."""
 
     @cached_property
     def pairs(self) -> Mapping[str, PairCompliance]:
-        """Pairs and couplings whose stiffness is declared or can be estimated."""
+        """Stiffness and damping by pair or coupling, where the stiffness is declared or can be estimated."""
         found = {}
         for gear in self.train.gears:
             ratio = self._ratio(gear)
@@ -251,7 +255,7 @@ class ToothComplianceTable:
         return DAMPING_RATIO if restitution is None else damping_ratio(restitution)
 
     def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
-        """Convert a stiffness or damping to the driven wheel's axis [N m/rad, N m s/rad]."""
+        """Convert a stiffness or damping to the driven wheel's axis [N m/rad or N m s/rad]."""
         if quantity.dimension in ("torsional stiffness", "torsional damping"):
             return quantity.si
         arm = self._arm(gear)
@@ -264,7 +268,7 @@ class ToothComplianceTable:
         return quantity.si * arm**2
 
     def _arm(self, gear: GearPair) -> float | None:
-        """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is unknown."""
+        """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is not known."""
         wheel = self.driven[gear.name]
         mesh = self.meshes.get(gear.name)
         own = self.train.wheels[wheel][1]
@@ -279,7 +283,9 @@ class ToothComplianceTable:
         return radius
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
-        """Estimate the stiffness of involute teeth of known width and metal; return it with a note on the method."""
+        """Return the estimated stiffness of involute teeth of known width and metal [N m/rad], and a note on the
+        method.
+        """
         mesh, arm = self.meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
             return None
@@ -301,7 +307,7 @@ class ToothComplianceTable:
 
 
 def restitution_at(ratio: float) -> float:
-    """Return the coefficient of restitution of a spring and damper without tension, at a damping ratio of 0 or more.
+    """Return the coefficient of restitution of a spring and damper without tension, for a damping ratio of 0 or more.
 
     They separate where -k g - c dg/dt vanishes, before the spring is fully extended (Schwager and Poeschel 2007). At a
     damping ratio of 1 the coefficient is 1/e^2.
@@ -309,6 +315,7 @@ def restitution_at(ratio: float) -> float:
     >>> restitution_at(0.0), round(restitution_at(1.0), 6)
     (1.0, 0.135335)
     """
+    # both formulas below are singular at 1
     if abs(ratio - 1) < 1e-9:
         return exp(-2)
     if ratio < 1:
@@ -319,7 +326,7 @@ def restitution_at(ratio: float) -> float:
 
 
 def damping_ratio(restitution: float) -> float:
-    """Return the damping ratio that gives a coefficient of restitution; values below 0.05 count as 0.05.
+    """Return the damping ratio that gives a coefficient of restitution; coefficients below 0.05 are raised to 0.05.
 
     >>> round(damping_ratio(0.3), 4), damping_ratio(1.0)
     (0.4972, 0.0)
@@ -331,7 +338,7 @@ def damping_ratio(restitution: float) -> float:
 
 
 def _youngs_modulus(density: Quantity | None) -> float | None:
-    """Return Young's modulus [N/m2] of the metal with this density; None for a density not in the list."""
+    """Return Young's modulus of the metal with this density [N/m2]; None for a density outside the known ranges."""
     if density is None:
         return None
     return next((modulus for low, high, modulus in _DENSITIES if low <= density.si <= high), None)

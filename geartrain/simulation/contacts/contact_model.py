@@ -1,4 +1,4 @@
-"""Model of a train as coordinates, contacts, bearings, stops and springs, with its elimination order, for the kernels.
+"""Model of a train for the kernels: coordinates, contacts, bearings, stops and springs, with an elimination order.
 
 The coordinates are the independent motions while no contact touches. A pair has two rows over them, the speeds of its
 driver and of its driven side in forward angles. In the solved order each touching pair determines one coordinate from
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 Form = Mapping[int, float]
-"""Linear form of coordinates: number -> coefficient."""
+"""Linear form of the coordinates: coefficient by index of the coordinate."""
 
 # a row that determines no coordinate is regularised: its inverse compliance exceeds the inertia of all that turns
 # with it by the first factor, and that of its own coordinates by at most the second
@@ -31,22 +31,26 @@ _STIFF, _STIFFEST = 1e6, 1e9
 
 @dataclass(frozen=True)
 class ContactPair:
-    """Two flanks of teeth, or a pin in its slot."""
+    """Contact between two toothed wheels, or between a pin and its slot."""
 
     name: str
     driver: Form
-    """Forward speed of the driver as a form of the coordinates."""
+    """Forward speed of the driver as a linear form of the coordinates' speeds."""
     driven: Form
-    """Forward speed of the driven side as a form of the coordinates."""
+    """Forward speed of the driven side as a linear form of the coordinates' speeds."""
     start: tuple[float, float]
     """Forward angles of driver and driven side where all coordinates are 0 [rad]."""
     front: TabledFunction
-    """Driven angle in contact on the drive flank, by the driver's angle."""
+    """Driven angle by the driver's angle, in contact on the drive flank [rad]."""
     back: TabledFunction
-    """Driven angle in contact on the coast flank; the same object as `front` for a pair without backlash."""
+    """Driven angle by the driver's angle, in contact on the coast flank [rad]; the object `front` for a pair without
+    backlash.
+    """
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
-    """Friction terms of the driver's lever arm (its torque over the driven side's), for front and back flank, each
-    turning forward and back; None without friction.
+    """Friction terms of the driver's lever arm, which is its torque over the driven side's torque.
+
+    In the order: front flank turning forward and backward, back flank turning forward and backward. None without
+    friction.
     """
     restitution: float = 0.0
     """Coefficient of restitution."""
@@ -60,7 +64,7 @@ class ContactPair:
 
     @property
     def row(self) -> tuple[int, ...]:
-        """Coordinates of both sides."""
+        """Indices of the coordinates of both sides."""
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
 
     def moved(self, angle: Floats) -> ContactPair:
@@ -77,14 +81,14 @@ class ContactPair:
         return replace(self, start=(S - whole, q - whole * self.front.slope))
 
     def could_determine(self, coordinate: int) -> bool:
-        """Return whether only one side contains the coordinate, and its coefficient never vanishes."""
+        """Return whether one side only contains the coordinate, with a coefficient that never vanishes."""
         driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
         return driven != driver and (driven or self.has_no_dwell)
 
 
 @dataclass(frozen=True)
 class Bearing:
-    """Dry friction against a relative speed: sliding torque, and limit of the sticking torque [N m]."""
+    """Dry friction against a relative speed: sliding torque and maximum sticking torque [N m]."""
 
     name: str
     speed: Form
@@ -94,7 +98,7 @@ class Bearing:
 
 @dataclass(frozen=True)
 class Stop:
-    """Limit of an angle that moves on by a pitch [rad] each beat [s]: an escapement."""
+    """Upper limit of an angle that increases by `pitch` [rad] after each `beat` [s], as in an escapement."""
 
     name: str
     angle: Form
@@ -105,7 +109,7 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Torque stiffness (rest + rate t - angle) on a row of coordinates (N m/rad, rad, rad/s)."""
+    """Spring with the torque stiffness (rest + rate t - angle) on a form of the coordinates [N m/rad, rad, rad/s]."""
 
     name: str
     angle: Form
@@ -117,8 +121,8 @@ class Spring:
 class SolvedOrder(NamedTuple):
     """Elimination order of the coordinates.
 
-    It has the coordinates in order, the pair that determines each (-1 for none), and for each the earlier ones with
-    which it may be coupled.
+    `owner` is the index of the pair that determines each coordinate, -1 for none. `near` has the earlier coordinates
+    with which each may be coupled.
     """
 
     coordinates: tuple[int, ...]
@@ -128,7 +132,7 @@ class SolvedOrder(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactModel:
-    """Contact model of a train that moves in time."""
+    """Contact model of a train for simulation in time."""
 
     mass: Floats
     """Mass matrix over the coordinates [kg m2]."""
@@ -139,7 +143,7 @@ class ContactModel:
     given: Mapping[int, float]
     """Prescribed speeds by coordinate [rad/s]."""
     typical: Floats
-    """Speeds of all coordinates in mean motion [rad/s], used as scales."""
+    """Speeds of all coordinates in mean motion, used as scales [rad/s]."""
     pairs: Sequence[ContactPair] = ()
     bearings: Sequence[Bearing] = ()
     stops: Sequence[Stop] = ()
@@ -148,8 +152,9 @@ class ContactModel:
 
     @cached_property
     def order(self) -> SolvedOrder:
-        """Elimination order: a pair whose row has one unknown coordinate determines it; if none does, one coordinate is
-        left free.
+        """Elimination order.
+
+        A pair whose row has one undetermined coordinate determines it; if no pair has, one coordinate is left free.
         """
         # prescribed coordinates first, because nothing determines them
         order = list(self.given)
@@ -178,7 +183,7 @@ class ContactModel:
         return SolvedOrder(tuple(order), tuple(owner), self._near(order, owner))
 
     def _near(self, order: Sequence[int], owner: Sequence[int]) -> tuple[tuple[int, ...], ...]:
-        """Return the fill of the elimination: pairs of coordinates in one row, or coupled by the elimination of a later
+        """Return the fill-in of the elimination: coordinates that share a row, or are coupled by eliminating a later
         one.
         """
         place = {each: at for at, each in enumerate(order)}
@@ -202,7 +207,8 @@ class ContactModel:
         return tuple(tuple(sorted(each)) for each in near)
 
     def restarted(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
-        """Return the same train at scaled speeds, from other angles [rad] and speeds [rad/s], with the same tables.
+        """Return the same train with scaled speeds, starting at other angles [rad] and speeds [rad/s], with the same
+        tables.
 
         `share` scales the speeds. If touching pairs determine all coordinates, speeds follow from their transmission
         functions at the angles, because the speeds of a step are means.
@@ -218,7 +224,7 @@ class ContactModel:
 
     @property
     def fall_times(self) -> list[float]:
-        """Time that each stopped link takes from one stop to the next [s], all coordinates in their mean ratios.
+        """Time that each stopped link takes from one stop to the next [s], with all coordinates in their mean ratios.
 
         It follows from the driving torque at the start, without resistance.
         """
@@ -241,7 +247,7 @@ class ContactModel:
 
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
-        """Distinct functions, and for each pair the numbers of its transmission and friction functions."""
+        """Distinct tabulated functions, and for each pair the indices of its transmission and friction functions."""
         # functions shared by several pairs are tabulated once, by identity
         known: dict[int, int] = {}
         functions: list[TabledFunction] = []
@@ -257,7 +263,7 @@ class ContactModel:
         return functions, transmissions, rubbing
 
     def system(self, step: float) -> ContactSystem:
-        """Return the arrays of the kernels for one time step [s]."""
+        """Return the arrays of the kernels for the time step `step` [s]."""
         order, n = self.order, len(self.torque)
         place = {each: at for at, each in enumerate(order.coordinates)}
         mass, viscous = (matrix[np.ix_(order.coordinates, order.coordinates)] for matrix in (self.mass, self.viscous))
@@ -309,8 +315,8 @@ class ContactModel:
         """Return the sparse rows of the pairs, with the determined coordinate of each first, and the slots of the
         others.
 
-        A slot is the index of a coordinate in `near` of the determined one, -1 for the latter itself, -2 if there is
-        none.
+        A slot is the index of a coordinate in `near` of the determined one, -1 for the determined coordinate itself,
+        -2 if the pair determines none.
         """
         owner = {m: d for d, m in enumerate(self.order.owner) if m >= 0}
         at, of, S, q, slot = [0], [], [], [], []
@@ -337,7 +343,9 @@ class ContactModel:
         return starts, places, np.array(S, dtype=np.float64), np.array(q, dtype=np.float64), slots
 
     def _stiffness(self, form: Form) -> float:
-        """Return the inverse compliance of a row [kg m2], much above the inertia of all links that turn with it."""
+        """Return the regularising inverse compliance of a row [kg m2], far above the inertia of the links that turn
+        with it.
+        """
         row = np.zeros(len(self.torque))
         for each, value in form.items():
             row[each] = value
@@ -359,34 +367,34 @@ def _placed(form: Form, place: Mapping[int, int]) -> dict[int, float]:
 
 
 def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
-    """Return rows in compressed sparse format: row starts, columns, coefficients."""
+    """Return rows in compressed sparse row format: row starts, columns, coefficients."""
     at = np.cumsum([0, *(len(row) for row in rows)]).astype(np.int64)
     of = np.array([each for row in rows for each in row], dtype=np.int64)
     return at, of, np.array([value for row in rows for value in row.values()], dtype=np.float64)
 
 
-# ---------------------------------------------------------------------------------------------------- what kernels read
+# --------------------------------------------------------------------------------------------------- arrays for kernels
 
 
 class ContactSystem(NamedTuple):
-    """Arrays of a train as coordinates and contacts, in SI units.
+    """Arrays of a train with its coordinates and contacts, in SI units.
 
     mass, viscous, matrix   M, D, and M + h D + h^2 K, (n, n)
     torque                  constant torque on each coordinate
     given                   1 if the speed is prescribed
-    owner                   the pair that determines a coordinate when it touches; -1 for none
+    owner                   pair that determines a coordinate while it is in contact; -1 for none
     near                    earlier coordinates with which each may be coupled (sparse, `near_at`)
     pair_of                 coordinates of a pair's row; `pair_driver`, `pair_driven`: coefficients of the speeds of
                             both sides
-    slot                    index of an entry in `near` of its owner; -1 for the owner itself, -2 without one
+    slot                    index of an entry in `near` of its owner; -1 for the owner itself, -2 without an owner
     start_driver, start_driven   angles of both sides where all coordinates are 0
-    two_sided               1 for a pin without clearance, and gears without backlash
+    two_sided               1 for pins without clearance and gears without backlash
     tables, rubbing         functions of both flanks; friction terms of the driver's arm, (front, back) x (forward,
-    back)
+                            back)
     stiff                   inverse compliance of the rows of pairs that determine no coordinate
     bearing_*               rows of relative speeds in bearings, with torques of sliding and sticking
-    stop_*                  rows bounded by first + (1 + floor(t/beat)) pitch
-    spring_*                rows pulled by stiffness (rest + rate t - angle)
+    stop_*                  rows limited to first + (1 + floor(t/beat)) pitch
+    spring_*                rows with the torque stiffness (rest + rate t - angle)
     """
 
     mass: Floats
@@ -431,7 +439,7 @@ class ContactSystem(NamedTuple):
 
 
 class ToothCompliance(NamedTuple):
-    """Stiffness [N m/rad] and damping [N m s/rad] of each pair, about its driven side."""
+    """Stiffness [N m/rad] and damping [N m s/rad] of each pair about its driven side."""
 
     stiffness: Floats
     damping: Floats

@@ -47,14 +47,14 @@ _MANY, _TABLES = 8, 1e-11  # trains with more pairs than this use tables of thei
 _NUMBERS = 1 << 22  # maximum number of matrix entries in one batch
 
 FlankArms = tuple[Callable[["Floats"], "Floats"], Callable[["Floats"], "Floats"]]
-"""Friction terms of a driver's lever arm on its drive flank, turning forward and back, as functions of its forward
-angle.
+"""Friction terms of the driver's lever arm on its drive flank as functions of its forward angle: turning forward,
+back.
 """
 
 
 class CarriedTorques(NamedTuple):
-    """Terms of the forward torque on the driven side that each pair must carry [N m, N m s, N m s2]. Shape
-    (pairs, n).
+    """Terms of the forward torque that each pair must transmit to its driven side [N m, N m s, N m s2], shape (pairs,
+    n).
     """
 
     constant: Floats
@@ -63,21 +63,21 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links over the input's speed at n positions, and slopes of the errors of the
-    sources.
+    """Speeds and accelerations of all links over the speed of the input at n positions, and slopes of the pairs'
+    errors.
     """
 
     speed: Floats
     acceleration: Floats
     slope: Floats
     arm: Floats
-    """Slopes with friction in each driver's lever arm, for virtual work. Shape (sources, n)."""
+    """Slopes for virtual work, with friction in each driver's lever arm, shape (sources, n)."""
     virtual: Floats
-    """Virtual speeds of the links with friction in each driver's lever arm. Shape (links, n)."""
+    """Virtual speeds of the links, with friction in each driver's lever arm, shape (links, n)."""
 
 
 class InertialContacts:
-    """Torque that each pair of a moving train must carry at every position."""
+    """Torque that each pair of a moving train must transmit at every position."""
 
     def __init__(
         self,
@@ -94,21 +94,21 @@ class InertialContacts:
         self.motion = Motion(moving, outputs, tolerance)
         self.sources: tuple[PairErrorSource, ...] = self.motion._forward.sources
 
-    # ----------------------------------------------------------------------------------------------- what it is made of
+    # ------------------------------------------------------------------------------------------------------- components
 
     @property
     def pairs(self) -> tuple[str, ...]:
-        """Names of pairs and couplings."""
+        """Names of all pairs and couplings."""
         return self.motion._propagation.pairs
 
     @cached_property
     def _response(self) -> Floats:
-        """Response R: angles of links to a unit error of each single pair. Shape (links, pairs)."""
+        """Response R: angles of the links to a unit error of each pair, shape (links, pairs)."""
         return self.motion._propagation.errors(np.eye(len(self.pairs)))
 
     @cached_property
     def _gain(self) -> Floats:
-        """Gain G: driver's angle of each source by the error of each pair. Shape (sources, pairs)."""
+        """Gain G: driver's angle of each error source per unit error of each pair, shape (sources, pairs)."""
         rows = np.zeros((len(self.sources), len(self.pairs)))
         for row, source in enumerate(self.sources):
             for link, sign in self.motion._forward.turned_by(source):
@@ -123,7 +123,9 @@ class InertialContacts:
 
     @cached_property
     def _slopes(self) -> tuple[CellTable, ...]:
-        """Tables of d tau / dS of each source's transmission function; pairs may share one."""
+        """Tables of d tau / dS of each source's transmission function [1/rad]; sources with one function share a
+        table.
+        """
         known: dict[int, CellTable] = {}
         for source in self.sources:
             if id(source.transmission) not in known:
@@ -132,7 +134,7 @@ class InertialContacts:
 
     @cached_property
     def _senses(self) -> Floats:
-        """Mean sense of rotation of the driven side by pair: 1 forwards, -1 backwards."""
+        """Sense of rotation of the driven side of each pair in mean motion: 1 forwards, -1 backwards."""
         circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in self.moving.circuits}
         errors = PairErrors(self.moving, None, ())
         return np.array([errors.sense(circuits[name]) for name in self.pairs], dtype=float)
@@ -142,14 +144,14 @@ class InertialContacts:
 
     @cached_property
     def _joints(self) -> tuple[Ints, Floats]:
-        """Bearing link of each link by index, and the relative sense of their axes."""
+        """Index of the link that bears each link, and 1 or -1 if their axes have the same or opposite directions."""
         at = {link: number for number, link in enumerate(self.moving.system.links)}
         bearers = [self.acting.bearer.get(link, self.moving.frame) for link in at]
         signs = self.moving.signs
         senses = [signs.get(link, 1) * signs.get(bearer, 1) for link, bearer in zip(at, bearers, strict=True)]
         return np.array([at[bearer] for bearer in bearers]), np.array(senses, dtype=float)
 
-    # ----------------------------------------------------------------------------------------------------- at positions
+    # ---------------------------------------------------------------------------------------------- values at positions
 
     def _state(self, turns: Floats) -> _State:
         composition = self.motion._forward
@@ -183,7 +185,7 @@ class InertialContacts:
         return _State(speed, acceleration, slope, arm, virtual)
 
     def torques(self, turns: Floats) -> CarriedTorques:
-        """Compute the torque terms that each pair must carry at positions of the input [revolutions]."""
+        """Return the torque terms that each pair must transmit at positions of the input [revolutions]."""
         # batches bound the memory of the dense matrices
         size = max(64, _NUMBERS // (4 * (len(self.pairs) + len(self.moving.system.links)) + 1))
         parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
@@ -205,13 +207,13 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques of the pairs under forces on the links by the transposed matrices: sense J^-T R^T f."""
+        """Yield the torques of the pairs under torques f on the links, by the transposed matrices: sense J^-T R^T f."""
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
             yield self._senses[:, None] * self._coupling.torques(state.arm, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Subtract the driving torque of the crank, which supplies all virtual work."""
+        """Return the torques with the driving torque of the crank subtracted, which supplies all virtual work."""
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -222,11 +224,11 @@ class InertialContacts:
         return force
 
     def rates(self, turns: Floats) -> Floats:
-        """Return the rate of the input [rad/s] at which each pair separates at each position. Shape (pairs, n)."""
+        """Return the speed of the input at which each pair separates at each position [rad/s], shape (pairs, n)."""
         return minimum_rate(*self.torques(turns))
 
     def impulses(self, kinks: Floats, width: float) -> Floats:
-        """Compute the impulse of each pair at kinks of the transmission functions, over the input's speed [N m s2].
+        """Return the impulse of each pair at kinks of the transmission functions, over the input's speed [N m s2].
 
         Pairs with a negative impulse separate at any rate. The impulse is 0 where no speed jumps.
 
@@ -246,13 +248,13 @@ class ErrorCoupling:
     """Matrix J = I - diag(slope) G at many positions, in block triangular order."""
 
     gain: Floats
-    """Gain G. Shape (sources, pairs). `pairs` is the pair of each source."""
+    """Gain G, shape (sources, pairs). `pairs` has the index of each source's pair."""
     pairs: Sequence[int]
     blocks: Sequence[Sequence[int]]
-    """Sources that are solved together; each block follows those that it depends on."""
+    """Indices of sources that are solved together; each block follows the blocks on which it depends."""
 
     def errors(self, slope: Floats, given: Floats) -> Floats:
-        """Solve J x = b by block substitution. Shape (pairs, n)."""
+        """Return the solution of J x = b by block substitution, shape (pairs, n)."""
         found = given.copy()
         for block in self.blocks:
             rows = [self.pairs[at] for at in block]
@@ -264,7 +266,7 @@ class ErrorCoupling:
         return found
 
     def torques(self, slope: Floats, given: Floats) -> Floats:
-        """Solve J^T x = b by block substitution in reverse order. Shape (pairs, n)."""
+        """Return the solution of J^T x = b by block substitution in reverse order, shape (pairs, n)."""
         found = given.copy()
         for block in reversed(self.blocks):
             rows = [self.pairs[at] for at in block]
@@ -274,7 +276,7 @@ class ErrorCoupling:
         return found
 
     def _before(self, block: Sequence[int], at: int) -> Floats:
-        """Return the gain of a source's driver by the pairs outside of its block."""
+        """Return the gain of a source's driver for the pairs outside of its block."""
         row: Floats = self.gain[at].copy()
         row[[self.pairs[each] for each in block]] = 0.0
         return row
@@ -291,7 +293,7 @@ class ErrorCoupling:
 
 
 def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
-    """Return the minimum w >= 0 beyond which D + V w + A w^2 becomes negative; infinite if it never does."""
+    """Return the minimum w >= 0 beyond which D + V w + A w^2 is negative; infinite if it is never negative."""
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(V * V - 4 * D * A)  # NaN if it never vanishes
         q = -(V + np.copysign(root, V)) / 2  # the stable quadratic formula: neither the sum nor the quotients cancel
@@ -303,44 +305,46 @@ def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
 
 
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
-    """Return a table of d tau / dS [1/rad] of a transmission function, from a table of its speed cut at its kinks."""
+    """Return a table of d tau / dS of a transmission function [1/rad], from a table of its speed divided at its
+    kinks.
+    """
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(
         transmission.speed, transmission.period, folded_kinks(transmission), _SLOPE * max(maximum, 1.0), _DEGREE
     ).derivative()
 
 
-# --------------------------------------------------------------------------------------------------- what acts on links
+# ------------------------------------------------------------------------------------------------------ forces on links
 
 
 @dataclass(frozen=True)
 class InertialLoads:
-    """Loads on links besides those of their pairs, in SI units, by link, about their own axes."""
+    """Loads on links other than the torques of their pairs, by link, about their own axes, in SI units."""
 
     inertia: Mapping[str, float]
-    """Moment of inertia [kg m2], including the links that a link carries round."""
+    """Moment of inertia [kg m2], including the planets that the link carries."""
     load: Mapping[str, float]
     """Constant torque [N m], positive about the link's axis."""
     friction: Mapping[str, float]
-    """Friction torque of the bearing while it turns [N m], 0 or more; `drag` is viscous [N m s]."""
+    """Friction torque of the bearing while it turns [N m], 0 or more; `drag` has the viscous coefficients [N m s]."""
     drag: Mapping[str, float]
     bearer: Mapping[str, str]
-    """Link in which it turns."""
+    """Name of the link in which each link turns."""
     crank: str | None = None
-    """Link at which power enters so that the input turns uniformly; None if that is the input."""
+    """Name of the link whose torque keeps the input turning uniformly; None if the input itself is driven."""
 
 
 def find_inertial_loads(
     train: Train, case: StateCase, tree: Tree, inertias: Sequence[LinkInertia], speeds: Mapping[str, Fraction]
 ) -> InertialLoads:
-    """Collect the loads of one state; raise `QuestionError` if no link has an inertia, or a torque has no unit.
+    """Return the loads of one state. Raises `QuestionError` if no link has an inertia, or a torque has no unit.
 
     speeds   mean speeds of links: a driving weight or torque acts in the sense in which its link turns
     """
     if not any(each.value for each in inertias):
         what = f"no link of '{train.name}' has a moment of inertia"
         fix = "give links an `inertia`, such as `inertia: 30 kg mm2`, or wheels `density`, `thickness` and `module`"
-        raise QuestionError(Problem(what, "teeth separate only because of inertia", fix))
+        raise QuestionError(Problem(what, "inertia is the only cause of separation", fix))
     turning = {link: part for link, part in train.links.items() if link != train.frame}
     load, friction = _torques(train, case)
     for key, torques in (("load", load), ("bearing", friction)):
@@ -363,7 +367,7 @@ def find_inertial_loads(
 def loads_with_drive(
     loads: dict[str, float], train: Train, case: StateCase, speeds: Mapping[str, Fraction]
 ) -> dict[str, float]:
-    """Add the steady driving torque at the crank to the loads, if the crank is not a prescribed input."""
+    """Return the loads with the steady driving torque at the crank added, if the crank is not a prescribed input."""
     torque = None if case.drive is None else case.drive.steady_torque
     # a torque on a prescribed input does no virtual work
     if torque is None or train.crank is None or train.crank in case.inputs:
@@ -373,13 +377,13 @@ def loads_with_drive(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """Return whether a link other than the input keeps the input turning; a link driven by a steady torque does not."""
+    """Return True if a link other than the input keeps the input turning uniformly, without a steady driving torque."""
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
 
 def torques_have_units(train: Train, case: StateCase) -> bool:
-    """Return whether every torque that acts in one state has a unit."""
+    """Return True if every torque in one state has a unit."""
     return not any(_is_plain(torque) for torques in _torques(train, case) for torque in torques.values())
 
 

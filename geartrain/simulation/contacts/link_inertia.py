@@ -34,13 +34,13 @@ class LinkInertia(Result):
     link: str
     """Name of the link."""
     value: float
-    """Moment of inertia about its own axis [kg m^2], including the planets that it carries round; 0 if unknown."""
+    """Moment of inertia about the link's own axis [kg m2], including the planets that it carries; 0 if unknown."""
     source: Literal["declared", "outlines", "unknown"]
-    """Source of the link's own inertia."""
+    """Source of the link's own inertia: declaration, outlines of its wheels, or unknown."""
     carried: float = 0.0
-    """Contribution of the masses of planets [kg m^2]."""
+    """Part of `value` due to the masses of planets [kg m2]."""
     missing: tuple[str, ...] = ()
-    """Reasons why the inertia, or a part of it, is not known."""
+    """Reasons why the inertia, or a part of it, is unknown."""
 
 
 class PlateMoments(NamedTuple):
@@ -51,8 +51,9 @@ class PlateMoments(NamedTuple):
 
 
 def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: float) -> PlateMoments:
-    """Compute the moments of a wheel of some module and thickness [m] and density [kg/m3], solid except for its pin
-    holes.
+    """Return mass and moment of inertia of a wheel cut from a plate, solid except for its pin holes.
+
+    `module` and `thickness` are in m, `density` in kg/m3.
     """
     # moments are signed by the orientation of the contour
     outer, *holes = (contour.moments() for contour in teeth.contours(module / _MILLIMETRES))
@@ -65,7 +66,7 @@ def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: f
 def find_link_inertias(
     train: TrainMechanics, state: str | None = None, with_inputs: bool = False
 ) -> tuple[LinkInertia, ...]:
-    """Return the moment of inertia of every link that moves and whose motion is not prescribed, with its source.
+    """Return the moment of inertia of every moving link whose motion is not prescribed, with its source.
 
     Parameters
     ----------
@@ -113,7 +114,7 @@ class _Bodies:
         self.train, self.declared = train, train.declaration
 
     def total_inertia(self, link: str) -> LinkInertia:
-        """Return the inertia of a link including the planets that it carries round."""
+        """Return the inertia of a link including the planets that it carries."""
         own = self._own_inertia(link)
         tree, missing = self.train.tree, list(own.missing)
         carried = 0.0
@@ -134,7 +135,9 @@ class _Bodies:
             return LinkInertia(link, part.inertia.si, "declared")
         plates, missing = self._plates(link)
         if missing or not plates:
-            return LinkInertia(link, 0.0, "unknown", missing=missing or ("it has neither wheels nor an `inertia`",))
+            return LinkInertia(
+                link, 0.0, "unknown", missing=missing or ("it has neither wheels nor a declared `inertia`",)
+            )
         return LinkInertia(link, sum(plate.inertia for plate in plates), "outlines")
 
     def _mass(self, link: str) -> float | None:
@@ -145,7 +148,7 @@ class _Bodies:
         return None if missing or not plates else sum(plate.mass for plate in plates)
 
     def _plates(self, link: str) -> tuple[Sequence[PlateMoments], tuple[str, ...]]:
-        """Return the moments of all wheels of a link, and what is missing for them."""
+        """Return the moments of all wheels of a link, and texts on missing data."""
         plates, missing = [], []
         for name, wheel in self.declared.links[link].wheels.items():
             thickness = wheel.thickness or self.declared.thickness
@@ -164,18 +167,18 @@ class _Bodies:
 
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Transverse modules by wheel [m]."""
+        """Transverse module by wheel [m]."""
         return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Teeth of all planar wheels."""
+        """Teeth by wheel, of all planar wheels."""
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Return the distance [m] of a planet's axis from its carrier's axis.
+        """Return the distance of a planet's axis from its carrier's axis [m]; None if it is not known.
 
-        It is the centre distance of a pair of the planet and a wheel about the carrier's axis; None if there is none.
+        It is the centre distance of a pair of the planet and a wheel about the carrier's axis.
         """
         from geartrain.dynamics.gear_meshes import find_sizes
 

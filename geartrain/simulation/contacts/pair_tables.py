@@ -1,4 +1,4 @@
-"""Transmission functions as tables for the kernels: polynomials on cells, cut at the kinks of the function.
+"""Transmission functions as tables for the kernels: polynomials on cells, divided at the kinks of the function.
 
 An impact is a jump of the speed ratio. A table interpolated across a jump would replace it by many small impacts that
 lose less energy. Therefore cells end at `transmission.kinks()`, and each side of a kink follows only that side. Angle
@@ -29,42 +29,42 @@ _SAME = 1e-6  # relative to the mean ratio: a smaller jump of the speed ratio do
 
 
 class PairTables(NamedTuple):
-    """Periodic functions of a driver's angle, concatenated."""
+    """Tables of many periodic functions of a driver's angle, concatenated."""
 
     period: Floats
     """Period of each function [rad]."""
     slope: Floats
-    """Mean slope of each function, which is slope S + a periodic part (slope 0 if it is not an angle)."""
+    """Mean slope of each function, which is slope S plus a periodic part; 0 for functions that are not angles."""
     cells: Ints
-    """Number of uniform cells in a period; `start` is the index of a function's first cell in `first`."""
+    """Number of uniform cells in the period of each function; `start` has the index in `first` of its first cell."""
     start: Ints
     first: Ints
-    """Piece in which each uniform cell begins; pieces are in order."""
+    """Index of the piece in which each uniform cell begins; pieces are in ascending order."""
     ends: Floats
-    """Ends of the pieces [rad from the start of the period]; the last end of a function is infinite."""
+    """Ends of the pieces [rad from the start of the period]; the last end of each function is infinite."""
     middles: Floats
     """Middles of the pieces [rad from the start of the period]."""
     coefficients: Floats
-    """Polynomial coefficients of the pieces about their middles. Shape (pieces, DEGREE + 1)."""
+    """Polynomial coefficients of the pieces about their middles, shape (pieces, DEGREE + 1)."""
     jump: Floats
-    """Minimum jump of the derivative at a kink; infinite if there is none."""
+    """Minimum jump of the derivative at a kink of each function; infinite without jumps."""
 
 
 class TabledFunction(NamedTuple):
-    """Tabulated function for `PairTables`."""
+    """Function slope S + periodic table, with the minimum jump of its derivative, for `PairTables`."""
 
     slope: float
     table: CellTable
     jump: float
 
     def __call__(self, S: Floats) -> Floats:
-        """Evaluate the function at driver's angles [rad]."""
+        """Return the function at driver angles S [rad]."""
         found: Floats = self.slope * S + self.table(S)
         return found
 
 
 def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANCE) -> TabledFunction:
-    """Tabulate the driven angle q(S) of a transmission function, whose derivative is its speed ratio."""
+    """Return a table of the driven angle q(S) of a transmission function; its derivative is the speed ratio."""
     ratio = float(transmission.ratio)
     cuts = folded_kinks(transmission)
     table = fit(transmission.error, transmission.period, cuts, tolerance * (ratio or 1.0) * transmission.period)
@@ -78,14 +78,14 @@ def tabled_angle(transmission: TransmissionFunction, tolerance: float = TOLERANC
 def tabled_function(
     function: Callable[[Floats], Floats], transmission: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
-    """Tabulate a function of the driver's angle that has the kinks of a transmission function, such as a
-    friction term.
+    """Return a table of a function of the driver angle with the kinks of a transmission function, such as a friction
+    term.
     """
     return TabledFunction(0.0, fit(function, transmission.period, folded_kinks(transmission), tolerance), inf)
 
 
 def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
-    """Join functions to the arrays of the kernels; a function's number is its index in the sequence."""
+    """Return the tables of several functions joined to the arrays of the kernels, in the order of the sequence."""
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
     for each in functions:
@@ -115,7 +115,7 @@ def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
 
 @kernel
 def value_and_slope(transmissions: PairTables, which: int, S: float) -> tuple[float, float]:
-    """Evaluate a function and its derivative at a driver's angle [rad]."""
+    """Return the function with index `which` and its derivative at the driver angle S [rad]."""
     period = transmissions.period[which]
     u = S - floor(S / period) * period
     if not 0.0 <= u < period:  # rounded up to the period, beyond the resolution of floats, or NaN

@@ -29,24 +29,26 @@ if TYPE_CHECKING:
 
 _ROUGH = 1e-4  # relative tolerance of friction terms that are interpolated between nodes
 Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
-"""Tables of the drive flank turning forward and back, then of the coast flank turning forward and back."""
+"""Friction terms as tables: drive flank turning forward and backward, coast flank turning forward and backward."""
 
 
 def tooth_arms(mesh: GearMesh) -> Arms | None:
-    """Return the friction terms of the driver's arm of toothed wheels; None if no friction is known."""
+    """Return the friction terms of the driver's lever arm of two toothed wheels; None if no friction is known."""
     ahead, back = drive_flank_arms(mesh), _flank_arms(mesh, mesh.coast)
     # the coast flank drives in the opposite sense, so its terms are swapped
     return None if ahead is None or back is None else (ahead[0], ahead[1], back[1], back[0])
 
 
 def drive_flank_arms(mesh: GearMesh) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms on the drive flank only, turning forward and back."""
+    """Return the friction terms on the drive flank, turning forward and backward; None if no friction is known."""
     return _flank_arms(mesh, mesh.transmission)
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms on one flank, turning in its driving sense and in the opposite sense."""
-    if not mesh.tells_losses or not mesh.rubs:
+    """Return the friction terms on one flank, turning in the direction in which it drives and in the opposite
+    direction.
+    """
+    if not mesh.tells_losses or not mesh.has_friction:
         return None
     losses = mesh.losses
     coefficient: Callable[[Floats], Floats | float] = lambda _: mesh.friction or 0.0  # noqa: E731
@@ -74,7 +76,7 @@ def _at_angles(
 def _friction_term(
     tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
 ) -> Floats:
-    """Return the friction term tau (1/eta - 1) at driver angles; 0 in a dwell, where nothing slides.
+    """Return the friction term tau (1/eta - 1) at driver angles; 0 during a dwell, in which nothing slides.
 
     `way` -1 reverses the sliding. Raises `GearTrainError` if friction locks the teeth.
     """
@@ -86,17 +88,17 @@ def _friction_term(
         passed = np.where(touching, (1 + f * out) / (1 + f * into), 0.0).sum(axis=0) / touching.sum(axis=0)
     if (passed[touching.any(axis=0)] <= 0).any():
         why = "friction locks its teeth at some angle: no torque of the driver moves the driven wheel"
-        raise GearTrainError(Problem(f"{label} cannot be simulated in time", why, "declare a lower `friction`"))
+        raise GearTrainError(Problem(f"{label} cannot be simulated in time", why, "declare a smaller `friction`"))
     return np.where(touching.any(axis=0), tau * (1 / np.where(passed > 0, passed, 1.0) - 1), 0.0)
 
 
 def separate_rubbing(
     moving: MotionProblem, gears: Sequence[GearPair] = ()
 ) -> tuple[dict[str, FlankArms], tuple[str, ...]]:
-    """Return drive flanks whose friction is modelled, and the names of other pairs and pins with losses.
+    """Return friction terms of the drive flanks by pair, and the names of other pairs and pins with losses.
 
-    Modelled are teeth with a variable ratio. Teeth that friction locks at some angle are among the others, as are gears
-    with a declared efficiency.
+    Friction terms are returned for teeth with a variable ratio. Teeth that friction locks at some angle and gears
+    with a declared efficiency are among the others.
     """
     found: dict[str, FlankArms] = {}
     left = []
@@ -107,7 +109,7 @@ def separate_rubbing(
                 arms = drive_flank_arms(mesh)
         if arms is not None:
             found[mesh.name] = arms[0].__call__, arms[1].__call__
-        elif mesh.rubs:
+        elif mesh.has_friction:
             left.append(mesh.name)
     left += [joint.coupling.name for joint in moving.pins if joint.transmission.friction]
     for gear in gears:
@@ -117,8 +119,9 @@ def separate_rubbing(
 
 
 def pin_arms(transmission: PinTransmission) -> Arms | None:
-    """Return the friction terms of a pin that drives a slot: (r/rho) f |sin d|, signed by slot torque and sense of
-    rotation.
+    """Return the friction terms of a pin that drives a slot: (r/rho) f |sin d|; None without friction.
+
+    Their sign depends on the slot's torque and on the sense of rotation.
     """
     if not transmission.friction:
         return None

@@ -42,7 +42,7 @@ _MOST_KINKS = 80_000  # maximum product of kinks and pairs by default; takes som
 def find_separation(
     train: TrainMechanics, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
 ) -> SeparationRates:
-    """Find the rates of the input at which flanks first separate, by pair; `motion` is valid below the lowest.
+    """Return the rates of the input at which flanks first separate, by pair; `motion` is valid below the lowest.
 
     Inertia, loads, a driving weight or torque, friction of bearings and of teeth with a variable ratio, viscous drag,
     and impacts at speed jumps are included (docs/dynamics.md, section 3).
@@ -100,7 +100,9 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return whether `find_separation` has a result: a link behind the input has an inertia, and torques have units."""
+    """Return True if `find_separation` gives a result: a link behind the input has an inertia, and torques have
+    units.
+    """
     declared = train.declaration
     if not declared.has_inertia or not torques_have_units(declared, train.kinematics.case(state)):
         return False
@@ -110,7 +112,7 @@ def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
 
 
 def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mapping[str, ToothImpact]:
-    """Compute the power lost in collisions of triangular teeth by pair (docs/motion.md, equation 7).
+    """Return the power lost in impacts of triangular teeth by pair (docs/motion.md, equation 7).
 
     The result is empty unless inertias and a rate are declared.
 
@@ -150,12 +152,12 @@ def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mappi
     return find_impacts(Motion(moving, every), inertias, case.rate.si)
 
 
-# ----------------------------------------------------------------------------------------------------------- the result
+# --------------------------------------------------------------------------------------------------------------- result
 
 
 @dataclass(frozen=True)
 class PairSeparation(Result):
-    """Rate of the input above which the teeth of a pair, or a pin and its slot, separate.
+    """Rate of the input above which the flanks of a pair, or a pin and its slot, separate.
 
     See Also
     --------
@@ -167,11 +169,11 @@ class PairSeparation(Result):
     pair: str
     """Name of the pair or coupling."""
     rate: float | None
-    """Rate of the input [turn/s]; 0 if they separate at any rate; None if they never separate."""
+    """Rate of the input [turn/s]; 0 if the flanks separate at any rate, None if they never separate."""
     at: float
-    """Position of the input at which they first separate [turn]."""
+    """Position of the input at which the flanks first separate [turn]."""
     leap: bool = False
-    """True if a speed jumps there so that the impulse would be tensile."""
+    """True if a speed jumps at that position and would require a tensile impulse."""
 
 
 @dataclass(frozen=True)
@@ -188,9 +190,9 @@ class SeparationRates(Result):
     KEYS = ("state", "input", "rate", "pair", "turns", "complete", "pairs", "inertias", "uncounted")
 
     state: str | None
-    """Name of the state as given."""
+    """Name of the state as requested."""
     input: str
-    """Link whose rate it is."""
+    """Link whose rate is given."""
     turns: float
     """Searched range of the input [turn]."""
     complete: bool
@@ -200,26 +202,26 @@ class SeparationRates(Result):
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia that were used."""
     uncounted: tuple[str, ...] = ()
-    """Pairs and pins whose friction is not included: those with a constant ratio, and pins."""
+    """Pairs and pins whose friction is not included: pairs with a constant ratio, and pins."""
 
     @property
     def first(self) -> PairSeparation | None:
-        """Pair that separates first; None if none does."""
+        """Pair that separates first; None if no pair separates."""
         return self.pairs[0] if self.pairs and self.pairs[0].rate is not None else None
 
     @property
     def rate(self) -> float | None:
-        """Rate of the input [turn/s] up to which all flanks touch; None if they never separate."""
+        """Rate of the input up to which all flanks touch [turn/s]; None if they never separate."""
         return None if self.first is None else self.first.rate
 
     @property
     def pair(self) -> str | None:
-        """Name of the pair that separates first."""
+        """Name of the pair that separates first; None if no pair separates."""
         return None if self.first is None else self.first.pair
 
     @property
     def unknown(self) -> tuple[str, ...]:
-        """Links that turn and whose inertia is unknown."""
+        """Names of moving links whose inertia is unknown."""
         return tuple(each.link for each in self.inertias if each.source == "unknown")
 
     def _summary(self) -> str:
@@ -244,7 +246,7 @@ def separation_section(found: SeparationRates) -> Section:
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Yield sentences on the first separation, the searched range, and unknown inertias."""
+    """Yield sentences on the first separation, the searched range, and links of unknown inertia."""
     yield _first_separation(found)
     if found.uncounted:
         yield f"Friction not included: {', '.join(found.uncounted)}."
@@ -255,7 +257,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
 
 
 def separation_words(pair: PairSeparation) -> tuple[str, str]:
-    """Return the rate above which a pair separates, and the position, as text."""
+    """Return the rate above which a pair separates [turn/s] and its position [turn], as text."""
     if pair.rate is None:
         return "never", "-"
     return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
@@ -279,13 +281,13 @@ def _first_separation(found: SeparationRates) -> str:
     )
 
 
-# ----------------------------------------------------------------------------------------------------------- the search
+# --------------------------------------------------------------------------------------------------------------- search
 
 
 def find_separation_rates(
     contacts: InertialContacts, inertias: Sequence[LinkInertia], state: str | None, turns: float | None = None
 ) -> SeparationRates:
-    """Compute the rates over the train's period, or over fewer revolutions if a period has too many kinks."""
+    """Return the rates over the train's period, or over fewer revolutions if a period has too many kinks."""
     period = contacts.motion.period
     # without a common period one revolution is searched
     whole = 1.0 if period is None else float(period)
@@ -299,7 +301,7 @@ def find_separation_rates(
 
 
 class Separation(NamedTuple):
-    """Separation of a pair above a rate [rad/s] at a position [revolutions]; `leap` if a speed jumps there."""
+    """Separation of a pair above a rate [rad/s] at a position [revolutions]; `leap` is True if a speed jumps there."""
 
     pair: str
     rate: float
@@ -308,7 +310,9 @@ class Separation(NamedTuple):
 
 
 def find_pair_separations(contacts: InertialContacts, turns: float) -> tuple[Separation, ...]:
-    """Find the minimum rate at which each pair separates in a range of the input [revolutions], in ascending order."""
+    """Return the minimum rate at which each pair separates in a range of the input [revolutions], in ascending
+    order.
+    """
     kinks = contacts.motion.kink_positions(0.0, turns).turns
     ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
     low, high = ends[:-1], ends[1:]
@@ -325,7 +329,7 @@ def find_pair_separations(contacts: InertialContacts, turns: float) -> tuple[Sep
 
 
 def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Separation]:
-    """Find the minimum rate of each pair by refining its best intervals with ever finer samples.
+    """Return the minimum rate of each pair, by refining its best intervals with ever finer samples.
 
     at      positions, (intervals, samples); `rates` of all pairs there
     """
@@ -350,9 +354,10 @@ def _minimum(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Sepa
 
 
 def _jump_separations(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, Separation]:
-    """Return the pairs that separate at any rate, because a speed jumps so that their impulse would be tensile."""
+    """Return the pairs that separate at any rate, because a speed jumps and would require a tensile impulse."""
     if not len(kinks):
         return {}
+    # so close to a kink that rates are those on its two sides, but not so close that rounding dominates
     impulses = contacts.impulses(kinks, _INSIDE * max(narrowest, 1e-6))
     # rounding must not make an impulse negative
     tolerance = 1e-9 * np.abs(impulses).max(axis=1, keepdims=True, initial=0.0)
@@ -364,5 +369,5 @@ def _jump_separations(contacts: InertialContacts, kinks: Floats, narrowest: floa
 
 
 def _in_turns(rate: float) -> float | None:
-    """Convert a rate from rad/s to revolutions per second; None if it is infinite."""
+    """Convert a rate from rad/s to turn/s; return None if it is infinite."""
     return None if rate == inf else rate / tau

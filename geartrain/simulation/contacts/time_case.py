@@ -1,4 +1,4 @@
-"""Data of a simulation in time besides the kinematics: inertia, drag, restitution, and the drive. All in SI units."""
+"""Data of a simulation in time other than the kinematics: inertia, drag, restitution and drive, in SI units."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _EQUAL = 1e-9  # relative tolerance of a speed given in rounded decimals
 
 @dataclass(frozen=True)
 class PowerInput:
-    """Drive of a train."""
+    """Drive of a train: a prescribed speed, a torque, a spring or a compliant hand."""
 
     link: str
     """Link on which it acts."""
@@ -33,14 +33,14 @@ class PowerInput:
     torque: float = 0.0
     """Constant torque, also of a weight on its drum [N m]."""
     stiffness: float = 0.0
-    """Stiffness of a spring or a hand [N m/rad]; `wound` is the initial winding of the spring [rad]."""
+    """Stiffness of a spring or a hand [N m/rad]; `wound` is the initial deflection of the spring [rad]."""
     wound: float = 0.0
     inertia: float = 0.0
-    """Inertia that it adds to the link [kg m2]."""
+    """Moment of inertia that the drive adds to the link [kg m2]."""
 
     @property
     def value(self) -> float:
-        """Control value: the speed of the link or of the hand [rad/s]; the torque [N m]; 0 for a spring."""
+        """Control value: speed of the link or of the hand [rad/s], torque [N m], or 0 for a spring."""
         return {"rate": self.rate, "hand": self.rate, "torque": self.torque}.get(self.kind, 0.0)
 
 
@@ -49,21 +49,21 @@ class TimeCase:
     """Train in one state, with the data of its motion in time."""
 
     drive: PowerInput
-    """Power input; `rate` is the speed of the driving link that sets the time scale [rad/s]."""
+    """Drive of the train; `rate` is the mean speed of the driving link, which sets the time scale [rad/s]."""
     rate: float
     inertia: Mapping[str, float]
-    """Moments of inertia of links [kg m2]; `drag` is viscous [N m s/rad]."""
+    """Moments of inertia by link [kg m2]; `drag` has the viscous coefficients [N m s/rad]."""
     drag: Mapping[str, float] = field(default_factory=dict)
     bearing: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Dry friction of links in their bearings, sliding and sticking [N m]."""
+    """Dry friction by link in its bearings: sliding and maximum sticking torque [N m]."""
     load: Mapping[str, float] = field(default_factory=dict)
-    """Torques on links [N m]."""
+    """Torques by link [N m]."""
     restitution: Mapping[str, float] = field(default_factory=dict)
-    """Coefficient of restitution of each pair."""
+    """Coefficient of restitution by pair."""
     clearance: Mapping[str, float] = field(default_factory=dict)
-    """Clearances of pins in their slots [m]."""
+    """Clearance of the pin in its slot, by coupling [m]."""
     escapements: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Pitch angle [rad] relative to the bearing link, and beat [s], by escape wheel."""
+    """Pitch angle relative to the bearing link [rad], and beat [s], by escape wheel."""
 
 
 def find_time_case(
@@ -76,7 +76,8 @@ def find_time_case(
     restitution: float | None = None,
     scale: float | None = None,
 ) -> TimeCase:
-    """Collect the declared data; `rate` [rad/s of the first input that turns] and `restitution` override them.
+    """Return the declared data of one case; `rate` [rad/s of the first input that turns] and `restitution` override
+    them.
 
     scale   magnitude of the rate if none is declared either, for results that do not depend on it
     """
@@ -135,7 +136,9 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s]: declared, of the escapement, of a hand, or else `scale`."""
+    """Return the speed of the driving link [rad/s]: as declared, or of the escapement, or of a hand, or else
+    `scale`.
+    """
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.driving_link])
@@ -152,7 +155,7 @@ def _declared_rate(
 
 
 def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
-    """Return the drive at the power input, acting in the sense in which its link turns."""
+    """Return the drive at the power input, acting in the direction in which its link turns."""
     driving_link = problem.driving_link
     link = train.crank or driving_link
     speed = rate * float(problem.ratio(link))

@@ -1,4 +1,4 @@
-"""Reduction of a train and its drive to coordinates and contacts: ideal pairs merge links, real ones join coordinates.
+"""Reduction of a train and its drive to coordinates and contacts: ideal pairs merge links, other pairs are contacts.
 
 Rows of ideal pairs, locks and brakes are eliminated exactly. Speeds of links are then linear forms of a few
 coordinates, docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with real teeth, pins, and pairs with a declared
@@ -44,7 +44,7 @@ _FREE = 0.05  # relative to the mean ratio: a pair whose ratio stays above can a
 
 
 class SlackPin(ExactRatio):
-    """Transmission function of a pin on one side of its slot with some clearance, docs/dynamics.md (9).
+    """Transmission function of a pin on one side of its slot, with clearance, docs/dynamics.md (9).
 
     The slot is asin(clearance/(2 rho)) ahead of its position with a tight pin (`side` 1), or behind (-1); rho is the
     distance of the pin from the slot's axis.
@@ -100,29 +100,29 @@ class TrainModel:
         return float(self.problem.ratio(link)) * self.case.rate
 
     def sense(self, link: str, base: str) -> int:
-        """Return 1, or -1 if the axes of two links have opposite directions."""
+        """Return 1 if the axes of two links have the same direction, -1 if they have opposite directions."""
         return axis_sense(link, base, self.problem.signs)
 
     @cached_property
     def sources(self) -> Mapping[str, PairErrorSource]:
-        """Pairs and pins with variable ratios, with their initial phases."""
+        """Pairs and pins with variable ratio by name, with their initial phases."""
         names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
         return {source.id: source for source in self.motion._with_sources(names).sources}
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Effects that are not included."""
+        """Texts on effects that are not included."""
         found = []
         if not self.contacts:
             found.append("backlash and impacts: no pair has real teeth, a pin or losses, so all links turn as one")
-        left = [mesh.name for mesh in self.problem.teeth if mesh.rubs and not mesh.tells_losses]
+        left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.tells_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
         return tuple(found)
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """Estimates that replace missing declarations."""
+        """Texts on the estimates that replace missing declarations."""
         return ()
 
     @property
@@ -132,19 +132,19 @@ class TrainModel:
 
     @property
     def fastest(self) -> float:
-        """Angular frequency that time steps must resolve [rad/s]; 0 for rigid teeth."""
+        """Maximum angular frequency that time steps must resolve [rad/s]; 0 for rigid teeth."""
         return 0.0
 
     # ------------------------------------------------------------------------------------------------------ coordinates
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Column of each link."""
+        """Row of each link in the arrays of links."""
         return {link: at for at, link in enumerate(self.problem.system.links)}
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """Circuits that are contacts: all except those with a constant ratio and neither backlash nor losses."""
+        """Circuits that are contacts: all except pairs with a constant ratio and neither backlash nor losses."""
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:
@@ -152,7 +152,7 @@ class TrainModel:
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
-            return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.rubs and mesh.tells_losses)
+            return not mesh.rigid or mesh.verdict.backlash > 0 or (mesh.has_friction and mesh.tells_losses)
         gear = self._gears.get(circuit.id)
         return gear is not None and gear.efficiency is not None and gear.efficiency.forward.base < 1
 
@@ -185,7 +185,9 @@ class TrainModel:
 
     @cached_property
     def forms(self) -> tuple[tuple[str, ...], Floats]:
-        """Coordinate links, and speeds of all links over the speeds of these; shape (links, coordinates)."""
+        """Names of the coordinate links, and speeds of all links per unit speed of each coordinate, shape (links,
+        coordinates).
+        """
         free = {circuit.id for circuit in self.contacts}
         symbols = {self.index[link]: -1 - at for at, link in enumerate(self.prescribed)}
         rows = []
@@ -211,12 +213,12 @@ class TrainModel:
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """Links that serve as coordinates."""
+        """Names of the links whose angles are the coordinates."""
         return self.forms[0]
 
     @property
     def speeds(self) -> Floats:
-        """Speeds of all links over those of the coordinates. Shape (links, coordinates)."""
+        """Speeds of all links per unit speed of each coordinate, shape (links, coordinates)."""
         return self.forms[1]
 
     def _form(self, link: str, base: str | None = None) -> Floats:
@@ -247,7 +249,7 @@ class TrainModel:
 
     @cached_property
     def motion(self) -> Motion:
-        """Motion of all links in which all drive flanks touch."""
+        """Motion of all links with all drive flanks in contact."""
         frame = self.problem.frame
         return Motion(self.problem, {link: (link, frame) for link in self.problem.system.links})
 
@@ -270,7 +272,7 @@ class TrainModel:
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return tables of both flanks, friction terms, and the transmission function of the front flank."""
+        """Return tables of both flanks, the friction terms, and the transmission function of the front flank."""
         if circuit.id in self._pins:
             transmission = self._pins[circuit.id]
             clearance = self.case.clearance.get(circuit.id, 0.0)
@@ -289,7 +291,7 @@ class TrainModel:
         return tabled_angle(transmission, self.tolerance)
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
-        """Return forward speeds of the driver and the driven side of a pair relative to its carrier."""
+        """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""
         source = self.sources.get(circuit.id)
         # forwards is the sense in which the input turns; front flanks are those that drive in this sense
         way = self.problem.way
@@ -301,7 +303,6 @@ class TrainModel:
         return _sparse(forward * (own - base)), _sparse(sense * (mate - base))
 
     def _even(self, circuit: Circuit) -> ExactRatio:
-        """Return the transmission function of a pair with a constant ratio."""
         path = self.motion._path(circuit.id)
         own = circuit.b if path.coefficient == circuit.a else circuit.a
         return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
@@ -314,10 +315,10 @@ class TrainModel:
             passed = passed[1], passed[0]
         return constant_ratio_arms(transmission, *passed, f"pair '{circuit.id}'")
 
-    # --------------------------------------------------------------------------------------------------------- the rest
+    # ----------------------------------------------------------------------------------------- other parts of the model
 
     def _bearings(self) -> Iterator[Bearing]:
-        """Yield the friction of bearings; bearings of links that turn together are merged."""
+        """Yield the friction of bearings; the bearings of links with proportional speeds are merged."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
             form = self._form(link, self.tree.parent[link][0])
@@ -354,7 +355,7 @@ class TrainModel:
             yield Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate)
 
     def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
-        """Return the generalised torques [N m] of torques on links and of the drive on the coordinates."""
+        """Return the generalised torques on the coordinates [N m] of torques on links and of the drive."""
         torque = drive * self._form(self.case.drive.link)
         for link, load in loads.items():
             torque += load * self._form(link)
@@ -362,7 +363,7 @@ class TrainModel:
 
     @cached_property
     def model(self) -> ContactModel:
-        """Contact model that the kernels step."""
+        """Contact model for the kernels."""
         torque = self.torque_of(self.case.load, self.case.drive.torque)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
@@ -380,6 +381,7 @@ class TrainModel:
 
 
 def _sparse(form: Floats) -> dict[int, float]:
-    """Return the nonzero coefficients of a form."""
+    """Return the nonzero coefficients of a form by index."""
     scale = float(np.max(np.abs(form), initial=0.0))
+    # smaller coefficients are rounding errors
     return {at: float(value) for at, value in enumerate(form) if abs(value) > 1e-13 * scale}

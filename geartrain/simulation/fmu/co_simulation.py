@@ -1,4 +1,4 @@
-"""Gear train as a co-simulation unit (FMU, FMI 2.0): its declaration, and a slave that is stepped by geartrain."""
+"""Gear train as a co-simulation unit (FMU, FMI 2.0): its declaration, and a slave that geartrain advances."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _MODULE = "geartrain_slave"
 
 @dataclass(frozen=True)
 class CoSimulationCase(Shown):
-    """Conditions of a co-simulation unit. Every field except the state may be None; the declared value is used then.
+    """Conditions of a co-simulation unit. For a field that is None, the declared value is used.
 
     See Also
     --------
@@ -63,7 +63,7 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train to export.
     case : CoSimulationCase
         State, rate and step of the simulation.
 
@@ -103,7 +103,7 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
 
 @contextmanager
 def _path_kept() -> Iterator[None]:
-    """Restore the import path and the imported modules on exit, because the builder imports the script by its name."""
+    """Restore import path and imported modules on exit, because the builder imports the script by its name."""
     path = list(sys.path)
     try:
         yield
@@ -113,7 +113,7 @@ def _path_kept() -> Iterator[None]:
 
 
 def _repacked(data: bytes) -> bytes:
-    """Return the same archive with sorted entries and without times."""
+    """Return the same archive with sorted entries and without modification times."""
     found = BytesIO()
     with ZipFile(BytesIO(data)) as old, ZipFile(found, "w", ZIP_DEFLATED) as new:
         for name in sorted(old.namelist()):

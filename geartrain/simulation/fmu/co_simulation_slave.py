@@ -1,4 +1,4 @@
-"""Slave inside a co-simulation unit: variables of the train, and a `Simulation` that other tools advance.
+"""Slave inside a co-simulation unit: variables of the train, and a `Simulation` that the importing tool advances.
 
 Names follow FMI's structured convention: `angles.moon`, `apart.'d2~e'`.
 """
@@ -39,7 +39,7 @@ _UNITS = {
 
 
 class TrainSlave(Fmi2Slave):  # type: ignore[misc]
-    """Slave of the train that is packed in the unit's resources."""
+    """Slave of the train whose declaration is packed in the unit's resources."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
@@ -143,11 +143,11 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._step = value
         self._changed = True
 
-    # -------------------------------------------------------------------------------------------------------- course
+    # ---------------------------------------------------------------------------------------------------- simulation
 
     @property
     def simulation(self) -> Simulation:
-        """Simulation of the train; rebuilt if its initial conditions change before the first step."""
+        """Simulation of the train; it is rebuilt if a parameter changes before the first step."""
         if self._changed:
             # before the first step new parameters restart the simulation
             if not self._begun:
@@ -169,7 +169,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._start = start_time
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance the simulation to the end of a communication step; return False and log if that fails."""
+        """Advance the simulation to the end of a communication step; on an error, log it and return False."""
         try:
             simulation = self.simulation
             self._begun = True
@@ -210,7 +210,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 
 
 def keep_alive(names: dict[str, Any]) -> None:
-    """Add a reference that is never released to the globals of the unit's script, each time it is run.
+    """Add one reference to the globals of the unit's script each time it is run, which is never released.
 
     The library through which other tools call Python releases a reference that it does not own, each time (PythonFMU
     0.7.0).
@@ -220,7 +220,7 @@ def keep_alive(names: dict[str, Any]) -> None:
 
 @cache
 def part_in_order(library: Path) -> None:
-    """Register the release of the library before the process ends, if Python is the process.
+    """Register the release of the library before the process ends, if the process is Python.
 
     Otherwise the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all statics, and
     again when it is unloaded.
@@ -234,7 +234,7 @@ def _item(what: str, name: str) -> Callable[[Simulation], float]:
 
 
 def _quoted(name: str) -> str:
-    """Return a name as it may appear between the dots of a structured name."""
+    """Return a name in the form required between the dots of a structured name."""
     if _PLAIN.fullmatch(name):
         return name
     return "'" + name.replace("\\", "\\\\").replace("'", "\\'") + "'"

@@ -52,18 +52,18 @@ if TYPE_CHECKING:
 
 
 class CompliantTeeth(NamedTuple):
-    """Data of compliant teeth by pair; torques are those on driven sides."""
+    """Data of compliant teeth by pair; torques are about the driven sides."""
 
     stiffness: Floats
     """Torsional stiffness [N m/rad]."""
     damping: Floats
     """Torsional damping [N m s/rad]."""
     peak: Floats
-    """Maximum contact torque of the counted part [N m]; modified by the kernel."""
+    """Maximum contact torque in the counted part [N m]; updated by the kernel."""
     impact: Ints
-    """Index of the last impact of each pair, -1 for none; modified by the kernel."""
+    """Index of the last impact of each pair, -1 for none; updated by the kernel."""
     gap: Floats
-    """Gap of both flanks in the middle of a step without its change of speed [rad]; workspace."""
+    """Gap of both flanks at the middle of a step, without the change of speed in the step [rad]; work space."""
 
 
 @kernel
@@ -78,7 +78,7 @@ def run_compliant_steps(
     steps: int,
     counted: bool,
 ) -> None:
-    """Advance by a number of steps; the arguments are as in `run_steps`."""
+    """Advance the state by `steps` time steps; the arguments are as in `run_steps`."""
     since = 0
     for _ in range(steps):
         rounds = solve_midpoint_step(system, transmissions, state, here, rules, teeth)
@@ -117,7 +117,7 @@ def solve_midpoint_step(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> int:
-    """Solve for the speeds at the end of a step; return the number of guesses."""
+    """Solve for the speeds at the end of a step; return the number of contact states tried."""
     find_midpoint_loads(system, state, here, rules.step)
     for m in range(len(system.stiff)):
         here.before[m] = state.touching[m]
@@ -134,7 +134,7 @@ def solve_midpoint_step(
 
 @kernel
 def find_midpoint_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute momentum, and the known parts of the impulses of torques, springs and drag."""
+    """Compute the momentum, and the known parts of the impulses of torques, springs and drag."""
     n = len(here.v)
     for d in range(n):
         here.load[d] = step * system.torque[d] + (system.mass[d, d] - step / 2 * system.viscous[d, d]) * state.speed[d]
@@ -160,7 +160,7 @@ def find_midpoint_bounds(
     teeth: CompliantTeeth,
     step: float,
 ) -> None:
-    """Compute ratios, arms and gaps in the middle of the step, and the row speeds at which P vanishes."""
+    """Compute speed ratios, lever arms and gaps at the middle of the step, and the row speeds at which P vanishes."""
     for m in range(len(system.stiff)):
         S, q, dS, dq = system.start_driver[m], system.start_driven[m], 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
@@ -200,7 +200,7 @@ def count_compliant_contacts(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Add times in contact, losses of damping and friction, impacts and peaks, by pair.
+    """Add times in contact, losses of damping and friction, impacts and peak torques, by pair.
 
     The work of a contact without its damping is added to the numerical dissipation, from which the change of the stored
     energy must be subtracted.
@@ -265,7 +265,7 @@ def count_released_energy(
     side: int,
     opened: float,
 ) -> None:
-    """Add the energy that teeth still store when they separate to the impact losses: it is dissipated by their damping.
+    """Add the energy stored in teeth at separation to the impact losses, because their damping dissipates it.
 
     opened   change of the gap from the start to the middle of the step, at the initial speeds [rad]
     """

@@ -1,5 +1,4 @@
-"""Speeds at the end of one step for one guess of the touching and sticking contacts, by elimination in the solved
-order.
+"""Speeds at the end of a step for one guess of the touching and sticking contacts, by elimination in a fixed order.
 
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ = k_c  for every c that touches        docs/dynamics.md (11)
 
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 OPEN, FRONT, BACK = 0, 1, 2
-"""Flank in contact: none, the drive flank, the coast flank."""
+"""Flank in contact: none, the drive flank, or the coast flank."""
 
 WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRICTION = range(8)
 """Columns of the energy balance [J]: three kinds of input work, and five kinds of loss."""
@@ -42,7 +41,7 @@ class ContactState(NamedTuple):
     """State of a train; modified in place by the kernels."""
 
     clock: Floats
-    """Time [s], and step number."""
+    """Time [s] and step number."""
     angle: Floats
     """Angles of the coordinates [rad]; `speed` is in rad/s."""
     speed: Floats
@@ -51,10 +50,12 @@ class ContactState(NamedTuple):
     turning: Ints
     stopped: Ints
     ratio: Floats
-    """Speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 during an impact."""
+    """Speed ratio of each pair in the last step, shape (pairs, 2); `struck` is 1 for pairs and stops during an
+    impact.
+    """
     struck: Ints
     steady: Floats
-    """Impulse of each pair in its last step without an impact."""
+    """Impulse of each pair in its last step without an impact [N m s]."""
     flown: Ints
     """Number of steps since each pair separated.
 
@@ -88,37 +89,37 @@ SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
 class StepEquations(NamedTuple):
-    """Equations of one step: its data, workspace, and solution."""
+    """Equations of one step: data, work space and solution."""
 
     load: Floats
-    """External impulses and momentum at the start of the step."""
+    """External impulses plus the momentum at the start of the step [N m s]."""
     bound: Floats
-    """Bound k of both flanks of each pair [rad/s]; `stop_bound` of each stop."""
+    """Bound k of both flanks of each pair [rad/s]; `stop_bound` is the bound of each stop."""
     stop_bound: Floats
     ratio: Floats
     """Speed ratio of both flanks of each pair."""
     arm: Floats
-    """Driver's torque over the driven side's, of both flanks of each pair."""
+    """Driver's torque over the driven side's torque, for both flanks of each pair."""
     A: Floats
     """Matrix; overwritten by the elimination."""
     b: Floats
     """Right side; overwritten by the elimination."""
     w: Floats
-    """Coefficients of the speed of a driven coordinate, which is w v + known."""
+    """Coefficients w of the speed of a determined coordinate, which is w v + known."""
     g: Floats
-    """Factors that condense the row of a driven coordinate into earlier rows."""
+    """Factors that condense the row of a determined coordinate into earlier rows."""
     known: Floats
-    """Known part of the speed of a driven coordinate."""
+    """Known part of the speed of a determined coordinate [rad/s]."""
     v: Floats
-    """Speeds of the coordinates."""
+    """Speeds of the coordinates at the end of the step [rad/s]."""
     P: Floats
-    """Impulses of pairs and stops."""
+    """Impulses of pairs and stops [N m s]."""
     drive: Floats
-    """Impulses that maintain the speeds of prescribed coordinates."""
+    """Impulses that maintain the speeds of prescribed coordinates [N m s]."""
     ahead: Floats
-    """Speeds by which the positions of evaluation of the transmission functions are extrapolated."""
+    """Speeds with which the positions for the transmission functions are extrapolated [rad/s]."""
     middle: Floats
-    """Mean speeds of the step."""
+    """Mean speeds of the step [rad/s]."""
     gap: Floats
     """Bound k of both flanks without restitution [rad/s]."""
     closing: Floats
@@ -138,12 +139,12 @@ class StepRules(NamedTuple):
     """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""
     slack: float
     rounds: int
-    """Maximum number of guesses in a step."""
+    """Maximum number of contact states tried in a step."""
 
 
 @kernel
 def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Solve for speeds and impulses with the touching, turning and stopped contacts of the state.
+    """Solve for speeds and impulses with the contacts that the state assumes as touching, turning and stopped.
 
     creep   maximum creep speed of a stuck bearing [rad/s]
     """
@@ -155,7 +156,7 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 
 @kernel
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Assemble the matrix and right side of all coordinates, without the pairs that determine one."""
+    """Assemble matrix and right side of all coordinates, without the pairs that determine a coordinate."""
     A, b = here.A, here.b
     for d in range(len(b)):
         b[d] = here.load[d]
@@ -194,9 +195,10 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
 
 @kernel
 def eliminate_coordinates(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """Eliminate the coordinates from the last to the first: by condensation if its pair touches, otherwise by Gauss.
+    """Eliminate the coordinates from the last to the first.
 
-    All is done in one loop, because a call with this number of arrays takes as long as a coordinate.
+    A coordinate whose pair touches is eliminated by condensation, another one by Gaussian elimination. All is done
+    in one loop, because a call with this number of arrays takes as long as a coordinate.
     """
     A, b, w, g, near = here.A, here.b, here.w, here.g, system.near
     for d in range(len(b) - 1, -1, -1):
@@ -236,7 +238,7 @@ def eliminate_coordinates(system: ContactSystem, state: ContactState, here: Step
 
 @kernel
 def substitute_back(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
-    """Substitute from the first coordinate to the last: speeds, and impulses of pairs and drives."""
+    """Compute the speeds from the first coordinate to the last, and the impulses of pairs and drives."""
     A, v, near = here.A, here.v, system.near
     here.P[:] = 0.0
     here.drive[:] = 0.0
@@ -287,7 +289,7 @@ def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEq
 
 
 AT_ONCE = 6
-"""Number of rounds in which all wrong guesses are flipped together (block pivoting)."""
+"""Number of iterations in which all wrong contact states are changed together (block pivoting)."""
 
 
 @kernel
@@ -337,7 +339,7 @@ def correct_pairs(system: ContactSystem, state: ContactState, here: StepEquation
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, and stop those that turn against their friction; return the number of
+    """Release bearings that creep too fast, and stick those that turn against their friction; return the number of
     changes.
     """
     found = 0
@@ -365,7 +367,7 @@ def correct_bearings(
 
 @kernel
 def correct_stops(system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool) -> int:
-    """Release stops with tensile impulses, and stop links that pass one; return the number of changes."""
+    """Release stops with tensile impulses, and activate stops that a link passes; return the number of changes."""
     found = 0
     for m in range(len(system.stop_stiff)):
         rate = 0.0

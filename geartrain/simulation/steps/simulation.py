@@ -53,7 +53,7 @@ class StepPlan(NamedTuple):
     steps: int
     stride: int
     block: int = 0
-    """Steps of each of the equal blocks of the counted part whose figures are kept; 0 for none."""
+    """Number of steps in each of the equal blocks of the counted part whose results are stored; 0 for no blocks."""
 
 
 @dataclass
@@ -91,7 +91,7 @@ def simulate(
     on_done: Callable[[int], object] = lambda _: None,
     yields: ToothCompliance | None = None,
 ) -> SimulatedRun:
-    """Simulate a model; `fast` compiles the kernels.
+    """Return the results of a simulated run; with `fast` the kernels are compiled.
 
     on_done   called with the steps done since the last call; the run stops if it returns True, and the plan of the
               result
@@ -119,7 +119,7 @@ def simulate(
             run_compliant_steps.chosen(fast)(*given, teeth, steps, counted)
 
     def go(steps: int, counted: bool) -> int:
-        """Advance in pieces between samples; return the number of steps done."""
+        """Advance by `steps` in pieces that end at samples; return the number of steps done."""
         done = 0
         while done < steps:
             own = min(piece, steps - done)
@@ -170,19 +170,19 @@ def simulate(
 
 
 def _mark(record: RunRecord, state: ContactState) -> _Mark:
-    """Copy the counts, energies and angles up to now."""
+    """Return copies of the counts, energies and angles up to now."""
     return record.counts.copy(), record.energy.copy(), state.angle.copy()
 
 
 def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark, order: Ints) -> SimulatedRun:
-    """Return one block of a run, between two marks."""
+    """Return the results of one block of a run, between two marks."""
     counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
     plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
     return replace(run, plan=plan, counts=counts, energy=energy, turned=turned[order], blocks=())
 
 
 def check_convergence(state: ContactState, record: RunRecord, step: float) -> None:
-    """Raise `QuestionError` if the steps of a run diverged."""
+    """Raise `QuestionError` if the speeds of a run diverged."""
     if record.numbers[DIVERGED]:
         why = f"time steps of {step:.3g} s are too long for the stiffness of this train: speeds grow without bound"
         what = f"the simulation diverges after {state.clock[0]:.4g} s"
@@ -201,8 +201,9 @@ def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duratio
 
 
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
-    """Return the initial state: coordinates at 0, and the model's initial speeds or those with all front flanks in
-    contact.
+    """Return the initial state with all coordinates at 0.
+
+    The speeds are the model's initial speeds, or those with all front flanks in contact.
     """
     n, pairs = len(model.torque), len(model.pairs)
     place = {each: at for at, each in enumerate(model.order.coordinates)}
@@ -243,7 +244,7 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
 
 
 def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
-    """Allocate the record of a run for a number of coordinates, of pairs and stops, of samples and of impacts."""
+    """Return an empty record for `n` coordinates, `rows` pairs and stops, and given numbers of samples and impacts."""
     return RunRecord(
         np.zeros(ENERGIES),
         np.zeros((rows, COUNTS)),
@@ -257,7 +258,7 @@ def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
 
 
 def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
-    """Allocate the equations of one step."""
+    """Return empty arrays for the equations of one step."""
     return StepEquations(
         np.zeros(n),
         np.zeros((pairs, 2)),
@@ -291,7 +292,7 @@ def _teeth(model: ContactModel, yields: ToothCompliance | None) -> CompliantTeet
 
 
 def _midpoint_system(model: ContactModel, system: ContactSystem, step: float, yields: ToothCompliance) -> ContactSystem:
-    """Return the arrays for the midpoint rule: no pair determines a coordinate, and each is a compliant row."""
+    """Return the arrays for the midpoint rule, in which every pair is a compliant row and determines no coordinate."""
     springs = system.matrix - system.mass - step * system.viscous  # step^2 K
     return system._replace(
         # the midpoint rule weighs drag by h/2 and springs by h^2/4
@@ -304,7 +305,7 @@ def _midpoint_system(model: ContactModel, system: ContactSystem, step: float, yi
 def _stored(
     system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothCompliance | None
 ) -> float:
-    """Return the energy stored in compressed compliant teeth [J]."""
+    """Return the elastic energy of compliant teeth [J]."""
     if yields is None:
         return 0.0
     found = 0.0

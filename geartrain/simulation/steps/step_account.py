@@ -1,4 +1,4 @@
-"""Contributions of one step to the balance of a run: energies, times without contact, impacts."""
+"""Contributions of one step to the results of a run: energies, times without contact, impacts."""
 
 from __future__ import annotations
 
@@ -49,8 +49,7 @@ def count_energy(
     speed: Floats,
     share: float,
 ) -> None:
-    """Add the work of drives, torques and springs, and the losses by drag: each impulse times the mean speed of its
-    step.
+    """Add the work of drives, torques and springs, and the losses by drag, as impulses times mean speeds of the step.
 
     speed   speed of drag and springs; `share`, the fraction of the step after which springs are evaluated
     """
@@ -140,7 +139,7 @@ def count_contacts(
 
 @kernel
 def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> None:
-    """Add the time without contact and on the coast flank, and update the maximum gap, from both gaps of a pair [rad].
+    """Add the times without contact and on the coast flank, and update the maximum gap, from both gaps of a pair [rad].
 
     flight   fraction of the step in which no flank touches
     """
@@ -152,7 +151,9 @@ def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> Non
 
 @kernel
 def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
-    """Return the fraction of the step in which no flank of a pair touches; for a new contact, until it closes."""
+    """Return the fraction of the step in which no flank of a pair touches; for a new contact, the fraction until it
+    closes.
+    """
     if touching[m] == OPEN:
         return 1.0
     side = touching[m] - 1
@@ -165,7 +166,7 @@ def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
 
 @kernel
 def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
-    """Divide the energy dissipated by a contact in a step between the impact and the steady force."""
+    """Divide the energy that a contact dissipates in a step between the impact and the steady force."""
     share = (impulse - steady) / impulse if impulse > steady else 0.0
     record.energy[IMPACT_LOSS] += taken * share
     record.energy[STEP] += taken * (1.0 - share)
@@ -174,7 +175,7 @@ def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady
 
 @kernel
 def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side: int) -> bool:
-    """Return whether the speed ratio of a flank has passed a jump of its transmission function since the last step.
+    """Return True if the speed ratio of a flank has passed a jump of its transmission function since the last step.
 
     now, before   ratios of all pairs; calls with many arrays are slow, so only a few are passed
     """
@@ -224,7 +225,7 @@ def count_stops(
 
 @kernel
 def note_impact(record: RunRecord, time: float, which: int, speed: float, energy: float, impulse: float) -> None:
-    """Append an impact to the list, unless the list is full."""
+    """Append an impact to the list; if the list is full, only count it."""
     at = record.numbers[IMPACTS]
     if at < len(record.impacts):
         row = record.impacts[at]

@@ -58,7 +58,7 @@ _IMPACT_CHANGE = 0.01  # relative change of a driver's speed within a step that 
 
 @kernel
 def is_at_rest(before: Floats, after: Floats, still: float) -> bool:
-    """Return whether all speeds before and after a step are 0 within a tolerance.
+    """Return True if all speeds before and after a step are 0 within a tolerance.
 
     still   tolerance of the speeds [rad/s]
     """
@@ -86,7 +86,7 @@ def find_idle_steps(system: ContactSystem, state: ContactState, rules: StepRules
 
 @kernel
 def repeat_counts(counts: Floats, before: Floats, times: int) -> None:
-    """Add the counts of the last step `times` more, for all contacts.
+    """Add the counts of the last step `times` times, for all contacts.
 
     before   counts before that step
     """
@@ -106,7 +106,10 @@ def run_steps(
     steps: int,
     counted: bool,
 ) -> None:
-    """Advance by a number of steps; samples are recorded always, energies, times and impacts only if `counted`."""
+    """Advance the state by `steps` time steps.
+
+    Samples are always recorded; energies, times and impacts only if `counted`.
+    """
     since, done, idle = 0, 0, 0
     still = rules.creep + rules.slack
     before = np.zeros_like(record.counts)
@@ -160,7 +163,7 @@ def run_steps(
 
 @kernel
 def diverges(speed: Floats, step: float) -> bool:
-    """Return whether a link turns too far in one step, or its speed is not a number."""
+    """Return True if a coordinate turns by more than `FARTHEST` in one step, or its speed is NaN."""
     near = True
     for each in speed:
         near = near and abs(each) * step < FARTHEST
@@ -206,7 +209,7 @@ def solve_step(
 def add_to_sample(
     forces: Floats, drive: Floats, P: Floats, touching: Ints, kept: Floats, sample: int, times: int
 ) -> None:
-    """Add the impulses of identical steps to their sample.
+    """Add the impulses of `times` identical steps to their sample.
 
     Calls with many arrays are slow, so only a few are passed.
     """
@@ -218,7 +221,7 @@ def add_to_sample(
 
 @kernel
 def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
-    """Record angles and speeds, and convert impulses to mean torques over the time of the sample [s]."""
+    """Record angles and speeds, and convert impulses to mean torques over the duration of the sample [s]."""
     sample = record.numbers[SAMPLES]
     record.angles[sample, :] = state.angle
     record.speeds[sample, :] = state.speed
@@ -229,7 +232,7 @@ def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
 
 @kernel
 def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute momentum, and impulses of torques and springs."""
+    """Compute the momentum, and the impulses of torques and springs."""
     n = len(here.v)
     for d in range(n):
         here.load[d] = step * system.torque[d] + system.mass[d, d] * state.speed[d]
@@ -254,8 +257,9 @@ def find_bounds(
     here: StepEquations,
     step: float,
 ) -> None:
-    """Compute ratios, arms and bounds k of both flanks at the extrapolated positions, and closing speeds before the
-    step.
+    """Compute speed ratios, lever arms and bounds k of both flanks at the extrapolated positions.
+
+    Closing speeds are those before the step.
     """
     for m in range(len(system.stiff)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
@@ -298,7 +302,7 @@ def find_bounds(
 
 @kernel
 def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
-    """Return whether a flank has come into contact in this step, or the ratio of a touching one has jumped."""
+    """Return True if a flank has come into contact in this step, or the speed ratio of a touching flank has jumped."""
     for m in range(len(touching)):
         now = touching[m]
         if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
@@ -308,7 +312,7 @@ def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: F
 
 @kernel
 def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> float:
-    """Return the maximum difference of drivers' speeds from those of the evaluated positions [rad/s].
+    """Return the maximum difference between drivers' speeds and the speeds used for extrapolation [rad/s].
 
     minimum   fraction of its own speed from which a driver's difference counts
     """
@@ -326,7 +330,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed of each stopped link: to its stop, or back from it."""
+    """Compute the maximum speed of each stopped link: up to its stop, or back from it [rad/s]."""
     for m in range(len(system.stop_stiff)):
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[m])
         room = system.stop_first[m] + (1.0 + beats) * system.stop_pitch[m]

@@ -90,11 +90,11 @@ class ContactPlace(Result):
     KEYS = ("where", "position", "tooth_pairs", "force", Key("pressure", to=finite))
 
     where: str
-    """Name of the position."""
+    """Name of the position, such as "pitch point"."""
     position: float
-    """Displacement past the pitch point along the pitch line [pitch]."""
+    """Position past the pitch point along the pitch line [pitch]."""
     tooth_pairs: float
-    """Number of tooth pairs in contact, each with the same force. For helical teeth, the minimum of the mean over the
+    """Number of tooth pairs in contact, each with the same force; for helical teeth the minimum of its mean over the
     width.
     """
     force: float
@@ -105,12 +105,12 @@ class ContactPlace(Result):
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """Loaded pair with a path of contact."""
+    """Load on a pair with a path of contact."""
 
     path: PathOfContact
     """Path of contact, lengths in modules."""
     module: float
-    """Module [mm]; `width` is that of the teeth in contact [mm]."""
+    """Module [mm]; `width` is the width of the teeth in contact [mm]."""
     width: float
     torque: float
     """Torque on gear 1 [N mm]."""
@@ -123,7 +123,7 @@ class ContactLoad:
         return self.torque / (self.path.pitch.R1 * self.module)
 
     def tooth_pairs(self, X: float) -> list[float]:
-        """Return the displacements of all tooth pairs in contact while one touches at X."""
+        """Return the arcs X of all tooth pairs in contact while one touches at X [module]."""
         p, (approach, recess) = self.path.pitch.p, self.path.arcs
         # rounding must not lose a pair at the ends of the path
         slack = 1e-9 * p
@@ -131,8 +131,8 @@ class ContactLoad:
         return [X + k * p for k in range(first, last + 1)] or [X]
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Return the normal force [N] at each displacement, and the number of tooth pairs that share the torque
-        equally.
+        """Return the normal force of one tooth pair at each arc X [N], and the number of tooth pairs that share the
+        torque.
         """
         cosines, counts = [], []
         for each in X.tolist():
@@ -143,13 +143,13 @@ class ContactLoad:
         return self.tangential / np.array(cosines), np.array(counts)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return pressure [MPa], force [N] and number of tooth pairs in contact at displacements X."""
+        """Return pressure [MPa], force [N] and number of tooth pairs in contact at arcs X."""
         force, counts = self.forces(X)
         curvature = self.path.at(X).kr / self.module
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
-        """Return the displacements between which one tooth pair carries the whole load.
+        """Return the arcs X between which one tooth pair carries the whole load.
 
         If two pairs never touch at once, they are the ends of the path.
         """
@@ -165,14 +165,16 @@ class ContactLoad:
         return -approach <= 0 <= recess and not isfinite(float(self.path.at(np.zeros(1)).kr[0]))
 
     def single_pressure(self) -> float:
-        """Return the maximum pressure [MPa] while one tooth pair carries the whole load, as in ISO 6336-2."""
+        """Return the maximum pressure while one tooth pair carries the whole load [MPa], as in ISO 6336-2."""
         low, high = self.single()
         # inside the interval, because the load jumps at its ends
         nudge = min(1e-7 * self.path.pitch.p, (high - low) / 4)
         return float(self.pressures(np.linspace(low + nudge, high - nudge, _POSITIONS))[0].max())
 
     def places(self) -> tuple[ContactPlace, ...]:
-        """Return the ends of contact and of single contact, the pitch point, and the worst position."""
+        """Return the pressures at the ends of contact and of single contact, the pitch point, and the worst
+        position.
+        """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         named = {"start of contact": -approach, "end of contact": recess}
         low, high = self.single()
@@ -206,7 +208,7 @@ def base_helix_angle(helix: float, pressure_angle: float) -> float:
 
 
 def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
-    """Return the minimum number of tooth pairs in contact, as a mean over the width: docs/strength.md (20).
+    """Return the minimum number of tooth pairs in contact, averaged over the width: docs/strength.md (20).
 
     contact_ratio   transverse contact ratio; `overlap`, overlap ratio
     """
@@ -220,27 +222,27 @@ def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class HelicalContactLoad(ContactLoad):
-    """Loaded helical pair; quantities are as in `ContactLoad`, in the transverse section."""
+    """Load on a helical pair; quantities are as in `ContactLoad`, in the transverse section."""
 
     base_helix: float = 0.0
     """Base helix angle [rad]."""
     overlap: float = 0.0
-    """Overlap ratio: pitches by which teeth advance over the width."""
+    """Overlap ratio: advance of the teeth over the width [pitch]."""
 
     @property
     def lines(self) -> float:
-        """Minimum number of tooth pairs in contact, as a mean over the width."""
+        """Minimum number of tooth pairs in contact, averaged over the width."""
         return minimum_tooth_pairs(self.path.contact_ratio, self.overlap)
 
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
-        """Return the transverse force [N] on a whole tooth at each displacement, if all were equal, and the number of
+        """Return the transverse force on a tooth at each arc X [N], with all forces equal, and the number of tooth
         pairs.
         """
         force = self.tangential / self.path.at(X).cos_psi / self.lines
         return force, np.full(X.shape, self.lines)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return pressure [MPa], force [N] and number of tooth pairs in contact at displacements X.
+        """Return pressure [MPa], force [N] and number of tooth pairs in contact at arcs X.
 
         Lines of contact are longer by 1/cos of the base helix angle, and so is the force normal to the flanks; the
         curvature across the lines is smaller by the cosine.
@@ -250,7 +252,7 @@ class HelicalContactLoad(ContactLoad):
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
-        """Return the ends of the path, because the load is never on only one tooth pair."""
+        """Return the arcs X at the ends of the path, because one tooth pair never carries the whole load."""
         return -self.path.arcs[0], self.path.arcs[1]
 
 
@@ -266,7 +268,7 @@ class ContactEllipse(NamedTuple):
 
 
 def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float], crossing: float) -> ContactEllipse:
-    """Compute Hertz's contact ellipse of two crossed cylinders: docs/strength.md (25).
+    """Return Hertz's contact ellipse of two crossed cylinders: docs/strength.md (25).
 
     force        normal force [N]; `factor`, elasticity factor ZE [sqrt(MPa)]
     curvatures   of both cylinders [1/mm]
@@ -293,6 +295,7 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
     # equal curvatures: the ellipse is a circle, where the equation of its axes is singular
     if apart <= 1e-9 * total:
         k = 1.0
+    # an axis ratio below exp(-34) is close to the rounding error: practically a line
     elif ratio(-34.0) < 0:
         why = f"their generatrices cross at only {crossing:.3g} rad"
         raise RangeError(
@@ -333,7 +336,7 @@ class CrossedWheels:
         return pi * self.module * cos(self.pressure_angle)
 
     def flank_radius(self, at: int) -> float:
-        """Return the radius of curvature of a flank at the pitch point, across its generatrices [mm]."""
+        """Return the radius of curvature of a flank at the pitch point, normal to its generatrices [mm]."""
         transverse = atan(tan(self.pressure_angle) / cos(self.helix[at]))
         return self.radii[at] * sin(transverse) / cos(self._base_helix(at))
 
@@ -341,7 +344,7 @@ class CrossedWheels:
         return asin(sin(self.helix[at]) * cos(self.pressure_angle))
 
     def normal_count(self, at: int) -> float:
-        """Return the virtual number of teeth in the normal section, not an integer."""
+        """Return the virtual number of teeth in the normal section, in general not an integer."""
         return 2 * self.radii[at] / self.module / cos(self._base_helix(at)) ** 2
 
     def tooth_length(self, at: int) -> float:
@@ -358,8 +361,8 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the limits of the path of contact towards the tip of one wheel, past the pitch point, by
-        cause [mm].
+        """Return the limits of the path of contact beyond the pitch point, towards the tip of one wheel, by cause
+        [mm].
         """
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
@@ -374,7 +377,9 @@ class CrossedWheels:
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """Lengths of contact along the line of action: towards the tip of the second wheel, and of the first [mm]."""
+        """Lengths of contact along the line of action: towards the tip of the second wheel and towards that of the
+        first [mm].
+        """
         return min(self._bounds(1).values()), min(self._bounds(0).values())
 
     @property
@@ -388,18 +393,19 @@ class CrossedWheels:
         return sum(self.ends) / self.pitch
 
     def tooth_pairs(self, place: float) -> int:
-        """Return the number of tooth pairs in contact while one touches at a position past the pitch point."""
+        """Return the number of tooth pairs in contact while one touches at `place` past the pitch point [mm]."""
         back, front = self.ends
+        # contacts exactly at an end of the path count, in spite of rounding
         slack = 1e-9 * self.pitch
         return int((place + back + slack) // self.pitch + (front - place + slack) // self.pitch + 1)
 
     def ellipse(self, place: float, force: float, factor: float) -> ContactEllipse:
-        """Return the contact ellipse at a position, with a normal force [N] shared by all tooth pairs in contact."""
+        """Return the contact ellipse at `place` [mm], with a normal force [N] shared by all tooth pairs in contact."""
         rho = self.flank_radius(0) + place, self.flank_radius(1) - place
         return contact_ellipse(force / self.tooth_pairs(place), factor, (1 / rho[0], 1 / rho[1]), self.crossing)
 
     def worst(self, force: float, factor: float) -> ContactEllipse:
-        """Return the ellipse of maximum pressure among all positions with the fewest tooth pairs in contact."""
+        """Return the contact ellipse of maximum pressure among all positions with the fewest tooth pairs in contact."""
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
         # the ends of the path are excluded: a pair carries no load there
@@ -412,7 +418,8 @@ class CrossedWheels:
 
 
 def loss_over_friction(mesh: GearMesh) -> float | None:
-    """Return the power loss of a pair over its power and its friction, for friction near 0: docs/strength.md (14).
+    """Return the power loss of a pair over its power and its friction coefficient, near friction 0: docs/strength.md
+    (14).
 
     The energy through the pair times this is the integral of force over sliding distance. None for teeth that lock.
     """
@@ -426,7 +433,8 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
 
 
 def deepest_passage(load: ContactLoad, gear: int) -> float:
-    """Return the maximum force per width times sliding distance at one point of a flank, for one passage [N]: (15).
+    """Return the maximum force per width times sliding distance at a point of a flank in one passage [N]:
+    docs/strength.md (15).
 
     Multiplied by K and divided by the hardness it is a depth. A point at which the contact does not move is left out.
     """

@@ -38,7 +38,7 @@ _STEP = 0.004  # distance between sections [module]
 
 @dataclass(frozen=True, slots=True)
 class RackWheel:
-    """Wheel cut by a rack. Lengths in modules."""
+    """Wheel cut by a rack; lengths in modules."""
 
     z: float
     """Number of teeth; not an integer for the virtual spur wheel of a helical one."""
@@ -53,7 +53,7 @@ class RackWheel:
 
 @dataclass(frozen=True, slots=True)
 class HelixData:
-    """Helix angles [rad] at the pitch and base circle, and overlap ratio, of helical wheels."""
+    """Helix angles at the pitch and the base circle [rad], and overlap ratio, of helical wheels."""
 
     helix: float = 0.0
     base: float = 0.0
@@ -61,21 +61,21 @@ class HelixData:
 
     @property
     def Zbeta(self) -> float:
-        """Helix angle factor of contact."""
+        """Helix angle factor for contact stress."""
         return 1 / sqrt(cos(self.helix))
 
     @property
     def Ybeta(self) -> float:
-        """Helix angle factor of roots. Its reduction is limited to an overlap ratio of 1 and to 30 degrees."""
+        """Helix angle factor for root stress, with the overlap ratio limited to 1 and the helix angle to 30 degrees."""
         return 1 - min(self.overlap, 1.0) * min(degrees(self.helix), 30.0) / 120
 
     def Zeps(self, contact_ratio: float) -> float:
-        """Return the contact ratio factor of contact stress."""
+        """Return the contact ratio factor for contact stress."""
         part = min(self.overlap, 1.0)
         return sqrt((4 - contact_ratio) / 3 * (1 - part) + part / contact_ratio)
 
     def single(self, M: float) -> float:
-        """Return ZB or ZD from the factor M of a spur wheel.
+        """Return the single pair contact factor ZB or ZD from the factor M of a spur wheel.
 
         It is 1 from an overlap ratio of 1, with linear interpolation below.
         """
@@ -85,7 +85,7 @@ class HelixData:
 
 @dataclass(frozen=True, slots=True)
 class RackPair:
-    """Pair of rack-cut wheels at its centre distance; helical wheels in the transverse section. Angles in rad."""
+    """Pair of rack-cut wheels at its centre distance, helical wheels in the transverse section; angles in rad."""
 
     first: RackWheel
     second: RackWheel
@@ -101,15 +101,17 @@ class RackPair:
     def __post_init__(self) -> None:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
         if not 1 <= self.contact_ratio < 2:
-            what = f"the contact ratio {self.contact_ratio:.4g} is outside of the range of ISO 6336 method B"
+            what = f"the contact ratio {self.contact_ratio:.4g} is outside the range of ISO 6336 method B"
             raise RangeError(
                 Problem(
-                    what, "its load sharing applies to contact ratios from 1 to 2", "use the figures by Lewis and Hertz"
+                    what,
+                    "its load sharing applies to contact ratios from 1 to 2",
+                    "use the stresses by Lewis and Hertz",
                 )
             )
 
     def wheel(self, at: int) -> RackWheel:
-        """Return the first or second wheel by index 0 or 1."""
+        """Return the first wheel for index 0, the second for index 1."""
         return self.second if at else self.first
 
 
@@ -124,9 +126,9 @@ class IsoContact(Result):
     Zeps: float
     """Contact ratio factor."""
     M1: float
-    """Factor ZB of spur wheels before its limitation to 1 or more."""
+    """Factor ZB of spur wheels before it is raised to at least 1."""
     M2: float
-    """Factor ZD of spur wheels before its limitation to 1 or more."""
+    """Factor ZD of spur wheels before it is raised to at least 1."""
     nominal: float
     """Nominal contact stress sH0 at the pitch point [MPa]."""
     stress: tuple[float, float]
@@ -156,7 +158,7 @@ class IsoRoot(Result):
 
 
 def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: float, module: float) -> IsoContact:
-    """Compute the contact stress of an external pair by ISO 6336-2: docs/strength.md (7) to (9), (21).
+    """Return the contact stress of an external pair by ISO 6336-2: docs/strength.md (7) to (9), (21).
 
     elasticity   elasticity factor [sqrt(MPa)]
     tangential   force at the reference circle [N]
@@ -177,7 +179,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
 
 
 def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -> float:
-    """Return the radius [module] of the outer point at which one tooth pair carries the whole load."""
+    """Return the radius of the outer point at which one tooth pair carries the whole load [module]."""
     base = wheel.z / 2 * cos(angle)
     return sqrt((sqrt(wheel.tip**2 - base**2) - pi * cos(angle) * (contact_ratio - 1)) ** 2 + base**2)
 
@@ -185,7 +187,7 @@ def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -
 def root_stress(
     wheel: RackWheel, angle: float, tangential: float, width: float, module: float, load_radius: float
 ) -> IsoRoot:
-    """Compute the root stress by ISO 6336-3: docs/strength.md (10) to (13).
+    """Return the root stress by ISO 6336-3: docs/strength.md (10) to (13).
 
     angle         pressure angle of the rack [rad]
     tangential    force [N]; `width` and `module` in mm
@@ -214,13 +216,13 @@ def root_stress(
 def helical_root_stress(
     wheel: RackWheel, angle: float, pair: RackPair, tangential: float, width: float, module: float
 ) -> IsoRoot | None:
-    """Compute the root stress of a helical wheel by its virtual spur wheel in the normal section: docs/strength.md
+    """Return the root stress of a helical wheel, from its virtual spur wheel in the normal section: docs/strength.md
     (22).
 
-    wheel, angle   teeth, shift, tip, dedendum and corner in normal modules; normal pressure angle
+    wheel, angle   teeth, shift, tip, dedendum and corner in normal modules; normal pressure angle [rad]
     module         normal module [mm]
 
-    None if at least two tooth pairs of the virtual spur wheel are always in contact.
+    Return None if at least two tooth pairs of the virtual spur wheel are always in contact.
     """
     lean = pair.lean
     contact_ratio = pair.contact_ratio / cos(lean.base) ** 2
@@ -239,8 +241,9 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """Solve th = slope tan th - H by Newton's method from pi/6."""
+    """Return the solution of th = slope tan th - H, by Newton's method from pi/6 [rad]."""
     th = pi / 6
+    # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):
         step = (th - slope * tan(th) + H) / (1 - slope / cos(th) ** 2)
         th -= step
@@ -254,50 +257,55 @@ def _tangent(slope: float, H: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ToothLoad:
-    """Force on a tooth in the frame of the tooth, whose x axis is its axis of symmetry from the wheel's axis. Lengths
-    in modules.
+    """Force on a tooth in the frame of the tooth, with the origin on the wheel's axis and x along the centre line of
+    the tooth.
+
+    Lengths are in modules.
     """
 
     radius: float
-    """Radius of the point of application; `apex` is where the line of action meets the axis of the tooth."""
+    """Radius of the point of application; `apex` is where the line of action meets the centre line of the tooth
+    [module].
+    """
     apex: float
     angle: float
-    """Angle between the force and the normal of the axis of the tooth [rad]."""
+    """Angle between the force and the normal of the tooth's centre line [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class RootSection:
-    """Section of maximum bending stress. Lengths in modules."""
+    """Section of maximum bending stress; lengths in modules."""
 
     x: float
-    """Distance from the wheel's axis; `thickness` is that of the tooth there."""
+    """Distance from the wheel's axis; `thickness` is the tooth thickness there [module]."""
     thickness: float
     factor: float
-    """Stress over torque/(width module^2)."""
+    """Bending stress over torque/(width module^2)."""
 
     def stress(self, torque: float, width: float, module: float) -> float:
-        """Return the bending stress [MPa] under a torque [N mm] that only this tooth carries; width and
-        module in mm.
-        """
+        """Return the bending stress [MPa] under a torque [N mm] on this tooth; `width` and `module` in mm."""
         return self.factor * torque / (width * module**2)
 
     def lewis_factor(self, pitch_radius: float) -> float:
-        """Return Lewis's form factor Y = Ft/(b m stress), with the tangential force Ft at a radius [module]."""
+        """Return Lewis's form factor Y = Ft/(b m stress), with the tangential force Ft at `pitch_radius` [module]."""
         return 1 / (self.factor * pitch_radius)
 
 
 @dataclass(frozen=True, slots=True)
 class ToothSide:
-    """Half of a tooth outline from its tip to mid-space: x along the axis of the tooth, y >= 0. Lengths in modules."""
+    """Half of a tooth outline from its tip to the middle of the space: x along the tooth's centre line, y >= 0
+    [module].
+    """
 
     points: Floats
     outward: int
-    """Sign 1, or -1 for a ring, whose teeth point inwards."""
+    """Sign: 1, or -1 for a ring gear, whose teeth point inwards."""
 
     @classmethod
     def of(cls, tooth: Sequence[Vertex], outward: int = 1) -> ToothSide:
-        """Build the half outline from the vertices of one tooth about the x axis, from root to root."""
+        """Return the half outline for the vertices of one tooth about the x axis, from root to root."""
         points = Contour.of((*tooth[:-1], (*tooth[-1][:2], 0.0))).flattened(_CHORD)
+        # the half above the centre line, with the points on it
         upper = points[points[:, 1] >= -1e-12]
         # along a tip or a root circle the azimuth increases
         radius, azimuth = np.hypot(*upper.T), np.arctan2(upper[:, 1], upper[:, 0])
@@ -309,24 +317,26 @@ class ToothSide:
         """Return half the angular thickness of the tooth at a radius [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
+        # all points of the tip circle; only the last of them is needed for the interpolation
         tip = r >= r.max() - 1e-9
         r, azimuth = np.append(r[~tip][::-1], r.max()), np.append(azimuth[~tip][::-1], azimuth[tip].max())
         return float(np.interp(radius * self.outward, r, azimuth))
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle."""
+        """Radius of the tip circle [module]."""
         r = np.hypot(*self.points.T)
         return float(r.max() if self.outward > 0 else r.min())
 
     @property
     def root(self) -> float:
-        """Radius of the root circle."""
+        """Radius of the root circle [module]."""
         r = np.hypot(*self.points.T)
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """Return a force at some radius whose line of action passes the wheel's axis at a distance `arm`:
+        """Return a force at `radius` whose line of action passes the wheel's axis at the distance `arm` [module].
+
         docs/strength.md (4).
         """
         # rounding may put the point of load inside the base circle
@@ -335,8 +345,11 @@ class ToothSide:
         return ToothLoad(radius, arm / cos(angle), angle)
 
     def load_at_tip(self) -> ToothLoad:
-        """Return a force at the end of the flank, normal to its last chord, for teeth without a path of contact."""
+        """Return a force at the end of the flank, normal to its last chord; it is used for teeth without a path of
+        contact.
+        """
         r = np.hypot(*self.points.T)
+        # points off the tip circle
         flank = self.points[np.abs(r - self.tip) > 1e-9]
         end = np.array([self.tip * cos(half := self.half(self.tip)), self.tip * sin(half)])
         along = end - flank[0]
@@ -345,7 +358,8 @@ class ToothSide:
         return ToothLoad(float(hypot(*end)), apex, angle)
 
     def weakest_section(self, load: ToothLoad) -> RootSection:
-        """Find the section of maximum bending stress under a force, in the lower half of the tooth: (5).
+        """Return the section of maximum bending stress under a force, in the lower half of the tooth: docs/strength.md
+        (5).
 
         Sections near the point of a pointed tooth are excluded: they have no thickness, and fail by compression instead
         of bending.
@@ -362,7 +376,9 @@ class ToothSide:
         return RootSection(float(x[at]), float(2 * y[at]), float(factors[at]))
 
     def _sections(self) -> tuple[Floats, Floats]:
-        """Return half the thickness at every height, with points interpolated between those of the outline."""
+        """Return height and half thickness of all sections [module], with points interpolated between those of the
+        outline.
+        """
         x, y = self.points.T
         steps = np.hypot(np.diff(x), np.diff(y))
         s = np.concatenate(([0.0], np.cumsum(steps)))
@@ -375,7 +391,7 @@ class ToothSide:
 
 
 def pin_stress(force: float, length: float, diameter: float) -> float:
-    """Return the bending stress [MPa] of a pin fixed at both ends under a force [N] distributed over its length [mm].
+    """Return the bending stress of a pin fixed at both ends [MPa], under a force [N] distributed over its length [mm].
 
     The moment at its ends is F l/12; sigma = 32 M/(pi d^3).
 

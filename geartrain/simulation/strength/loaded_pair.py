@@ -1,4 +1,4 @@
-"""Strength of one gear pair under its torque, from its declaration."""
+"""Strength of one gear pair under its torque, computed from its declaration."""
 
 from __future__ import annotations
 
@@ -57,14 +57,14 @@ class WheelUnderLoad:
 
     name: str
     gear: int
-    """Number of the gear in its transmission function, 1 or 2."""
+    """Number of the gear in the transmission function, 1 or 2."""
     z: float
-    """Number of teeth; `teeth` are as cut, in modules. For a bevel, both are those of the virtual spur wheel."""
+    """Number of teeth; `teeth` are the cut teeth, in modules. For a bevel, both are those of the virtual spur wheel."""
     teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
     torque: float
-    """Design torque [N m]; `turns` are those relative to its carrier, None if no time is given."""
+    """Design torque [N m]; `turns` are the revolutions relative to the carrier, None if no service life is given."""
     turns: float | None
 
     @property
@@ -74,16 +74,16 @@ class WheelUnderLoad:
 
     @cached_property
     def side(self) -> ToothSide:
-        """Half outline of a tooth."""
+        """Half outline of a tooth [module]."""
         return ToothSide.of(self.teeth.tooth, -1 if self.teeth.kind == "ring" else 1)
 
 
 @dataclass(frozen=True)
 class PairUnderLoad:
-    """Gear pair under load. Lengths in mm."""
+    """Gear pair under load; lengths in mm."""
 
     mesh: GearMesh
-    """Teeth of the pair."""
+    """Mesh of the pair."""
     wheels: tuple[WheelUnderLoad, WheelUnderLoad]
     """Both wheels in the order of the pair."""
     module: float
@@ -93,14 +93,14 @@ class PairUnderLoad:
     wear: WearRange
     """Minimum and maximum wear coefficient."""
     spurs: VirtualSpurs | None = None
-    """Virtual spur pair of bevels."""
+    """Virtual spur pair of bevels; None for other wheels."""
     swing: float = 1.0
-    """Ratio of the design torque for stresses to the mean torque, which determines wear."""
+    """Ratio of the design torque, for stresses, to the mean torque, for wear."""
     remarks: tuple[str, ...] = ()
     """Restrictions that apply to its wheels."""
 
     def strength(self) -> PairStrength:
-        """Compute all figures of the pair."""
+        """Return the stresses, safety factors and wear of the pair."""
         places = self._places()
         iso, roots = self._iso()
         return PairStrength(
@@ -132,24 +132,26 @@ class PairUnderLoad:
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
     def _cone_factor(self, at: int) -> float:
-        """Return the ratio of radii about a bevel's own axis to those of its virtual spur wheel; 1 for spur wheels."""
+        """Return the ratio of radii about a bevel's own axis to radii of its virtual spur wheel; 1 for spur wheels."""
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
     def tangential(self) -> float:
-        """Force along the pitch line [N], the larger of both wheels, because friction reduces the other."""
+        """Tangential force at the pitch line [N]: the larger of both wheels, because friction reduces the other
+        torque.
+        """
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
         # friction reduces the torque on one wheel, so the larger force is used for both
         return max(abs(each.torque) * _MM / arm for each, arm in zip(self.wheels, arms, strict=True))
 
     @property
     def path(self) -> PathOfContact | None:
-        """Path of contact, if there is one."""
+        """Path of contact; None for a form without one."""
         return self.mesh.path if self.spurs is None else self.spurs.pair.path
 
     @cached_property
     def load(self) -> ContactLoad | None:
-        """Load along the path of contact; None if there is none."""
+        """Load along the path of contact; None without a path of contact."""
         path = self.path
         if path is None:
             return None
@@ -222,7 +224,7 @@ class PairUnderLoad:
 
     @property
     def _helical_bending_factor(self) -> float:
-        """Bending stress of a helical tooth over that of a spur tooth with its transverse section.
+        """Bending stress of a helical tooth over that of a spur tooth with the same transverse section.
 
         The whole load of the spur tooth is at one tip. Each element of width carries its part of the lines of contact.
         In the normal section the tooth is thinner and the load is larger.
@@ -237,7 +239,6 @@ class PairUnderLoad:
         return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)
 
     def _tip_load(self, own: WheelUnderLoad) -> ToothLoad:
-        """Return the load at the end of the flank."""
         path = self.path
         if path is None:
             return own.side.load_at_tip()
@@ -246,8 +247,8 @@ class PairUnderLoad:
         return own.side.load_at(tip, arm)
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
-        """Return the section of maximum bending with the whole load at the tip, and the maximum stress [MPa] with
-        shared load.
+        """Return the section of maximum bending with the whole load at the tip, and the maximum stress with shared load
+        [MPa].
         """
         own, load = self.wheels[at], self.load
         if own.teeth.pins is not None:
@@ -277,7 +278,7 @@ class PairUnderLoad:
     # ------------------------------------------------------------------------------------------------- ISO and wear
 
     def _rack_pair(self) -> RackPair | None:
-        """Return both wheels in the transverse section as rack-cut wheels; None if ISO 6336 does not apply."""
+        """Return both wheels in the transverse section as rack-cut wheels; None if ISO 6336 is not applicable."""
         form, load = self.mesh.tooth_form, self.load
         if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
             return None

@@ -1,4 +1,4 @@
-"""Strength of lobes on pins, of pins in holes, and of the pins in bending: docs/strength.md, section 11."""
+"""Strength of lobes on pins and of pins in holes, and bending of the pins: docs/strength.md, section 11."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _MPA, _MM = 1e6, 1e3
 
 @dataclass(frozen=True)
 class PinnedDisc:
-    """Disc loaded by pins."""
+    """Disc of a cycloidal reducer that is loaded by pins."""
 
     wheel: str
     """Name of the disc."""
@@ -42,13 +42,13 @@ class PinnedDisc:
         return elasticity_factor(*both)
 
     def lobes(self, pair: str, disc: CycloidalDisc, module: float) -> PinContact:
-        """Compute the contact of its lobes with the pins of a ring, `module` in mm."""
+        """Return the contact of its lobes with the pins of the ring; `module` in mm."""
         load = lobe_load(disc)
         force = load.force * abs(self.torque) * _MM / (disc.lobes / 2 * module)
         return self._contact(pair, disc.pins, force, load.curvature / module)
 
     def holes(self, coupling: PinsInHoles) -> PinContact | None:
-        """Compute the contact of its holes with the pins of a flange; None if sizes are not declared."""
+        """Return the contact of its holes with the pins of a flange; None if sizes are not declared."""
         if coupling.pin_radius is None or coupling.offset is None or coupling.pin_diameter is None:
             return None
         circle, offset, pin = (
@@ -73,7 +73,7 @@ class PinnedDisc:
 
 
 class PinLoad(NamedTuple):
-    """Force at the contact of maximum pressure, and the sum of both curvatures."""
+    """Force at the contact of maximum pressure, and sum of both curvatures there; normalised as in `lobe_load`."""
 
     force: float
     curvature: float
@@ -82,8 +82,9 @@ class PinLoad(NamedTuple):
 def lobe_load(disc: CycloidalDisc) -> PinLoad:
     """Return the load of the pin with the maximum pressure.
 
-    The force is relative to that at the disc's pitch circle, the curvature to 1/module. The radius of curvature of a
-    convex lobe is that of the curve of centres less that of the pin; that of a concave one is the sum of both (28).
+    The force is over the tangential force at the disc's pitch circle, the curvature in 1/module. The radius of
+    curvature of a convex lobe is that of the curve of centres minus that of the pin; for a concave one it is the sum
+    of both (28).
 
     >>> from geartrain.teeth.cycloidal_disc import CycloidalDisc
     >>> load = lobe_load(CycloidalDisc(11, 25 / 3, 1.0))
@@ -98,7 +99,8 @@ def lobe_load(disc: CycloidalDisc) -> PinLoad:
 
 
 def hole_share(pins: int) -> float:
-    """Return the maximum force on one of the pins in holes, times the radius of their circle, over their torque: (29).
+    """Return the maximum force on one of the pins in holes, times the radius of their circle, over their torque:
+    docs/strength.md (29).
 
     All pins press in the same direction, from their centres to those of the holes; those on one side carry the load.
 
@@ -112,7 +114,8 @@ def hole_share(pins: int) -> float:
 
 
 def held_pin_stress(force: float, length: float, diameter: float) -> float:
-    """Return the von Mises stress [MPa] of a cantilever pin under a force [N] distributed over its length [mm]: (30).
+    """Return the von Mises stress of a cantilever pin [MPa] under a force [N] distributed over its length [mm]:
+    docs/strength.md (30).
 
     At its root the moment F l/2 causes the bending stress 32 M/(pi d^3), and F the mean shear stress over the section.
 

@@ -1,4 +1,4 @@
-"""Report of the strength of a train: each table with the assumptions it is based on."""
+"""Report of the strength of a train; each table follows the assumptions on which it is based."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ _ARBOR = (
 
 @dataclass(frozen=True)
 class StrengthReport(Result):
-    """Strength of a train in every requested state.
+    """Strength of a train in all requested states.
 
     See Also
     --------
@@ -93,12 +93,12 @@ class StrengthReport(Result):
 
 
 def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) -> StrengthReport:
-    """Combine the strength of a train in some states to a report.
+    """Return a report of the strength of a train in some states.
 
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train of the results.
     found : sequence of TrainStrength
         Results of `train.strength`, one for each state.
 
@@ -144,13 +144,15 @@ def describe_strength(found: StrengthReport) -> Document:
 
 
 def strength_document(found: TrainStrength) -> Document | None:
-    """Return the output of `geartrain strength` for one state; None if the train is not known."""
+    """Return the document of the strength in one state, as `geartrain strength` prints it; None if the train is not
+    known.
+    """
     declared = found._declaration
     return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
 
 
 def strength_sections(found: TrainStrength) -> Iterator[Section]:
-    """Yield the sections of one state."""
+    """Yield the sections of the document for one state."""
     head = "" if found.state is None else f"State {found.state}: "
     yield Section(_title(head, "Strength"), tuple(_verdict(found)))
     if found.forces:
@@ -192,10 +194,10 @@ def _verdict(found: TrainStrength) -> Iterator[str]:
     if weakest is not None:
         where = _WHERE[weakest.what]
         yield f"Weakest: '{weakest.part}' {where}, safety {figure(weakest.safety, 3)}."
-    for each in found.left_out:
+    for each in found.neglected:
         swings = "torque variation within a turn of " if each.what == "variation within a turn" else ""
         yield f"Not included: {swings}{', '.join(each.where)}: {each.why}."
-    if found.verdict and not found.pairs and not found.points and not found.pins and not found.left_out:
+    if found.verdict and not found.pairs and not found.points and not found.pins and not found.neglected:
         yield "The train has no loaded gear pair."
 
 

@@ -1,6 +1,4 @@
-"""Results of the strength of a train in one state: forces [N], pressures and stresses [MPa], safety factors, wear;
-lengths in mm.
-"""
+"""Results of the strength of a train in one state: forces [N], stresses [MPa], safety factors, wear; lengths in mm."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ from geartrain.simulation.strength.iso_6336 import IsoContact, IsoRoot
 
 
 class WearRange(NamedTuple):
-    """Figure for the minimum and the maximum wear coefficient."""
+    """Result for the minimum and for the maximum wear coefficient."""
 
     minimum: float
     """Value for the minimum wear coefficient."""
@@ -64,33 +62,34 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     KEYS = (
         *("state", "verdict", "over", "forces", "pairs", "points", "pins", "arbors", "weakest", "turns"),
-        *("wear_coefficients", "left_out"),
+        *("wear_coefficients", "neglected"),
     )
 
     state: str | None
     """Name of the state; None for a train without states."""
     verdict: TorqueVerdict
-    """Verdict on the torques. The other fields are empty if torques do not follow from the loads."""
+    """Verdict on the torques; if the loads do not determine them, the other fields are empty."""
     pairs: Mapping[str, PairStrength] = field(default_factory=dict)
-    """Loaded gear pairs by name."""
+    """Strength of the loaded gear pairs by name."""
     arbors: tuple[ArborStrength, ...] = ()
-    """Results of the declared arbors."""
+    """Strength of the declared arbors."""
     turns: float | None = None
-    """Revolutions of the input over which wear accumulates; None if no time is given."""
+    """Revolutions of the input over which wear accumulates; None if no service life is given."""
     wear_coefficients: WearRange = NO_WEAR
     """Minimum and maximum coefficient K of Archard's law."""
-    left_out: tuple[NeglectedEffect, ...] = ()
+    neglected: tuple[NeglectedEffect, ...] = ()
     """Pairs without results, with the reasons."""
     forces: tuple[WheelForce, ...] = ()
     """Forces of all pairs that carry a torque and whose module is known."""
     points: Mapping[str, PointContact] = field(default_factory=dict)
-    """Loaded gear pairs whose teeth touch at a point, by name."""
+    """Strength of the loaded gear pairs with point contact, by name."""
     over: float | None = None
-    """Revolutions of the input whose maximum torques determine the stresses; None for mean torques. Wear always follows
-    from mean torques.
+    """Revolutions of the input whose maximum torques are used for stresses; None for mean torques.
+
+    Wear is always computed from mean torques.
     """
     pins: Mapping[str, PinContact] = field(default_factory=dict)
-    """Lobes on pins, and pins in holes, by pair or coupling."""
+    """Strength of lobes on pins and of pins in holes, by name of the pair or coupling."""
 
     def _summary(self) -> str:
         weakest = self.weakest
@@ -99,8 +98,8 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety; None if
-        not known.
+        """Columns with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety factors; None if
+        unknown.
         """
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
         names = (
@@ -118,7 +117,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def weakest(self) -> WeakestPart | None:
-        """Part with the minimum safety; None if no strength is known."""
+        """Part with the minimum safety factor; None if no strength is known."""
         # parts without a known strength have no safety factor and are skipped
         found = [
             WeakestPart(wheel.wheel, what, safety)
@@ -149,7 +148,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
 @dataclass(frozen=True)
 class WeakestPart(Result):
-    """Part that fails first.
+    """Part with the minimum safety factor.
 
     See Also
     --------
@@ -179,29 +178,28 @@ class PairStrength(Result):
     pair: str
     """Name of the pair."""
     form: str
-    """Form of its teeth."""
+    """Name of its tooth form."""
     module: float
     """Module [mm]."""
     face_width: float
     """Width of the narrower wheel [mm]."""
     tangential: float
-    """Force along the pitch line [N]."""
+    """Tangential force at the pitch line [N]."""
     elasticity: float
     """Elasticity factor ZE of both materials [sqrt(MPa)]."""
     contact: tuple[ContactPlace, ...]
-    """Pressures along the path of contact, the worst last; empty for a form without a path of contact."""
+    """Pressures along the path of contact, the highest last; empty for a form without a path of contact."""
     iso: IsoContact | None
     """Contact stress by ISO 6336-2; None except for external spur and helical involutes."""
     wheels: tuple[WheelStrength, ...]
-    """Both wheels in the order of the pair."""
+    """Strength of both wheels in the order of the pair."""
     notes: tuple[str, ...] = ()
     """Restrictions that apply, with reasons."""
 
 
 @dataclass(frozen=True)
 class ArborStrength(Result):
-    """Strength of an arbor between its two bearings, whatever the positions of its wheels: docs/strength.md (16), (17)
-    and (26).
+    """Strength of an arbor between two bearings, for any positions of its wheels: docs/strength.md (16), (17) and (26).
 
     See Also
     --------
@@ -218,9 +216,9 @@ class ArborStrength(Result):
     material: str
     """Material of its arbor."""
     force: float
-    """Transverse force of all its meshes, as if they acted in one direction [N]."""
+    """Sum of the transverse forces of all its meshes, as if they acted in one direction [N]."""
     thrust: float
-    """Resultant axial force of all its meshes, which a shoulder carries [N]."""
+    """Resultant axial force of all its meshes, which a shoulder supports [N]."""
     bending: float
     """Maximum bending stress, including the axial stress of the thrust [MPa]."""
     torsion: float
@@ -236,7 +234,7 @@ class ArborStrength(Result):
 
     @property
     def safety(self) -> float | None:
-        """Safety factor: strength over equivalent stress."""
+        """Safety factor: strength over equivalent stress; None if the strength is unknown or the stress is 0."""
         return None if self.strength is None or not self.stress else self.strength / self.stress
 
 
@@ -279,16 +277,18 @@ class WheelStrength(Result):
     iso: IsoRoot | None = None
     """Root stress by ISO 6336-3 for the wheel as cut by a hob."""
     wear: FlankWear | None = None
-    """Wear of its flanks; None if no time or no hardness is given."""
+    """Wear of its flanks; None if the service life or the hardness is unknown."""
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength over `tip_stress`."""
+        """Safety factor of the root: strength over `tip_stress`; None if one is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: pressure at first yield below the surface over `pressure`."""
+        """Safety factor of the flank: pressure at first yield below the surface over `pressure`; None if one is
+        unknown.
+        """
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
 
 
@@ -328,9 +328,9 @@ class WheelForce(Result):
     wheel: str
     """Name of the wheel."""
     radius: float
-    """Operating pitch radius; for a bevel, in the middle of its declared width [mm]."""
+    """Operating pitch radius [mm]; for a bevel, at the middle of its declared width."""
     tangential: float
-    """Force along the pitch circle, with the sign of its torque [N].
+    """Tangential force at the pitch circle, with the sign of the torque [N].
 
     On parallel axes and on bevels both wheels of a pair have the same force, from the larger torque over radius,
     because friction reduces the other torque.
@@ -338,8 +338,8 @@ class WheelForce(Result):
     axial: float
     """Axial force, positive along the direction of the wheel's axis [N]."""
     radial: float | None
-    """Radial force, positive towards the wheel's axis, negative for a ring [N]; None if the pressure angle at the pitch
-    point is not known.
+    """Radial force [N], positive towards the wheel's axis, negative for a ring; None if the pressure angle is
+    unknown.
     """
     torque: float
     """Torque on the wheel [N m]."""
@@ -347,7 +347,7 @@ class WheelForce(Result):
 
 @dataclass(frozen=True)
 class FlankStrength(Result):
-    """Strength of a wheel whose teeth have point contact.
+    """Strength of a wheel with point contact.
 
     See Also
     --------
@@ -365,13 +365,15 @@ class FlankStrength(Result):
     spread: float | None
     """Relative uncertainty of the strength; None if it is not known."""
     safety: float | None
-    """Safety factor of the flank: pressure at first yield below the surface over the contact pressure."""
+    """Safety factor of the flank: pressure at first yield below the surface over the contact pressure; None if
+    unknown.
+    """
     tip_stress: float | None = None
     """Root stress with the whole load on one tooth pair at the tip [MPa]; None if the virtual teeth cannot be cut."""
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength over `tip_stress`."""
+        """Safety factor of the root: strength over `tip_stress`; None if one is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
 
@@ -389,7 +391,7 @@ class PointContact(Result):
     contact_ratio: float
     """Contact ratio."""
     normal_force: float
-    """Normal force on the flanks, of all tooth pairs together [N]."""
+    """Total normal force on the flanks of all tooth pairs in contact [N]."""
     pitch_pressure: float
     """Contact pressure at the pitch point [MPa]."""
     pressure: float
@@ -399,7 +401,7 @@ class PointContact(Result):
     shorter: float
     """Semi-minor axis of the contact ellipse [mm]."""
     wheels: tuple[FlankStrength, ...]
-    """Both wheels in the order of the pair."""
+    """Strength of both wheels in the order of the pair."""
     notes: tuple[str, ...] = ()
     """Restrictions that apply, with reasons."""
 
@@ -443,10 +445,10 @@ class PinContact(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield below the surface over `pressure`."""
+        """Safety factor of the contact: pressure at first yield below the surface over `pressure`; None if unknown."""
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property
     def pin_safety(self) -> float | None:
-        """Safety factor of the pins: strength over `pin_stress`."""
+        """Safety factor of the pins: strength over `pin_stress`; None if one is unknown."""
         return None if self.pin_strength is None or not self.pin_stress else self.pin_strength / self.pin_stress

@@ -1,7 +1,4 @@
-"""Forces at the pitch points of a train under load: tangential, axial and radial.
-
-Equations (18) and (19) of docs/strength.md.
-"""
+"""Tangential, axial and radial forces at the pitch points of a train under load, docs/strength.md (18) and (19)."""
 
 from __future__ import annotations
 
@@ -42,7 +39,7 @@ class ToothForces:
     pairs: Mapping[str, PairTorque]
     """Torques by pair."""
     meshes: Mapping[str, GearMesh]
-    """Pairs with real teeth."""
+    """Pairs with real teeth by name."""
     swings: Mapping[str, float] = field(default_factory=dict)
     """Ratio of the design torque to the mean torque, by pair."""
 
@@ -82,13 +79,15 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float]) -> list[tuple[float, float]]:
-        """Return radii with tangential forces: the larger force on both wheels, because friction reduces one torque."""
+        """Return radii with tangential forces: the larger force for both wheels, because friction reduces one
+        torque.
+        """
         pushes = [load / radius for load, radius in zip(loads, radii, strict=True)]
         maximum = max(map(abs, pushes))
         return [(radius, copysign(maximum, push)) for radius, push in zip(radii, pushes, strict=True)]
 
     def is_crossed(self, circuit: Circuit) -> bool:
-        """Return whether a pair has helical wheels, or a worm and its wheel, on crossed axes."""
+        """Return True for a pair of helical wheels, or of a worm and its wheel, on crossed axes."""
         if any(self._wheel(circuit, at).kind not in ("spur", "worm") for at in (0, 1)):
             return False
         return not self._is_parallel(circuit) and _shaft_angle(self.setting, circuit) is None
@@ -108,7 +107,7 @@ class ToothForces:
         )
 
     def involute_of(self, circuit: Circuit) -> Involute:
-        """Return the tooth form of wheels on crossed axes: as declared, otherwise standard involutes."""
+        """Return the tooth form of wheels on crossed axes: the declared form, otherwise standard involutes."""
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return form if isinstance(form, Involute) else Involute(form="involute")
 
@@ -129,7 +128,7 @@ class ToothForces:
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
 
     def _angle(self, circuit: Circuit) -> float:
-        """Return the normal pressure angle [rad] for teeth without a path of contact."""
+        """Return the normal pressure angle of a pair without a path of contact [rad]."""
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
 
@@ -156,7 +155,9 @@ class ToothForces:
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """Return the radius and forces of a wheel on crossed axes, with friction of sliding along the teeth."""
+        """Return the radius [mm] and the forces [N] of a wheel on crossed axes, with friction of sliding along the
+        teeth.
+        """
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
@@ -175,7 +176,7 @@ class ToothForces:
 
 
 def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
-    """Return the shaft angle of intersecting axes [rad]; None for others."""
+    """Return the shaft angle of intersecting axes [rad]; None for other axes."""
     try:
         return shaft_angle(setting.train, setting.tree, circuit)
     except RangeError:
@@ -197,7 +198,7 @@ class PitchForce(NamedTuple):
 
 
 def helical_force(tangential: float, helix: float, pressure_angle: float, friction_angle: float = 0.0) -> PitchForce:
-    """Return the force on a wheel with a helix angle, 0 for spur wheels: docs/strength.md (18).
+    """Return the force on a wheel at its pitch point: docs/strength.md (18). The helix angle is 0 for spur wheels.
 
     Parameters
     ----------
@@ -228,10 +229,10 @@ def helical_force(tangential: float, helix: float, pressure_angle: float, fricti
 
 
 def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: int = 1) -> PitchForce:
-    """Return the force on a straight bevel with a half-angle of its pitch cone [rad]: docs/strength.md (19).
+    """Return the force on a straight bevel at its pitch point: docs/strength.md (19).
 
-    `facing` is 1 if the wheel lies from the apex along the direction of its axis, and -1 otherwise. The axial force
-    acts away from the apex.
+    `cone` is the half-angle of its pitch cone [rad]. `facing` is 1 if the wheel lies from the apex along the
+    direction of its axis, and -1 otherwise. The axial force acts away from the apex.
     """
     apart = abs(tangential) * tan(pressure_angle)
     return PitchForce(tangential, facing * apart * sin(cone), apart * cos(cone))

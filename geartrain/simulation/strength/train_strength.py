@@ -1,4 +1,4 @@
-"""Strength of every gear pair of a train under its torque, and of its arbors."""
+"""Strength of all gear pairs of a train under their torques, and of its arbors."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _PINS = "steel"  # material of the pins of couplings if the train declares none
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Compute pressures, root stresses, safety factors and wear under the loads of one state; see
+    """Return pressures, root stresses, safety factors and wear under the loads of one state; see
     `GearTrain.strength`.
     """
     check_numbers(over=over)
@@ -58,8 +58,10 @@ def solve_strength(
     if not found.verdict or loads is None:
         return TrainStrength(found.state, found.verdict)
     if not has_torque_units(train.declaration, found.state):
-        what = "stresses require torques with a unit"
-        raise QuestionError(Problem(what, "the declared loads are plain numbers", "write for example `-0.5 N m`"))
+        what = "the loads have no unit"
+        raise QuestionError(
+            Problem(what, "stresses are computed from torques in N m", "declare them with a unit, such as `-0.5 N m`")
+        )
     scale = service.time(train, found.state)
     covered = None if scale is None else scale * _input_speed(train, found.state)
     question = StrengthQuestion(train, loads, found, train.meshes_in(found.state), scale, covered, own)
@@ -77,7 +79,7 @@ def solve_strength(
 
 @dataclass(frozen=True)
 class Service:
-    """Service life of a train, and its range of wear coefficients."""
+    """Service life of a train, and range of its wear coefficients."""
 
     turns: float | None = None
     """Revolutions of the input; None if wear is not requested, or `years` is given."""
@@ -87,7 +89,9 @@ class Service:
     """Minimum and maximum wear coefficient; None for `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
-        """Return the wear coefficients; raise `QuestionError` if they are not a range, or a time is not a number."""
+        """Return the range of wear coefficients. Raises `QuestionError` if it is not a range, or a time is not a
+        number.
+        """
         check_numbers(turns=self.turns, years=self.years)
         own = WearRange(*(self.wear or WEAR_RANGE))
         if not 0 < own.minimum <= own.maximum < inf:
@@ -98,19 +102,25 @@ class Service:
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Return the total revolutions of a link whose speed is 1; None if no time is given."""
+        """Return the total revolutions of a link per unit of its relative speed; None if no service life is given."""
         turns, years = self.turns, self.years
         if turns is None and years is None:
             return None
         if turns is not None and years is not None:
             raise QuestionError(
-                Problem("both turns and years are given", "the service life is given once", "omit one of them")
+                Problem(
+                    "both turns and years are given",
+                    "they are two ways to give the service life",
+                    "omit --turns or --years",
+                )
             )
         for name, value in (("turns", turns), ("years", years)):
             if value is not None and not 0 < value < inf:
                 raise QuestionError(
                     Problem(
-                        f"a service life of {value:g} {name}", "it must be positive and finite", "give a number above 0"
+                        f"a service life of {value:g} {name} is out of range",
+                        "it must be positive and finite",
+                        "give a number above 0",
                     )
                 )
         speed, declared = _input_speed(train, state), train.declaration
@@ -135,7 +145,7 @@ class Service:
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Return the speed of the reference input: the crank, otherwise the first input that turns."""
+    """Return the speed of the reference input: the crank, or else the first input that turns."""
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):
@@ -148,16 +158,16 @@ def _input_speed(train: TrainMechanics, state: str | None) -> float:
 
 @dataclass(frozen=True)
 class StrengthQuestion:
-    """Request for the strength of a loaded train."""
+    """Strength analysis of a train under the loads of one state."""
 
     train: TrainMechanics
-    """Train; `setting` is its load case, and `torques` the solution for it."""
+    """Train; `setting` is its load case, and `torques` are the torques of that case."""
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
-    """Pairs with real teeth, with their drivers in this case."""
+    """Pairs with real teeth, with their drivers in this load case."""
     scale: float | None
-    """Total revolutions for a speed of 1; None if wear is not requested. `turns` are the revolutions of the input."""
+    """Total revolutions per unit of relative speed; None if wear is not requested. `turns` are those of the input."""
     turns: float | None
     wear: WearRange
     """Minimum and maximum wear coefficient."""
@@ -165,7 +175,7 @@ class StrengthQuestion:
     """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
     maximum: Mapping[str, float] = field(default_factory=dict)
     """Maximum torque on the driven side of each pair in these revolutions [N m]."""
-    left_out: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
+    neglected: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
     def declared(self) -> Train:
@@ -174,12 +184,12 @@ class StrengthQuestion:
 
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Modules by wheel [m]."""
+        """Module by wheel [m]."""
         return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Teeth by wheel, as cut for all mates."""
+        """Cut teeth by wheel, suited to all mates."""
         return self._cut.wheels
 
     @cached_property
@@ -200,7 +210,7 @@ class StrengthQuestion:
         return found
 
     def answer(self) -> TrainStrength:
-        """Compute the strength of all pairs and arbors."""
+        """Return the strength of all pairs and arbors."""
         meshes = {mesh.name: mesh for mesh in self.meshes}
         forces = ToothForces(self.setting, self.modules, self.torques.pairs, meshes, self.swings)
         wheel_forces = tuple(forces.find())
@@ -210,7 +220,7 @@ class StrengthQuestion:
         for gear in self.declared.gears:
             mesh = meshes.get(gear.name)
             # discs and crossed wheels are treated separately
-            if gear.name in self.left_out or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
+            if gear.name in self.neglected or gear.name in points or (mesh and isinstance(mesh, DiscMesh)):
                 continue
             pair = self._pair(gear, meshes.get(gear.name), self.torques.pairs[gear.name])
             if pair is not None:
@@ -223,23 +233,23 @@ class StrengthQuestion:
             arbors,
             self.turns,
             self.wear,
-            self._all_left_out(),
+            self._all_neglected(),
             wheel_forces,
             points,
             self.over,
             pins,
         )
 
-    def _all_left_out(self) -> tuple[NeglectedEffect, ...]:
-        """Return omitted pairs in the order of the declaration, then arbors, then varying torques."""
-        swinging = [each for each in self.torques.left_out if each.what == "variation within a turn"]
+    def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
+        """Return omitted pairs in the order of the declaration, then arbors, then variation of torques."""
+        swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
-            why = "stresses follow from mean torques; `--over` uses the maximum over some turns"
+            why = "stresses follow from mean torques; `--peak-turns` uses the maximum over some turns"
             for each in swinging:
-                self.left_out[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
+                self.neglected[f"swing of {', '.join(each.where)}"] = NeglectedEffect(each.what, each.where, why)
         order = {gear.name: at for at, gear in enumerate(self.declared.gears)}
         return tuple(
-            self.left_out[name] for name in sorted(self.left_out, key=lambda name: order.get(name, len(order)))
+            self.neglected[name] for name in sorted(self.neglected, key=lambda name: order.get(name, len(order)))
         )
 
     def _skew_pairs(self, forces: ToothForces, wheel_forces: Sequence[WheelForce]) -> Iterator[SkewPair]:
@@ -270,7 +280,7 @@ class StrengthQuestion:
     # -------------------------------------------------------------------------------------------------------- pins
 
     def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
-        """Yield contacts of lobes among pins, and of pins in holes of wheels with a declared width and material."""
+        """Yield contacts of lobes on pins and of pins in holes, for wheels with a declared width and material."""
         for gear in self.declared.gears:
             mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
             if not isinstance(mesh, DiscMesh):
@@ -352,9 +362,7 @@ class StrengthQuestion:
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Return the teeth of a wheel as cut for all mates, or as this pair requires if faults of another pair prevent
-        that.
-        """
+        """Return the teeth of a wheel cut for all mates, or for this pair only if another pair has faults."""
         if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:
@@ -369,10 +377,10 @@ class StrengthQuestion:
         return next((other.name for other in others if other.faults), None)
 
     def _leave_out(self, pair: str, why: str) -> None:
-        self.left_out[pair] = NeglectedEffect("strength", (pair,), why)
+        self.neglected[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield what is not known for a pair, or not supported."""
+        """Yield texts on data that a pair lacks, and on features that are not supported."""
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
         elif mesh.path is None and mesh.own_size is None:
@@ -392,7 +400,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
     def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield what is missing for a pair of any kind."""
+        """Yield texts on data that a pair of any kind lacks."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
@@ -405,7 +413,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no `module`"
 
     def _width(self, wheel: Wheel) -> float:
-        """Return the width of a wheel's teeth [m], 0 if it is not known."""
+        """Return the width of a wheel's teeth [m]; 0 if it is not known."""
         found = face_width(self.declared, wheel)
         return 0.0 if found is None else found.si
 
@@ -413,7 +421,7 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Return the revolutions of one wheel relative to the carrier over the given time."""
+        """Return the revolutions of one wheel relative to the carrier over the service life."""
         if self.scale is None:
             return None
         relative = self.setting.relative(torque.links[at], torque.links[2])
@@ -437,14 +445,14 @@ class StrengthQuestion:
                 why = (
                     f"the force of '{unknown[0]}' is not known: its wheels have no `module`, or one is a contrate wheel"
                 )
-                self.left_out[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
+                self.neglected[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
             load = ArborLoad.of(own, steepest)
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), load)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Return pairs of some wheels that carry a torque and whose forces are not known."""
+        """Return the names of pairs of some wheels that carry a torque and whose forces are not known."""
         known = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs
@@ -460,20 +468,20 @@ class StrengthQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ArborLoad:
-    """Bounds of the load on an arbor by its wheels, as if all transverse forces acted in one direction."""
+    """Upper bounds of the load on an arbor by its wheels, as if all transverse forces acted in one direction."""
 
     across: float
     """Sum of the transverse forces [N]."""
     along: float
-    """Maximum sum of axial forces of one sign [N]; `thrust` is the resultant on its shoulders."""
+    """Maximum sum of the axial forces of one sign [N]; `thrust` is the resultant axial force on its shoulders [N]."""
     thrust: float
     couple: float
-    """Moment of the axial forces at their radii [N mm]; `torque` in N mm."""
+    """Moment of the axial forces at their radii [N mm]; `torque` is the torque [N mm]."""
     torque: float
 
     @classmethod
     def of(cls, forces: Iterable[WheelForce], steepest: Mapping[str, float]) -> ArborLoad:
-        """Return the load by the wheels on one arbor.
+        """Return the load on an arbor by the forces on its wheels.
 
         steepest   force of one tooth pair in single contact, by pair where it is known [N]
         """
@@ -490,8 +498,9 @@ class ArborLoad:
 
 
 def arbor_strength(link: str, arbor: ArborSizes, material: Material, load: ArborLoad) -> ArborStrength:
-    """Compute the strength of an arbor between two bearings for any positions of its wheels: docs/strength.md (16),
-    (17) and (26).
+    """Return the strength of an arbor between two bearings for any positions of its wheels.
+
+    docs/strength.md (16), (17) and (26).
     """
     diameter, span = arbor.diameter.si * 1e3, arbor.span.si * 1e3
     pivot = diameter if arbor.pivot is None else arbor.pivot.si * 1e3

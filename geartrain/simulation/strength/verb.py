@@ -14,7 +14,8 @@ def run(
     state: StateName = None,
     json: Json = False,
     turns: Annotated[
-        float | None, typer.Option("--turns", min=0, help="Compute wear over this number of turns of the input.")
+        float | None,
+        typer.Option("--turns", min=0, help="Compute wear over this number of revolutions of the driving link."),
     ] = None,
     years: Annotated[
         float | None,
@@ -27,15 +28,18 @@ def run(
     over: Annotated[
         float | None,
         typer.Option(
-            "--over",
+            "--peak-turns",
             min=0,
-            help="Use the maximum torques over this number of turns for stresses; default: mean torques.",
+            help="Use the maximum torques over this number of revolutions for stresses; default: mean torques.",
         ),
     ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute contact pressure, root stress and safety of every pair under the declared loads, arbors, and wear."""
+    """Compute contact pressure, root stress and safety of every pair under the declared loads, arbors, and wear.
+
+    Example: `geartrain strength longcase-clock-loaded --years 10`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.simulation.strength.strength_report import collect_strength_report, describe_strength
 

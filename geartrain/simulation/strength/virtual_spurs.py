@@ -53,7 +53,7 @@ class ConeMiddle:
     cones: PitchSurfaces
     """Pitch cones of gears 1 and 2."""
     module: float
-    """Module at the large ends; `width` of the teeth, from there towards the apex."""
+    """Module at the large ends; `width` is the width of the teeth from there towards the apex."""
     width: float
 
     @property
@@ -63,7 +63,7 @@ class ConeMiddle:
 
     @property
     def shrunk(self) -> float:
-        """Ratio of lengths at mid-width to those at the large ends."""
+        """Ratio of lengths at mid-width to lengths at the large ends."""
         return 1 - self.width / 2 / self.reach
 
     def cone(self, gear: int) -> float:
@@ -84,7 +84,7 @@ class VirtualSpurs:
 
     @classmethod
     def of(cls, mesh: GearMesh, module: float, width: float) -> VirtualSpurs | None:
-        """Build the virtual pair from the module at the large ends and the width; None for axes that do not
+        """Return the virtual pair for the module at the large ends and the width; None for axes that do not
         intersect.
         """
         form = mesh.tooth_form
@@ -94,7 +94,7 @@ class VirtualSpurs:
 
     @property
     def why_not(self) -> str:
-        """Reason why the virtual pair does not exist; "" if it exists."""
+        """Reason why the virtual pair does not exist; empty if it exists."""
         if self.middle.shrunk <= 1 / 2:
             return "the width of its teeth exceeds the cone distance"
         # the virtual number of teeth goes to infinity for a crown wheel
@@ -108,12 +108,12 @@ class VirtualSpurs:
         return self.middle.width > _WIDEST * self.middle.reach
 
     def count(self, gear: int) -> float:
-        """Return the virtual number of teeth, not an integer."""
+        """Return the virtual number of teeth, in general not an integer."""
         return self.middle.cones.teeth_of(gear) / cos(self.middle.cone(gear))
 
     @cached_property
     def wheels(self) -> WheelPair:
-        """Both virtual wheels at the large end, where lengths are declared."""
+        """Both virtual wheels, with the module at the large ends, to which declared lengths refer."""
         return WheelPair(self.count(1), self.count(2), module=self.middle.module)
 
     @cached_property
@@ -122,7 +122,7 @@ class VirtualSpurs:
         return self.form.pair(self.wheels)
 
     def teeth(self, gear: int) -> CutTooth:
-        """Return the cut teeth of one virtual wheel."""
+        """Return the cut tooth of one virtual wheel."""
         free = self.form.bottom_clearance(self.wheels, gear)
         clearance = CLEARANCE if free is None else max(free, 0.0)
         return ToothRequirement(self.pair, gear, CHORD, clearance, self.form.lantern_pins(self.wheels)).cut([])
@@ -144,10 +144,10 @@ class NormalSpurs:
             return None
 
     def root_stress(self, at: int, force: float) -> float | None:
-        """Return the root stress [MPa] of a tooth under a normal force [N] at its tip; None if the virtual teeth cannot
-        be cut.
+        """Return the root stress of a tooth under a normal force at its tip [MPa]; None if the virtual teeth cannot be
+        cut.
 
-        The force is distributed over twice its lever arm, limited by the length of the tooth.
+        The force [N] is distributed over twice its lever arm, limited by the length of the tooth.
         """
         if self._pair is None:
             return None
@@ -174,17 +174,17 @@ class SkewPair:
     """Pair on crossed axes with the forces on both wheels, in the order of the pair."""
 
     wheels: CrossedWheels
-    """Geometry of both wheels; `forces` are those on each wheel."""
+    """Geometry of both wheels; `forces` are the forces on each wheel."""
     forces: tuple[WheelForce, WheelForce]
     materials: tuple[tuple[str, Material], tuple[str, Material]]
-    """Materials with their names."""
+    """Materials of both wheels with their names."""
     is_worm: bool
     """True if one wheel is a worm."""
     form: Involute
     """Tooth form in the normal section."""
 
     def contact(self) -> PointContact:
-        """Compute the contact of the pair."""
+        """Return the point contact of the pair with its stresses."""
         # the separating force is a fixed fraction of the normal force, whatever the friction
         normal = max(abs(each.radial or 0.0) for each in self.forces) / sin(self.wheels.pressure_angle)
         elasticities = (

@@ -1,4 +1,4 @@
-"""Figures of a run: times in contact, energies, outputs, spectra, and the comparison of two time steps."""
+"""Results of a run: times in contact, energies, outputs, spectra, and the comparison of two time steps."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ _Figure = tuple[str, str, float, Literal["mean", "extreme"]]
 
 @dataclass(frozen=True)
 class RunFigures:
-    """Figures of one run of a train, with some outputs."""
+    """Results of one run of a train, with some outputs."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
@@ -94,7 +94,7 @@ class RunFigures:
 
     @cached_property
     def turned(self) -> Floats:
-        """Angles of all links since the start [rad]. Shape (links, samples)."""
+        """Angles through which all links have turned since the start [rad], shape (links, samples)."""
         # angles of links are the same linear forms of the coordinates as speeds
         found: Floats = self.of.speeds @ self.run.angles.T
         return found
@@ -110,12 +110,12 @@ class RunFigures:
 
     @cached_property
     def names(self) -> list[str]:
-        """Names of pairs and pins, and of links with an escapement."""
+        """Names of pairs and pins, and of links with an escapement, in the order of the kernels."""
         return [pair.name for pair in self.of.model.pairs] + [stop.name for stop in self.of.model.stops]
 
     @cached_property
     def contacts(self) -> tuple[ContactInTime, ...]:
-        """Figures of each contact."""
+        """Results of each contact."""
         steps, time = self.plan.steps, self.duration
         return tuple(
             ContactInTime(
@@ -136,7 +136,9 @@ class RunFigures:
         )
 
     def _peaks_of_contacts(self) -> Iterator[tuple[float | None, float | None]]:
-        """Return the maximum torque of each contact, and the quasi-static one; None for rigid contacts."""
+        """Yield the maximum torque of each contact and its maximum quasi-static torque [N m]; None for rigid
+        contacts.
+        """
         if self.run.peaks is None:
             return repeat((None, None), len(self.names))
         return zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
@@ -185,9 +187,7 @@ class RunFigures:
 
     @property
     def _other_work(self) -> float:
-        """Work of the other links with prescribed speeds [J]: their mean torques over the samples, times
-        their angles.
-        """
+        """Work of the other links with prescribed speeds [J]: mean torques over the samples times angles."""
         others = {
             link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
         }
@@ -203,7 +203,7 @@ class RunFigures:
 
     @cached_property
     def differences(self) -> dict[str, Floats]:
-        """Angle by which each output is ahead of the motion in which all drive flanks touch [rad]."""
+        """Angle by which each output is ahead of the motion with all drive flanks in contact [rad]."""
         motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
         names = list(motion.outputs)
         at = motion.at(np.append(turns, 0.0)).error if motion._forward.used else np.zeros((len(names), len(turns) + 1))
@@ -223,7 +223,7 @@ class RunFigures:
 
     @cached_property
     def deviations(self) -> tuple[OutputDeviation, ...]:
-        """Maximum and rms deviations of the outputs."""
+        """Maximum and rms deviation of each output."""
         counted = {name: each[self.first :] for name, each in self.differences.items()}
         return tuple(
             OutputDeviation(
@@ -236,7 +236,7 @@ class RunFigures:
         )
 
     def means(self) -> Iterator[_Figure]:
-        """Yield the means over the run."""
+        """Yield the mean values of the run: name, unit, value and kind."""
         yield "torque of the drive", "N m", self.torque, "mean"
         yield "impact power", "W", self.energy.impact_loss / self.duration, "mean"
         for each in self.contacts:
@@ -244,12 +244,12 @@ class RunFigures:
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
 
     def intervals(self) -> list[float | None]:
-        """Return half the 95 % confidence interval of each mean; None for short runs."""
+        """Return half the 95 % confidence interval of each mean value; None for short runs."""
         blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
     def extremes(self) -> Iterator[_Figure]:
-        """Yield the maximum values of the run."""
+        """Yield the maximum values of the run: name, unit, value and kind."""
         for each in self.contacts:
             if each.impact_rate:
                 yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
@@ -261,7 +261,7 @@ class RunFigures:
 
     @cached_property
     def gaps(self) -> tuple[Floats, Floats]:
-        """Gaps of each driven side to its drive flank, and to its coast flank [rad]. Shape (pairs, samples)."""
+        """Gaps of each driven side to its drive flank and to its coast flank [rad], shape (pairs, samples)."""
         angles, found = self.run.angles, np.zeros((2, len(self.of.model.pairs), len(self.time)))
         for row, pair in enumerate(self.of.model.pairs):
             S, q = (
@@ -273,7 +273,7 @@ class RunFigures:
         return found[0], found[1]
 
     def result(self, coarse: RunFigures | None) -> TimeRun:
-        """Return the result of this run, compared with a coarser one; None if only one run is available."""
+        """Return the result of this run, compared with the coarser run; without a comparison if that is None."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]
@@ -314,7 +314,7 @@ class RunFigures:
         )
 
     def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
-        """Yield every figure together with its value at the longer time step."""
+        """Yield every result with its value at the longer time step."""
         # a contact may have impacts in only one of the runs
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
@@ -391,7 +391,7 @@ def batch_half_width(means: Floats) -> float | None:
 
 
 def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, float]) -> list[SpectrumPeak]:
-    """Find the strongest lines of a spectrum under a Hann window.
+    """Return the strongest lines of a spectrum under a Hann window.
 
     time     evenly spaced [s]; `angle` [rad], whose mean motion is removed
     rate     revolutions of the driving link per second
@@ -415,7 +415,7 @@ def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, fl
 
 
 def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
-    """Compute frequencies [Hz] and amplitudes [rad] under a Hann window after removing the mean motion.
+    """Return frequencies [Hz] and amplitudes [rad] under a Hann window, after the mean motion is removed.
 
     Both are empty if there are too few samples.
     """
@@ -430,7 +430,9 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return the lowest harmonic of a pair within the resolution, with its name."""
+    """Return harmonic and name of the pair with the lowest harmonic at an order, within the resolution; empty without
+    one.
+    """
     near = [
         (harmonic, name)
         for name, own in cycles.items()

@@ -27,16 +27,16 @@ if TYPE_CHECKING:
 
 
 FLIGHT = 4
-"""Number of consecutive steps without torque that counts as a separation.
+"""Number of consecutive steps without torque that is a separation.
 
 An impact within a step may open flanks for one or two.
 """
 FINER = 8
-"""Ratio of successive time steps."""
+"""Factor between successive time steps."""
 
 _BEFORE, _AFTER = 24, 12  # longer steps before and after a position that are repeated with shorter ones
 STEPS = (_BEFORE + _AFTER) * FINER
-"""Steps of one run about a position."""
+"""Number of steps of one run about a position."""
 _SETTLE = 8  # steps after a start that are ignored
 _SURE = 1e-5  # relative width of the bracket of a rate
 _PLACE_TRIES = 40
@@ -55,20 +55,20 @@ _KEPT = 16, 6, 3  # numbers of positions that are refined with each shorter time
 
 
 class SeparationPosition(NamedTuple):
-    """Position at which a pair may separate, with bounds of the rate."""
+    """Position at which a pair may separate, with bounds of the rate over the rate of the model."""
 
     pair: int
     """Index of the pair."""
     angle: Floats
-    """Angles of the coordinates shortly before [rad]."""
+    """Angles of the coordinates shortly before the position [rad]."""
     speed: Floats
-    """Speeds of the coordinates shortly before, at the rate of the model [rad/s]."""
+    """Speeds of the coordinates shortly before the position, at the rate of the model [rad/s]."""
     turns: float
     """Position of the input [revolutions]."""
     holds: float
-    """Rate at which the pair touches, over that of the model."""
+    """Rate at which the flanks of the pair touch, over the rate of the model."""
     parts: float
-    """Rate at which the pair separates, over that of the model."""
+    """Rate at which the flanks of the pair separate, over the rate of the model."""
 
 
 @dataclass(frozen=True)
@@ -76,11 +76,11 @@ class SeparationSearch:
     """Simulation of a train about single positions."""
 
     model: ContactModel
-    """Model at one rate of the input; `turn` is the time of one revolution [s]."""
+    """Model at one rate of the input; `turn` is the duration of one revolution [s]."""
     turn: float
     fast: bool
     advance: Callable[[int], object]
-    """Function called with the steps of each run; the search ends with `StoppedSearchError` if it returns True."""
+    """Function called with the number of steps of each run; if it returns True, `StoppedSearchError` is raised."""
 
     @property
     def loose(self) -> list[int]:
@@ -90,7 +90,7 @@ class SeparationSearch:
     def run(
         self, share: float, plan: StepPlan, angle: Floats | None = None, speed: Floats | None = None
     ) -> SimulatedRun:
-        """Simulate at a fraction of the model's rate, from the start or from another state."""
+        """Return a simulated run at the fraction `share` of the model's rate, from the start or from another state."""
 
         def on_done(steps: int) -> None:
             if self.advance(steps) is True:
@@ -122,7 +122,7 @@ class SeparationSearch:
         return places
 
     def finer(self, place: SeparationPosition, step: float) -> SeparationPosition:
-        """Refine a position with a shorter time step [s at the model's rate].
+        """Return a position refined with a shorter time step [s at the model's rate].
 
         The rates bracket the one at which its pair carries no torque for several steps.
         """
@@ -158,11 +158,11 @@ class SeparationSearch:
 
 
 class StoppedSearchError(Exception):
-    """Exception raised if the caller stops the search."""
+    """Error raised when the caller stops the search."""
 
 
 def _next(known: Sequence[tuple[float, float]], low: float, high: float) -> float | None:
-    """Return the next rate to try: where the last two torques extrapolate to 0, otherwise by bisection."""
+    """Return the next rate to try: where the last two torques extrapolate to 0, or else the middle of the bracket."""
     if len(known) > 1:
         (one, first), (other, second) = sorted(known)[-2:]
         found = float(_vanishing(np.array([first]), one, np.array([second]), other)[0])
@@ -176,7 +176,9 @@ def _next(known: Sequence[tuple[float, float]], low: float, high: float) -> floa
 
 
 def _vanishing(first: Floats, slow: float, second: Floats, quick: float) -> Floats:
-    """Return the rate at which a torque D + A w^2 vanishes, from two values; infinite if it never does."""
+    """Return the rate at which a torque D + A w^2 vanishes, from its values at two rates; infinite if it never
+    vanishes.
+    """
     fall = first - second
     with np.errstate(divide="ignore", invalid="ignore"):
         # root of D + A w^2 from its values at two rates
@@ -185,7 +187,9 @@ def _vanishing(first: Floats, slow: float, second: Floats, quick: float) -> Floa
 
 
 def _minimum(forces: Floats) -> tuple[float, int]:
-    """Return the minimum torque that a pair carries during consecutive steps, and the middle step."""
+    """Return the minimum torque that a pair transmits during `FLIGHT` consecutive steps, and the index of the middle
+    step.
+    """
     # a separation lasts several steps, so the maximum over consecutive steps must vanish
     spans = np.lib.stride_tricks.sliding_window_view(forces, FLIGHT).max(axis=1)[_SETTLE:]
     at = int(spans.argmin())
@@ -193,7 +197,7 @@ def _minimum(forces: Floats) -> tuple[float, int]:
 
 
 def _lowest(rates: Floats, most: int) -> Iterator[int]:
-    """Yield the positions of the lowest rates that are local minima."""
+    """Yield the indices of the lowest rates that are local minima."""
     inner = rates.copy()
     inner[:3] = inf
     for at in np.argsort(inner, kind="stable")[: 8 * most]:
@@ -205,7 +209,7 @@ def _lowest(rates: Floats, most: int) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class SteppedSeparation(Result):
-    """Rate of the input at which teeth first separate by time stepping, without restitution.
+    """Rate of the input at which teeth first separate, found by time stepping without restitution.
 
     See Also
     --------
@@ -213,25 +217,25 @@ class SteppedSeparation(Result):
     """
 
     input: str
-    """Link whose rate it is."""
+    """Link whose rate is given."""
     turns: float
     """Simulated range of the input from the start [turn]."""
     predicted: float
-    """Rate by the closed-form condition, over the same range [turn/s]."""
+    """Rate by the closed-form condition over the same range [turn/s]."""
     rate: float | None
-    """Rate by ever shorter time steps [turn/s]; None if none was found nearby."""
+    """Rate found with ever shorter time steps [turn/s]; None if no separation was found near the predicted rate."""
     error: float | None
     """Error bound due to the time step [turn/s]."""
     pair: str | None
-    """Pair that separates."""
+    """Name of the pair that separates."""
     at: float | None
     """Position of the input at which it separates [turn]."""
     holds: float | None
-    """Maximum tried rate at which all flanks touch, with the shortest time step [turn/s]."""
+    """Maximum tested rate at which all flanks touch, with the shortest time step [turn/s]."""
     parts: float | None
-    """Minimum tried rate at which some flanks separate, with the shortest time step [turn/s]."""
+    """Minimum tested rate at which some flanks separate, with the shortest time step [turn/s]."""
     flight: float
-    """Minimum duration of a flight that is certainly detected [turn of the input]."""
+    """Minimum duration of a separation that is detected with certainty [turn of the input]."""
     complete: bool = True
     """False if the search was stopped."""
 
@@ -239,7 +243,7 @@ class SteppedSeparation(Result):
 def find_stepped_separation(
     study: TimeStudy, predicted: float | None, on_done: Callable[[float], object]
 ) -> SteppedSeparation:
-    """Simulate the whole run at two rates without separation, then refine the positions with the minimum torque.
+    """Return the separation rate by time stepping: two runs without separation, then refinement of the minimum torques.
 
     study       the train and its range, at the predicted rate
     predicted   rate by the closed-form condition [turn/s]
@@ -276,7 +280,7 @@ def find_stepped_separation(
 def _search_error(predicted: float | None) -> QuestionError:
     what = "the separation rate cannot be found by time stepping"
     why = f"the closed-form condition predicts separation at {'no' if predicted is None else 'any'} rate"
-    return QuestionError(Problem(what, why, "omit --find-rate"))
+    return QuestionError(Problem(what, why, "omit --find-rate, or change the inertias or loads"))
 
 
 def _candidates(search: SeparationSearch, plan: StepPlan) -> tuple[float, Sequence[SeparationPosition]]:
@@ -292,7 +296,7 @@ def _candidates(search: SeparationSearch, plan: StepPlan) -> tuple[float, Sequen
 
 
 def _is_noise(levels: Sequence[float]) -> bool:
-    """Return whether rates with ever shorter time steps no longer converge, because rounding grows."""
+    """Return True if rates with ever shorter time steps no longer converge, because rounding grows."""
     # the convergence needs three changes
     if len(levels) < 4:
         return False
@@ -303,7 +307,7 @@ def _is_noise(levels: Sequence[float]) -> bool:
 def _refined(
     known: SteppedSeparation, search: SeparationSearch, place: SeparationPosition, step: float, before: float
 ) -> SteppedSeparation:
-    """Return the result with a time step [s].
+    """Return the result with a shorter time step [s].
 
     The rate converges with the step to the first order or higher. It therefore lies between the value at this step and
     the linear extrapolation from both.

@@ -1,4 +1,4 @@
-"""Simulation of a train that is advanced on request, and whose drive and loads may change meanwhile."""
+"""Simulation of a train that is advanced on request, with a drive and loads that may change between calls."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _EARLY = 1e-6  # relative to a step: a time this little before the end of a step
 
 
 class Simulation(Shown):
-    """Simulation of a train that is coupled to other programs, with a drive and loads that may change.
+    """Simulation of a train for coupling to other programs, with a drive and loads that may change.
 
     The time step is constant whatever times are requested. Between two steps angles are extrapolated linearly, so that
     the motion does not depend on when it is observed.
@@ -123,7 +123,7 @@ class Simulation(Shown):
         drive: float | None = None,
         loads: Mapping[str, float] | None = None,
     ) -> Simulation:
-        """Return a simulation of the same train from time 0.
+        """Return a simulation of the same train that starts at time 0.
 
         Parameters
         ----------
@@ -144,16 +144,16 @@ class Simulation(Shown):
         bounces = {**self.restitution, **(restitution or {})}
         if not 0 < step < inf or not all(0 <= each <= 1 for each in bounces.values()):
             values = ", ".join(f"{each:g}" for each in set(bounces.values()))
-            what = f"invalid time step or restitution: {step:g} s, {values}"
+            what = f"a time step of {step:g} s or a restitution of {values} is out of range"
             why = "the time step must be positive and finite, and restitution 0 to 1"
-            raise QuestionError(Problem(what, why, "give for example step=1e-4 and restitution 0.3"))
+            raise QuestionError(Problem(what, why, "pass for example step=1e-4 and a restitution of 0.3"))
         drive = self.drive if drive is None else drive
         given = self.loads if loads is None else loads
         return Simulation(self._of, self._outputs, step, self._fast, bounces, drive, given)
 
     @property
     def _share(self) -> float:
-        """Speed of the drive over the declared one."""
+        """Speed of the drive over its declared speed."""
         own = self._of.case.drive.value
         return self.drive / own if own else 0.0
 
@@ -172,7 +172,7 @@ class Simulation(Shown):
 
     @property
     def angle(self) -> float:
-        """Angle of the link at the power input since the start [rad]."""
+        """Angle through which the link at the power input has turned since the start [rad]."""
         late = self.time - float(self._state.clock[1]) * self.step
         row = self._of.speeds[self._of.index[self.drive_link]]
         return float(row @ (self._state.angle + late * self._state.speed)[self._place])
@@ -184,7 +184,7 @@ class Simulation(Shown):
 
     @property
     def output_links(self) -> tuple[str, ...]:
-        """Links of the outputs."""
+        """Names of the links of the outputs."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
     def _by_output(self, links: Floats) -> dict[str, float]:
@@ -195,7 +195,7 @@ class Simulation(Shown):
         }
 
     def set_drive(self, value: float) -> None:
-        """Set the value of the drive from now on.
+        """Set the control value of the drive from the present time on.
 
         Parameters
         ----------
@@ -222,7 +222,7 @@ class Simulation(Shown):
             self._set_torques()
 
     def set_load(self, link: str, torque: float) -> None:
-        """Set the load of a link from now on.
+        """Set the load of a link from the present time on.
 
         Parameters
         ----------
@@ -238,7 +238,9 @@ class Simulation(Shown):
         """
         if link not in self._of.index:
             raise QuestionError(
-                Problem(f"unknown link '{link}'", "a load acts on a declared link", suggest(link, self._of.index))
+                Problem(
+                    f"the train has no link '{link}'", "a load acts on a declared link", suggest(link, self._of.index)
+                )
             )
         if torque != self.loads.get(link, 0.0):
             self.loads[link] = torque
@@ -250,7 +252,7 @@ class Simulation(Shown):
         self._system.torque[:] = self._torque
 
     def advance(self, seconds: float) -> None:
-        """Advance the simulation by some time.
+        """Advance the simulation by a duration.
 
         Parameters
         ----------
@@ -264,7 +266,11 @@ class Simulation(Shown):
         """
         if not 0 <= seconds < inf:
             raise QuestionError(
-                Problem(f"cannot advance by {seconds:g} s", "time must not decrease", "give a duration of 0 or more")
+                Problem(
+                    f"a duration of {seconds:g} s is out of range",
+                    "time cannot decrease",
+                    "give a duration of 0 or more",
+                )
             )
         self.time += seconds
         # the number of steps depends only on the time, not on the calls
@@ -280,7 +286,7 @@ class Simulation(Shown):
         self._read(record, steps)
 
     def _apply_new_speed(self) -> int:
-        """Set prescribed coordinates to a new speed; return 1 if it changes.
+        """Set prescribed coordinates to a new speed; return 1 if a speed changes, else 0.
 
         A change requires a correction of the momentum in the first step.
         """
@@ -297,7 +303,7 @@ class Simulation(Shown):
         return 1
 
     def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
-        """Advance some steps; one sample that is never complete accumulates all impulses."""
+        """Advance by some steps; one sample that is never completed accumulates all impulses."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)

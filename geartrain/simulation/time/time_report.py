@@ -39,28 +39,26 @@ class TimeReport(Result):
     KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
 
     title: str
-    """Title in one line."""
+    """Title of the train in one line."""
     separation: SeparationRates | None
-    """Rates at which teeth first separate, by pair, from the closed-form condition; None without inertias or units of
-    torques.
-    """
+    """Rates at which teeth first separate, by the closed-form condition; None without inertias or units of torques."""
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the moving links."""
     run: TimeRun
-    """Run in time."""
+    """Result of the simulation in time."""
     stepped: SteppedSeparation | None = None
-    """Separation rate by time stepping, if requested."""
+    """Separation rate found by time stepping; None if not requested."""
 
 
 def collect_time_report(
     train: GearTrain, run: TimeRun, without: tuple[str, ...] = (), stepped: SteppedSeparation | None = None
 ) -> TimeReport:
-    """Combine a run with the rates at which teeth first separate.
+    """Return a report of a run with the rates at which teeth first separate.
 
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train of the run.
     run : TimeRun
         Result of `GearTrain.dynamics`.
     without : tuple of str
@@ -91,8 +89,7 @@ def collect_time_report(
 
 
 def describe_time_run(found: TimeReport) -> Document:
-    """Return a report of a run: separation rate, contacts, drive, outputs, energy, spectra, convergence and
-    inertias.
+    """Return a document of a run: separation rate, contacts, drive, outputs, energy, spectra, convergence and inertias.
 
     Parameters
     ----------
@@ -116,7 +113,7 @@ def describe_time_run(found: TimeReport) -> Document:
 
 
 def time_document(run: TimeRun) -> Document | None:
-    """Return the output of `geartrain dynamics` for a run; None if the train is not known."""
+    """Return the document of a run, as `geartrain dynamics` prints it; None if the train is not known."""
     from geartrain.analysis.gear_train import GearTrain
 
     if run._declaration is None:
@@ -158,7 +155,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
 
 
 def _validity_notes(run: TimeRun) -> Iterator[str]:
-    """Yield reasons why teeth of this run may separate at rates below the predicted ones."""
+    """Yield reasons why teeth in this run may separate below the predicted rates."""
     if run.driven != "rate":
         yield "These rates assume an input of constant speed; the speed of this input may vary."
     if run.model == "compliant":
@@ -289,6 +286,7 @@ def _energy(run: TimeRun) -> Section:
         "increase of elastic energy of teeth": energy.elastic,
     }
     table = energy_table("J", amounts, whole, 6)
+    # rounding errors have this order; a value of 0 would suggest exact arithmetic
     closure = max(energy.closure, 1e-15)
     if not table.rows:
         return Section(
@@ -318,7 +316,7 @@ def _converged(run: TimeRun) -> Section:
 
 
 def _unconverged_notes(run: TimeRun) -> Iterator[str]:
-    """Yield the figures that have not converged, their errors, and the options to improve them."""
+    """Yield the results that have not converged, their errors, and the options that improve them."""
     loose = [each for each in run.figures if not each.converged]
     if not loose:
         yield "All figures converged."

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeRun(Tabular, Pictured, TrainResult):
-    """Motion of a train in time with a constant time step; all data are of the run with the shorter step.
+    """Motion of a train in time with a constant time step; all data are from the run with the shorter step.
 
     See Also
     --------
@@ -77,15 +77,15 @@ class TimeRun(Tabular, Pictured, TrainResult):
     train: str
     """Name of the train."""
     state: str | None
-    """Name of the declared state."""
+    """Name of the declared state; None for a train without states."""
     driving_link: str
-    """Input that sets the time scale."""
+    """Link whose mean speed sets the time scale."""
     rate: float
     """Mean speed of the driving link in the counted part of the run [rad/s], negative if it turns backwards."""
     link: str
     """Link at which power enters."""
     driven: Literal["rate", "torque", "spring", "hand"]
-    """Kind of the drive: a prescribed speed; a torque, also of a weight; a spring; a compliant hand."""
+    """Kind of the drive: prescribed speed, torque (also of a weight), spring, or compliant hand."""
     step: float
     """Time step [s]."""
     skip: float
@@ -103,43 +103,45 @@ class TimeRun(Tabular, Pictured, TrainResult):
     torques: LabelledArray
     """Torques on the driven sides, means between samples [N m]. Shape (contact, time)."""
     gaps: LabelledArray
-    """Gap between the driven side and its drive flank [rad]. Drive flanks push while the driving link turns as
-    declared. Shape (pair, time).
+    """Gap between the driven side and its drive flank [rad], shape (pair, time).
+
+    Drive flanks push while the driving link turns as declared.
     """
     coast_gaps: LabelledArray
     """Gap between the driven side and its coast flank [rad]. Shape (pair, time)."""
     outputs: LabelledArray
     """Angles through which outputs have turned [rad]. Shape (output, time)."""
     ahead: LabelledArray
-    """Angles by which outputs are ahead of `motion` [rad]. Shape (output, time)."""
+    """Angles by which outputs are ahead of the motion with all drive flanks in contact [rad], shape (output, time)."""
     drive: Floats
-    """Torque at the power input, mean between samples [N m], positive in the sense of rotation. Shape (n,)."""
+    """Torque at the power input, mean between samples [N m], positive in the sense of rotation, shape (n,)."""
     torque: float
-    """Mean torque at the power input in the counted part: its work over the angle [N m]."""
+    """Mean torque at the power input in the counted part [N m]: its work over its angle."""
     contacts: tuple[ContactInTime, ...]
-    """Figures by pair, pin and escapement."""
+    """Results by pair, pin and escapement."""
     impacts: ImpactList
     """Impacts of the counted part."""
     energy: EnergyAccount
     """Energy balance of the counted part."""
     deviations: tuple[OutputDeviation, ...]
-    """Deviations of outputs from `motion`."""
+    """Deviations of outputs from the motion with all drive flanks in contact."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
     """Spectral lines by output, strongest first."""
     figures: tuple[ConvergedFigure, ...]
-    """Figures with time steps h and h/2."""
+    """Results with time steps h and h/2."""
     unsolved: int
     """Number of steps without a consistent set of contacts; the last guess was used."""
     notes: tuple[str, ...]
-    """Effects that are not included."""
+    """Texts on effects that are not included."""
     complete: bool = True
-    """False if the run was stopped. All data are then of the completed part of the run with the longer step, without a
-    comparison.
+    """False if the run was stopped.
+
+    All data are then from the completed part of the run with the longer step, without a comparison.
     """
     model: Literal["rigid", "compliant"] = "rigid"
-    """Model of the teeth."""
+    """Model of the teeth, rigid or compliant."""
     assumed: tuple[str, ...] = ()
-    """Estimates that replace missing declarations."""
+    """Texts on the estimates that replace missing declarations."""
     restitution: float = 0.0
     """Maximum coefficient of restitution of the contacts."""
     _without: tuple[str, ...] = field(default=(), kw_only=True, repr=False, compare=False)
@@ -153,7 +155,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
         return f"{self.train}{state}: {rate}, {', '.join(figures)}" + ("" if self.complete else ", incomplete")
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
-        """Return the angles of a link [rad], or the figures of a contact."""
+        """Return the angles of a link [rad], or the results of a contact."""
         for each in self.contacts:
             if each.name == name:
                 return each
@@ -196,7 +198,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
 @dataclass(frozen=True)
 class ContactInTime(Result):
-    """Figures of one pair, pin or escapement over a run.
+    """Results of one pair, pin or escapement over a run.
 
     See Also
     --------
@@ -204,25 +206,25 @@ class ContactInTime(Result):
     """
 
     name: str
-    """Name of the pair or coupling; for an escapement, of its link."""
+    """Name of the pair or coupling; for an escapement, name of its link."""
     apart: float
     """Fraction of the time in which no flank touches."""
     coast: float
-    """Fraction of the time on the coast flank, or nearer to it."""
+    """Fraction of the time on the coast flank, or nearer to it than to the drive flank."""
     impact_rate: float
     """Number of impacts per second [1/s]."""
     power: float
     """Power lost in impacts [W]."""
     hardest: float
-    """Maximum closing speed of an impact, of the driven side [rad/s]."""
+    """Maximum closing speed of an impact [rad/s of the driven side]."""
     torque: float
     """Mean torque on the driven side, positive forwards [N m]."""
     rubbed: float
     """Power lost by friction [W]."""
     gap: float
-    """Maximum gap to the nearer flank [rad]."""
+    """Maximum gap to the nearer flank [rad of the driven side]."""
     changes: float
-    """Changes from one flank to the other without separation [1/s]."""
+    """Number of changes from one flank to the other without separation per second [1/s]."""
     peak: float | None = None
     """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts are impulses."""
     dynamic_factor: float | None = None
@@ -231,7 +233,7 @@ class ContactInTime(Result):
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """List of impacts in order of time, up to the storage limit.
+    """List of impacts in order of time, up to a storage limit.
 
     See Also
     --------
@@ -243,20 +245,20 @@ class ImpactList(Result):
     total: int
     """Total number of impacts."""
     contact: tuple[str, ...]
-    """Pair, pin or escapement of each stored impact."""
+    """Name of the pair, pin or escapement of each stored impact."""
     time: Floats
     """Time of each impact [s]. Shape (stored,)."""
     speed: Floats
-    """Closing speed [rad/s]. Shape (stored,)."""
+    """Closing speed of each impact [rad/s], shape (stored,)."""
     energy: Floats
-    """Energy dissipated [J]. Shape (stored,)."""
+    """Energy dissipated in each impact [J], shape (stored,)."""
     impulse: Floats
-    """Impulse on the driven side [N m s]. Shape (stored,)."""
+    """Impulse on the driven side in each impact [N m s], shape (stored,)."""
 
 
 @dataclass(frozen=True)
 class EnergyAccount(Result):
-    """Energy balance [J]: the work put in equals the losses plus the increase of stored energy.
+    """Energy balance [J]: the input work equals the losses plus the increase of stored energy.
 
     See Also
     --------
@@ -291,7 +293,7 @@ class EnergyAccount(Result):
     friction: float
     """Energy lost by friction of teeth and pins [J]."""
     impact_loss: float
-    """Energy lost in impacts [J]; with compliant teeth, by their damping."""
+    """Energy lost in impacts [J]; for compliant teeth, lost by their damping."""
     steps: float
     """Numerical dissipation in lasting contacts [J], of either sign; it decreases with the time step."""
     kinetic: float
@@ -303,12 +305,12 @@ class EnergyAccount(Result):
 
     @property
     def put_in(self) -> float:
-        """Work of drive, loads and springs [J]."""
+        """Input work of drive, loads and springs [J]."""
         return self.drive + self.loads + self.springs
 
     @property
     def closure(self) -> float:
-        """Relative error of the balance, over the sum of all its terms and the stored energy."""
+        """Relative error of the balance: error over the sum of all its terms and the stored energy."""
         # the balance is closed by the numerical dissipation `steps`
         taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
@@ -319,7 +321,7 @@ class EnergyAccount(Result):
 
 @dataclass(frozen=True)
 class OutputDeviation(Result):
-    """Deviation of an output from the motion in which all drive flanks touch.
+    """Deviation of an output from the motion with all drive flanks in contact.
 
     See Also
     --------
@@ -329,16 +331,16 @@ class OutputDeviation(Result):
     output: str
     """Name of the output."""
     ahead: float
-    """Maximum angle ahead of `motion`, 0 or more [rad]."""
+    """Maximum angle ahead of that motion [rad], 0 or more."""
     behind: float
-    """Maximum angle behind `motion`, 0 or more [rad]."""
+    """Maximum angle behind that motion [rad], 0 or more."""
     rms: float
     """Root mean square of the deviation [rad]."""
 
 
 @dataclass(frozen=True)
 class ConvergedFigure(Result):
-    """Figure with time steps h and h/2, and its confidence interval.
+    """Result with time steps h and h/2, and its confidence interval.
 
     See Also
     --------
@@ -346,31 +348,32 @@ class ConvergedFigure(Result):
     """
 
     name: str
-    """Name of the figure."""
+    """Name of the result."""
     unit: str
-    """Unit; empty for a fraction."""
+    """Unit of the values; empty for a fraction."""
     coarse: float
     """Value with the time step h."""
     fine: float
     """Value with the time step h/2."""
     kind: Literal["mean", "extreme"]
-    """Kind of figure. A mean over the run converges with the time step; an extreme depends on single flights, which are
-    chaotic.
+    """Kind of result, "mean" or "extreme".
+
+    A mean over the run converges with the time step; an extreme depends on single flights, which are chaotic.
     """
     converged: bool
-    """True if both values agree, and the confidence interval of a mean is as narrow.
+    """True if both values agree within the tolerance, and the confidence interval of a mean is as narrow.
 
     The tolerance is 5 % of a mean, 1 % of an extreme, 0.005 for a fraction of time, and at least 1e-6 rad for an angle.
     """
     interval: float | None = None
-    """Half the 95 % confidence interval of a mean, from batches of whole turns; None for an extreme, and for fewer than
-    5 turns.
+    """Half the 95 % confidence interval of a mean, from batches of whole turns; None for an extreme or below 5
+    turns.
     """
 
 
 @dataclass(frozen=True)
 class SpectrumPeak(Result):
-    """Line of the spectrum of an output's angle about its mean motion.
+    """Line in the spectrum of an output's angle about its mean motion.
 
     See Also
     --------
@@ -378,10 +381,10 @@ class SpectrumPeak(Result):
     """
 
     order: float
-    """Periods per revolution of the driving link."""
+    """Number of periods per revolution of the driving link."""
     frequency: float
     """Frequency [Hz]."""
     amplitude: float
     """Amplitude of the angle [rad]."""
     source: str
-    """Pair (or beat) and harmonic at this frequency, such as `c2~d1 x1`; empty if there is none."""
+    """Pair (or beat) and harmonic at this frequency, such as `c2~d1 x1`; empty if none matches."""

@@ -37,7 +37,7 @@ _PAIRS = 6  # maximum number of pairs whose gaps are drawn
 _STRETCH = 720  # samples of the interval in which gaps are drawn, about 60 teeth of the fastest pair
 _MOST = 4000  # maximum number of points of a curve: first, minimum and maximum of each interval
 _OUTPUTS = 4
-"""Maximum number of outputs in the plot; those with the smallest deviations are omitted."""
+"""Maximum number of outputs in the plot; outputs with the smallest deviations are omitted."""
 _OPEN = 1e-7  # smaller gaps count as contact [rad]
 _SEEN = 1e-8  # smaller deviations count as 0 [rad]
 _SMALL = 0.1  # fraction of the backlash below which gaps get a larger scale
@@ -50,8 +50,7 @@ _name = partial(name_axes, size=SMALL, parse_math=False)
 
 
 def time_run_figure(run: TimeRun, title: str = "") -> Figure:
-    """Plot gaps by pair with impacts in an interval of the run, deviations of outputs over the whole run, and their
-    spectrum.
+    """Plot gaps by pair with impacts in an interval of the run, and deviations and spectrum of the outputs.
 
     Parameters
     ----------
@@ -109,7 +108,6 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
 
 
 def _key(panel: Axes, gaps: bool) -> None:
-    """Add a legend of the markers."""
     panel.scatter([], [], s=24, c=RED, marker="^", label="impact")
     if gaps:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
@@ -117,7 +115,7 @@ def _key(panel: Axes, gaps: bool) -> None:
 
 
 def _across(run: TimeRun) -> Floats:
-    """Return the abscissa: revolutions of an input with prescribed speed, otherwise time."""
+    """Return the abscissa: revolutions of an input with prescribed speed, otherwise time [s]."""
     return run.turns if run.driven == "rate" else run.time
 
 
@@ -126,8 +124,8 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the pairs with backlash in the order of the train; if they are too many, those apart for most
-    of the time.
+    """Return the pairs with backlash in the order of the train; at most `_PAIRS`, those that are apart for most of the
+    time.
     """
     names = [
         name
@@ -140,7 +138,7 @@ def _loose(run: TimeRun) -> list[str]:
 
 
 def _moving(run: TimeRun) -> list[str]:
-    """Return the outputs that do not turn uniformly, those with the largest deviation first."""
+    """Return the outputs that do not turn uniformly, in descending order of their deviation."""
     deviation = {each.output: max(each.ahead, each.behind) for each in run.deviations}
     swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in deviation}
     names = [name for name in deviation if max(deviation[name], swing[name]) > _SEEN]
@@ -148,7 +146,7 @@ def _moving(run: TimeRun) -> list[str]:
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
-    """Return a slice of samples about the maximum gap of all drawn pairs, or the last samples."""
+    """Return a slice of samples around the maximum gap of all drawn pairs, or the last samples."""
     whole = len(run.time)
     first = int(np.searchsorted(run.time, run.skip))
     middle = whole
@@ -188,7 +186,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
-    """Mark impacts at the bottom, with sizes by their energy."""
+    """Mark impacts at the lower edge of a panel, with sizes by their energy."""
     own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
     if not own.any():
         return
@@ -258,8 +256,8 @@ def _minor_numbers(panel: Axes) -> None:
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines that are not close to
-    each other.
+    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines that are not close to each
+    other.
     """
     taken: list[float] = []
     for peak in peaks:

@@ -17,9 +17,9 @@ from geartrain.simulation.time.run_figures import RunFigures
 from geartrain.simulation.time.time_run import TimeRun
 
 PER_TOOTH = 200
-"""Steps of the coarser run in the shortest tooth-passing period."""
+"""Number of steps of the coarser run in the shortest tooth-passing period."""
 PER_SWING = 40
-"""Steps in the period of the fastest mode of compliant teeth."""
+"""Number of steps in the period of the fastest mode of compliant teeth."""
 _UNEVEN = 1.00618  # steps that meet a kink at every tooth would be evaluated on either side of it by rounding
 _FEWEST = 200  # minimum steps per revolution of the driving link
 _FEWEST_TOUCHING = 1000  # the same with contacts: a pin's speed may change much within a small angle
@@ -38,31 +38,31 @@ _SLOW = 7e-5  # time of one step of one contact in plain Python [s]
 
 @dataclass(frozen=True)
 class TimeStudy:
-    """Request for the motion of a train in time."""
+    """Study of the motion of a train in time by two runs."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
     turns: float
-    """Counted revolutions of the driving link."""
+    """Revolutions of the driving link in the counted part."""
     skip: float = 1.0
-    """Revolutions of the driving link before the counted ones."""
+    """Revolutions of the driving link before the counted part."""
     steps: int | None = None
     """Steps of the coarser run per revolution of the driving link; None for a number that suits its teeth."""
     samples: int | None = None
     """Number of samples of the whole run; None for a number that suits a spectrum."""
     fast: bool | None = None
-    """True if kernels are compiled; None decides by the amount of work."""
+    """True to compile the kernels, False not to; None decides by the amount of work."""
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
-            what = f"a run cannot have {self.turns:g} turns after {self.skip:g} skipped ones"
+            what = f"{self.turns:g} turns after {self.skip:g} skipped turns are out of range"
             raise QuestionError(
-                Problem(what, "turns must be above 0, and skip 0 or more", "give for example turns=10, skip=1")
+                Problem(what, "turns must be above 0, and skip 0 or more", "pass for example turns=10, skip=1")
             )
         if self.steps is not None and self.steps < 1:
             raise QuestionError(
                 Problem(
-                    f"{self.steps} steps per turn are too few", "a turn has at least 1 step", "give steps=200 or more"
+                    f"{self.steps} steps per turn are too few", "a turn has at least 1 step", "pass steps=200 or more"
                 )
             )
         if self.per_turn * (self.turns + self.skip) > _MOST_STEPS:
@@ -73,7 +73,7 @@ class TimeStudy:
 
     @cached_property
     def busiest(self) -> float:
-        """Maximum number of tooth-passing periods of a pair per revolution of the driving link; 1 or more."""
+        """Maximum number of tooth-passing periods of a pair per revolution of the driving link, 1 or more."""
         return max([1.0, *(float(source.cycles) for source in self.of.sources.values())])
 
     @cached_property
@@ -94,11 +94,11 @@ class TimeStudy:
 
     @property
     def beats(self) -> list[float]:
-        """Beats of each escapement per revolution of the driving link."""
+        """Number of beats of each escapement per revolution of the driving link."""
         return [tau / abs(self.of.case.rate) / beat for _, beat in self.of.case.escapements.values()]
 
     def plan(self, finer: int) -> StepPlan:
-        """Return the time steps of one run; `finer` is 1 or 2."""
+        """Return the time steps of one run: `finer` is 1 for time step h, 2 for h/2."""
         # the finer run has exactly twice the steps
         steps, skip = (round(each * self.per_turn) * finer for each in (self.turns, self.skip))
         often = max([_SAMPLES * self.busiest, *(_A_BEAT * each for each in self.beats)])
@@ -112,7 +112,7 @@ class TimeStudy:
 
     @property
     def is_fast(self) -> bool:
-        """True if kernels are compiled for both runs."""
+        """True if the kernels are compiled for both runs."""
         steps = sum(plan.skip + plan.steps for plan in (self.plan(1), self.plan(2)))
         return is_fast(self.fast, steps * max(len(self.of.model.pairs), 1) * _SLOW)
 
@@ -147,9 +147,9 @@ class TimeStudy:
         return first.result(None) if second.plan.steps < plans[1].steps else second.result(first)
 
     def static_peaks(self) -> Sequence[float | None]:
-        """Return the maximum quasi-static torque of each pair [N m], from a rigid run with nearly no inertia.
+        """Return the maximum quasi-static torque of each pair [N m], from a rigid run with almost no inertia.
 
-        None for rigid teeth, and if no speed is prescribed, since such a train would run away.
+        The values are None for rigid teeth, and if no speed is prescribed, since such a train would run away.
         """
         model = self.of.model
         if self.of.yields is None or self.of.case.drive.kind != "rate":

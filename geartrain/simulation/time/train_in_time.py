@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class DrivenTrain:
-    """Train with its drive in time. Equal planets are merged into one."""
+    """Train with its drive for simulation in time; equal planets are merged into one."""
 
     train: TrainMechanics
     state: str | None = None
@@ -38,7 +38,7 @@ class DrivenTrain:
     restitution: float | None = None
     """Coefficient of restitution of every impact; None for the declared values."""
     outputs: Sequence[str] = ()
-    """Recorded outputs or links; by default all outputs, and all links of a train without outputs."""
+    """Names of recorded outputs or links; by default all outputs, or all links of a train without outputs."""
     without: Sequence[str] = ()
     """Names of pairs that are left out."""
 
@@ -52,7 +52,7 @@ class DrivenTrain:
         samples: int | None = None,
         fast: bool | None = None,
     ) -> TimeStudy:
-        """Return a study with two runs over some turns; see `GearTrain.dynamics`."""
+        """Return a study with two runs over `turns` revolutions of the driving link; see `GearTrain.dynamics`."""
         check_numbers(turns=turns, skip=skip, restitution=self.restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
@@ -60,7 +60,7 @@ class DrivenTrain:
         return TimeStudy(found, seen, turns, skip, steps, samples, fast)
 
     def simulation(self, step: float | None, fast: bool | None) -> Simulation:
-        """Return a simulation of the train at time 0; see `GearTrain.simulation`."""
+        """Return a simulation of the train that starts at time 0; see `GearTrain.simulation`."""
         from geartrain.numerics.kernels import is_fast
         from geartrain.simulation.time.stepwise_simulation import Simulation
 
@@ -68,16 +68,16 @@ class DrivenTrain:
         if step is not None and not 0 < step < inf:
             raise QuestionError(
                 Problem(
-                    f"a time step of {step:g} s",
+                    f"a time step of {step:g} s is out of range",
                     "the time step must be positive and finite",
-                    "give for example step=1e-4",
+                    "pass a step above 0, for example step=1e-4",
                 )
             )
         seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate))
         return Simulation(found, seen, step or TimeStudy(found, seen, 1).plan(2).step, fast=is_fast(fast, inf))
 
     def _recorded_outputs(self) -> list[tuple[str, str, str]]:
-        """Return each recorded output as its name, its link, and its reference link."""
+        """Return name, link and reference link of each recorded output."""
         own = self.train.planets_as_one.kinematics
         return [(name, *links) for name, links in own.seen_links(self.state, self.outputs).items()]
 
@@ -94,7 +94,7 @@ def model_in_time(
     yields: bool = False,
     scale: float | None = None,
 ) -> TrainModel:
-    """Build the contact model of a train; `rate` [rad/s] and `restitution` override the declared values.
+    """Return the contact model of a train; `rate` [rad/s] and `restitution` override the declared values.
 
     scale   rate [rad/s] if none is declared, for results that do not depend on it
     """
@@ -117,7 +117,7 @@ def model_in_time(
 def find_vibration_modes(
     train: TrainMechanics, state: str | None = None, *, without: Sequence[str] = ()
 ) -> VibrationModes:
-    """Compute natural frequencies and modes of a train about contact, with compliant teeth (docs/dynamics.md).
+    """Return natural frequencies and modes of a train with compliant teeth in contact (docs/dynamics.md).
 
     Parameters
     ----------
@@ -166,7 +166,8 @@ def step_to_separation(
     fast: bool | None = None,
     on_done: Callable[[float], object] = lambda _: None,
 ) -> SteppedSeparation:
-    """Find the rate of the input at which teeth first separate by time stepping, as a check of `find_separation`.
+    """Return the rate of the input at which teeth first separate, found by time stepping as a check of
+    `find_separation`.
 
     Parameters
     ----------
@@ -230,7 +231,7 @@ def step_to_separation(
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
-    """Convert a rate to rad/s; None is returned unchanged. Raises `QuestionError` if the rate is not positive."""
+    """Convert a rate to rad/s; return None for None. Raises `QuestionError` if the rate is not positive."""
     from pydantic_core import PydanticCustomError
 
     from geartrain.numerics.quantity import Quantity
@@ -244,9 +245,13 @@ def radians_per_second(rate: str | float | None) -> float | None:
             ) from None
     check_numbers(rate=rate)
     if rate is not None and not 0 < rate < inf:
-        why = "the sense of rotation follows from the declared inputs"
+        why = "a rate is positive, because the sense of rotation follows from the declared inputs"
         raise QuestionError(
-            Problem(f"a rate of {rate:g} rad/s", why, "give a rate above 0, or change the sign of the inputs")
+            Problem(
+                f"a rate of {rate:g} rad/s is out of range",
+                why,
+                "give a rate above 0, or change the sign of the inputs",
+            )
         )
     return rate
 
@@ -256,7 +261,7 @@ def radians_per_second(rate: str | float | None) -> float | None:
 
 @dataclass(frozen=True)
 class VibrationModes(Tabular, Result):
-    """Vibration modes of a train about contact: solutions of K phi = w^2 M phi, with speed ratios at their means.
+    """Vibration modes of a train with its flanks in contact: solutions of K phi = w^2 M phi at mean speed ratios.
 
     See Also
     --------
@@ -274,15 +279,15 @@ class VibrationModes(Tabular, Result):
     frequencies: Floats
     """Natural frequencies in ascending order [Hz]; 0 for free rotation of the whole train. Shape (mode,)."""
     damping: Floats
-    """Damping ratio of each mode; 0 at 0 Hz. Shape (mode,)."""
+    """Damping ratio of each mode; 0 for modes of 0 Hz. Shape (mode,)."""
     shapes: LabelledArray
     """Angles of links, normalised to a maximum of 1 in each mode. Shape (link, mode)."""
     stiffness: dict[str, float]
     """Stiffness of each pair about its driven side [N m/rad]."""
     notes: tuple[str, ...]
-    """Effects that are not included."""
+    """Texts on effects that are not included."""
     assumed: tuple[str, ...]
-    """Estimates that replace missing declarations."""
+    """Texts on the estimates that replace missing declarations."""
 
     def _summary(self) -> str:
         shown = ", ".join(f"{each:.4g}" for each in self.frequencies[:4])
@@ -301,7 +306,7 @@ class VibrationModes(Tabular, Result):
 
 
 def find_modes(of: CompliantTrain) -> VibrationModes:
-    """Compute the vibration modes of a train in one case."""
+    """Return the vibration modes of a train in one case."""
     squares, modes = of.vibration
     speeds = np.sqrt(squares)
     # damping ratio of each mode, neglecting coupling of modes by damping

@@ -57,12 +57,11 @@ def run(
     find_rate: Annotated[
         bool, typer.Option("--find-rate", help="Also find the rate at which teeth first separate by time stepping.")
     ] = False,
-    output: Annotated[Names, typer.Option("--output", help="Output or link to report; may be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
     fast: Fast = None,
     json: Json = False,
-    csv: Annotated[bool, typer.Option("--csv", help="Print angles, speeds, torques and gaps as CSV.")] = False,
     plot: Annotated[
         Path | None, typer.Option("--plot", help="Plot gaps, deviations of outputs, and spectrum to this file.")
     ] = None,
@@ -70,7 +69,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Simulate motion in time: separation of teeth, impacts, outputs and energy; -o x.csv writes all samples."""
+    """Simulate motion in time: separation of teeth, impacts, outputs and energy; -o x.csv writes all samples.
+
+    Example: `geartrain dynamics moon-triangular-inertia --rate 1 --turns 1`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.simulation.time.time_report import collect_time_report, describe_time_run
 
@@ -78,16 +80,12 @@ def run(
     picture = picture_sink(plot, force, theme)
     # both outputs must not overwrite each other
     check_distinct_outputs(to, picture)
-    if csv and to.path is not None:
-        raise typer.BadParameter(
-            "--csv prints the samples to standard output: give either --csv or -o x.csv", param_hint="--csv"
-        )
     request = TimeRequest(rate, turns, skip, steps, restitution, model, without, fast)
     requested = request.arguments() | {"outputs": tuple(output or ())}
     train = load(file)
     found = run_in_time(train, train.declaration.state_or_first(state), requested)
     stepped = None
-    if csv or to.suffix == ".csv":
+    if to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
     else:
         # after an interruption a second long computation is not wanted

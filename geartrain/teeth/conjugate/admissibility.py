@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair
 
 Halves = tuple[float, float]
-"""Half the tooth thickness of each gear on its pitch surface, as pitch-line displacement X; infinite for pins."""
+"""Half the tooth thickness of gear 1 and gear 2 as an arc X on the pitch surface [module]; infinite for round pins."""
 
 _SCAN = 257  # contacts sampled on a side; a speed below 0 only between two samples is not detected
 _LEAVES = 12.5  # tooth number below which clockmakers cut cycloids
@@ -31,9 +31,9 @@ _ROUNDING = 1e-12  # modules
 
 
 def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:
-    """Return all reasons why teeth with this path cannot run; empty if they can.
+    """Return all faults that prevent teeth with this path of contact from running; empty if they can run.
 
-    `halves` default to a quarter pitch.
+    `halves` is half the tooth thickness of each gear on its pitch surface; default a quarter pitch.
     """
     return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
@@ -63,7 +63,9 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return X at the first distance where the contact speed U of one gear is 0."""
+    """Return the arc X of the first sampled contact whose speed U along the profile of `gear` is 0, refined by root
+    finding.
+    """
     at = int(np.argmax(U <= 0))
     if at == 0:
         return 0.0
@@ -83,6 +85,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
         if X and (thickness := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.teeth_of(gear)
             name = "recess" if X > 0 else "approach"
+            # a tip of gear 1 works in recess, a tip of gear 2 in approach
             point = _flank_crossing(path, gear, X, halves)
             end = "end" if (X > 0) == (gear == 1) else "begin"
             shorter = (
@@ -99,7 +102,9 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
 
 
 def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
-    """Return X of the contact at which the flanks of a tooth intersect; 0 if they do so from the first contact."""
+    """Return the arc X of the contact at which both flanks of a tooth intersect; 0 if they intersect from the first
+    contact.
+    """
 
     def thickness(x: float) -> float:
         return _thickness(path, gear, x, halves)
@@ -111,15 +116,15 @@ def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves | N
 
 
 def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
-    """Return the angle (rad) of the top land of a gear's tooth; negative if its flanks cross.
+    """Return the angle of the top land of a gear's tooth [rad]; negative if its flanks cross below the tip.
 
-    `halves` are as in `faults`.
+    `halves` is half the tooth thickness of each gear on its pitch surface; default a quarter pitch.
     """
     return _thickness(path, gear, path.ends(gear)[1], halves)
 
 
 def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
-    """Return the angular thickness (rad) of a tooth at the contact X."""
+    """Return the angular thickness of a tooth of `gear` [rad] at the contact with arc X."""
     reach = path.pitch.reach_of(gear)
     half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
     points = path.flank(gear, np.array([X]))[0]
@@ -127,7 +132,7 @@ def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) 
 
 
 def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
-    """Return the azimuth (rad) of a body point from the pitch point, positive towards the middle of its tooth."""
+    """Return the azimuth of a point of a gear from the pitch point [rad], positive towards the middle of its tooth."""
     _, forwards = path.pitch.polar(gear, point)
     return float(-forwards if gear == 1 else forwards)  # a driver's tooth is behind its flank
 
@@ -150,12 +155,13 @@ def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def tip_gap(path: PathOfContact) -> float:
-    """Return the angle (rad of the ring gear) between the tip of a pinion's tooth and the tip of the driven ring tooth.
+    """Return the angle at the ring gear [rad] between the tip of a pinion tooth and the tip of the ring tooth that it
+    drives.
 
-    It is taken where the pinion's tip, which is faster, leaves the ring's tip circle, and is negative if the tip would
-    have run into the ring's tooth. If the pinion's tip never leaves, it is taken on the far side, where the teeth have
-    slipped by half the difference of the tooth numbers. It is infinite unless the pair is a spur pinion in a ring gear
-    with intersecting tip circles.
+    The angle is taken where the pinion's tip, which is faster, leaves the ring's tip circle. It is negative if the
+    tips collide before that. If the pinion's tip never leaves the circle, the angle is taken on the far side, where
+    the teeth have slipped by half the difference of the tooth numbers. It is infinite unless the pair is a spur
+    pinion in a ring gear with intersecting tip circles.
     """
     pitch = path.pitch
     if pitch.bevel or pitch.R2 > 0:
@@ -175,13 +181,16 @@ def tip_gap(path: PathOfContact) -> float:
 
 
 def _polar(point: Floats, height: float) -> tuple[float, float]:
-    """Return distance from a centre at `height` above the pitch point, and azimuth (rad) from straight up, forwards."""
+    """Return the distance of a point from a centre and its azimuth from the upward direction [rad], positive forwards.
+
+    The centre is at `height` above the pitch point.
+    """
     x, y = float(point[0]), float(point[1]) - height
     return (x * x + y * y) ** 0.5, atan2(x, y)
 
 
 def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault, ...]:
-    """Return all reasons why these involute wheels cannot run; empty if they can."""
+    """Return all faults that prevent these involute wheels from running; empty if they can run."""
     others = (fault for fault in faults(path, pair.halves) if fault.kind != "undercut")
     return (*_jam(pair), *_interference(pair, path), *_undercut(pair, path), *others, *_bottom(pair), *ring_tips(path))
 
@@ -189,6 +198,7 @@ def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault
 def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
     if pair.backlash < -_ROUNDING:
         try:
+            # no distance may exist at which the teeth are free; then this advice is omitted
             apart = f"give a centre_distance of at least {free_distance(pair.first, pair.second):.6g} modules, or "
         except GearTrainError:
             apart = ""
@@ -207,8 +217,10 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
     """Yield a fault where the mate's tip passes the point at which the line of action touches the base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
+        # radius of the mate at the point where the line of action touches the base circle of this gear
         limit = hypot(mate.base, across)
         over = (limit - mate.tip) if mate.ring else (mate.tip - limit)
+        # the involute of a ring continues outwards from its base circle, so it has no such limit
         if own.ring or over <= _ROUNDING:
             continue
         reach = path.pitch.reach if gear == 1 else path.pitch.reach2
@@ -226,14 +238,16 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
 
 
 def _tangent(pair: InvolutePair, path: PathOfContact, gear: int) -> float:
-    """Return the arc from the pitch point to the tangent point of line of action and base circle: R tan psi."""
+    """Return the arc X = R tan(psi) from the pitch point to the point where the line of action touches the base
+    circle.
+    """
     R = path.pitch.R1 if gear == 1 else path.pitch.R2
     sine = sin(pair.psi)
     return float(R * sine / (1 - sine * sine) ** 0.5)
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the rack's corner has cut away part of the flank that the mate's tip needs."""
+    """Yield a fault where the rack's corner has removed part of the flank that the mate's tip would touch."""
     for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
         cut_radius = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
@@ -255,9 +269,10 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
-    """Yield a fault where tips touch the bottom of the mate's tooth spaces."""
+    """Yield a fault where tips touch the bottom of the mate's tooth spaces (bottom clearance below 0)."""
     first, second = pair.first, pair.second
     if second.ring:
+        # for a ring, tips are inside and roots outside
         gaps = second.root - pair.distance - first.tip, second.tip - pair.distance - first.root
     else:
         gaps = pair.distance - first.tip - second.root, pair.distance - second.tip - first.root

@@ -47,22 +47,23 @@ class ConeCirclePiece(PathPiece):
         self.rho, self.start, self.end = rho, 0.0, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle, tan(d/2) / tan(rho)."""
+        """Return the sine of the pressure angle at the distance d from the pitch point [rad]: tan(d/2) / tan(rho)."""
         return np.tan(np.asarray(d) / 2) / tan(self.rho)
 
     def slope(self, d: Floats) -> Floats:
-        """Return the slope 1 / (2 tan(rho) cos^2(d/2))."""
+        """Return the derivative of sin(psi) with respect to d: 1 / (2 tan(rho) cos^2(d/2))."""
         return 1 / (2 * tan(self.rho) * np.cos(np.asarray(d) / 2) ** 2)
 
     def travel(self, d: Floats) -> Floats:
-        """Return the displacement 2 sin(rho) arcsin(sin(d/2) / sin(rho))."""
+        """Return the arc X of the pitch surfaces at the distance d [rad]: 2 sin(rho) arcsin(sin(d/2) / sin(rho))."""
         return 2 * sin(self.rho) * np.arcsin(np.sin(np.asarray(d) / 2) / sin(self.rho))
 
 
 def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
-    """Return the side of a rolling circle (modules) or cone (rad) over an arc X.
+    """Return the side of a path of contact made by a rolling circle (radius in modules) or cone (half-angle in rad).
 
-    Raises `RangeError` if the arc is longer than half the rolling circle.
+    `X` is the length of its arc on the pitch surfaces. Raises `RangeError` if it is longer than half the rolling
+    circle.
     """
     longest = pi * sin(rho) if pitch.bevel else pi * rho
     # at exactly half the circle the pressure angle is a right angle, with cosine 0
@@ -78,23 +79,24 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
 
 
 def cone_end(rho: float, X: float) -> float:
-    """Return the distance d at which a small circle has the displacement X."""
+    """Return the distance d from the pitch point [rad] at which a small circle has the arc X."""
     return 2 * asin(sin(rho) * sin(X / (2 * sin(rho))))
 
 
 def circle_reach(R: float, rho: float, tip: float) -> float:
-    """Return the distance d at which the addendum of a gear with pitch radius R ends at its tip radius `tip`.
+    """Return the distance d [module] from the pitch point at which the addendum of a gear ends.
 
-    R is negative for a ring gear. On the circle |P - O|^2 = R^2 + d^2 (1 + R / rho).
+    `R` is its pitch radius, negative for a ring gear, and `tip` its tip radius [module]. On the circle
+    |P - O|^2 = R^2 + d^2 (1 + R / rho).
     """
     return sqrt((tip * tip - R * R) / (1 + R / rho))
 
 
 def cone_reach(R: float, rho: float, tip: float) -> float:
-    """Return the distance d at which the addendum of a bevel gear with pitch cone R ends at its tip cone `tip` (rad).
+    """Return the distance d [rad] from the pitch point at which the addendum of a bevel gear ends.
 
-    cos tip = cos d cos R - sin d sin psi sin R with sin psi = tan(d/2)/tan rho. This is linear in v = 2 sin^2(d/2):
-    cos tip = cos R - v (cos R + sin R / tan rho).
+    `R` is its pitch cone angle and `tip` its tip cone angle [rad]. cos tip = cos d cos R - sin d sin psi sin R with
+    sin psi = tan(d/2)/tan rho. This is linear in v = 2 sin^2(d/2): cos tip = cos R - v (cos R + sin R / tan rho).
     """
     v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
     return 2 * atan(sqrt(v / 2) / sqrt(1 - v / 2))
@@ -118,21 +120,23 @@ class PinPiece(PathPiece):
         return self.B + self.sign * np.asarray(d, dtype=float)
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return (L^2 + R^2 - A^2) / (2 R L), which is L / 2R for pins on the pitch circle."""
+        """Return the sine of the pressure angle (L^2 + R^2 - A^2) / (2 R L); it is L / 2R for pins on the pitch
+        circle.
+        """
         L = self._length(d)
         found: Floats = (L + (self.R - self.A) * (self.R + self.A) / L) / (2 * self.R)
         return found
 
     def slope(self, d: Floats) -> Floats:
-        """Return the slope (1 - (R^2 - A^2) / L^2) / 2R, with the sign reversed inside."""
+        """Return the derivative of sin(psi) with respect to d: (1 - (R^2 - A^2) / L^2) / 2R, negated inside."""
         L = self._length(d)
         found: Floats = self.sign * (1 - (self.R - self.A) * (self.R + self.A) / L**2) / (2 * self.R)
         return found
 
     def travel(self, d: Floats) -> Floats:
-        """Return the displacement R (beta - beta0), beta0 at the pitch point.
+        """Return the arc X = R (beta - beta0) of the pitch circles [module].
 
-        beta is the angle of the pin's centre from the line of centres.
+        beta is the angle of the pin's centre from the line of centres, and beta0 its value at the pitch point.
         """
         # half-angle form of the cosine rule; on the line of centres rounding may make L smaller than |A - R|
         half = np.sqrt(np.maximum(self._length(d) ** 2 - (self.A - self.R) ** 2, 0) / (4 * self.A * self.R))
@@ -146,10 +150,11 @@ def pin_angle(R: float, A: float, B: float) -> float:
 
 
 def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> PathSide:
-    """Return one side of the path of contact of a lantern wheel over an arc X.
+    """Return one side of the path of contact of a lantern wheel with the arc X on the pitch circles [module].
 
-    `inside` selects the side on which the mate's dedendum works. Raises `RangeError` if the arc passes the line of
-    centres (inside) or exceeds half a turn of the lantern.
+    `R` is the pitch radius of the lantern, `A` the distance of its pins from the axle and `B` their radius. `inside`
+    selects the side on which the mate's dedendum works. Raises `RangeError` if the arc passes the line of centres
+    (inside) or exceeds half a turn of the lantern.
     """
     first = pin_angle(R, A, B)
     beta = first - X / R if inside else first + X / R
@@ -169,10 +174,10 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
 
 
 def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
-    """Return the distance d at which the mate's addendum ends at its tip radius `tip`.
+    """Return the distance d from the pitch point [module] at which the mate's addendum ends.
 
-    `mate` is the mate's pitch radius, negative for a ring gear. |P - O|^2 = mate^2 + d^2 + 2 mate d sin psi, where
-    d sin psi = d (L^2 + R^2 - A^2) / (2 R L) is monotonic in d.
+    `tip` is the mate's tip radius and `mate` its pitch radius, negative for a ring gear. |P - O|^2 = mate^2 + d^2 +
+    2 mate d sin psi, where d sin psi = d (L^2 + R^2 - A^2) / (2 R L) is monotonic in d.
     """
 
     def off(d: float) -> float:
@@ -195,7 +200,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
 
 
 def pin_arc(R: float, A: float, B: float, d: float) -> float:
-    """Return the arc (pitch-line displacement X) from the pitch point to the distance d on the mate's addendum."""
+    """Return the arc X from the pitch point to the distance d on the mate's addendum [module]."""
     return float(PinPiece(R, A, B, d).travel(np.array(d)))
 
 
@@ -203,27 +208,27 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 class ExtremalPiece(PathPiece):
-    """Extremal of minimum friction, docs/shapes.md (10): S = D cos psi.
+    """Path of contact with minimum friction loss, docs/shapes.md (10): S = D cos psi, an extremal of the loss.
 
-    X = D ln d, or D ln tan(d/2) on cones, counted from the first contact.
+    The arc is X = D ln d, or D ln tan(d/2) on cones, counted from the first contact.
     """
 
     def __init__(self, pitch: PitchSurfaces, D: float, start: float, end: float) -> None:
         self.pitch, self.D, self.start, self.end = pitch, D, start, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine sqrt(1 - (S / D)^2) of the pressure angle."""
+        """Return the sine of the pressure angle: sqrt(1 - (S / D)^2)."""
         S = self.pitch.S(d) / self.D
         # factored, because 1 - S^2 cancels at small pressure angles
         return np.sqrt((1 - S) * (1 + S))
 
     def slope(self, d: Floats) -> Floats:
-        """Return the slope -S S' / (D^2 sin psi)."""
+        """Return the derivative of sin(psi) with respect to d: -S S' / (D^2 sin psi)."""
         found: Floats = -self.pitch.S(d) * self.pitch.S_slope(d) / (self.D**2 * self.sin_psi(d))
         return found
 
     def travel(self, d: Floats) -> Floats:
-        """Return the displacement D ln(d / start), or D ln(tan(d/2) / tan(start/2)) on cones."""
+        """Return the arc X from the first contact: D ln(d / start), or D ln(tan(d/2) / tan(start/2)) on cones."""
         d = np.asarray(d, dtype=float)
         if self.pitch.bevel:
             return self.D * np.log(np.tan(d / 2) / tan(self.start / 2))
@@ -231,7 +236,9 @@ class ExtremalPiece(PathPiece):
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
-    """Return the side of arc X whose pressure angle decreases from `first` to `last` (rad)."""
+    """Return the extremal of minimum friction with the arc X, whose pressure angle decreases from `first` to `last`
+    [rad].
+    """
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
         return PathSide((ExtremalPiece(pitch, D, D * cos(first), D * cos(last)),))
@@ -254,11 +261,12 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
 
 
 def flank_start(R: float, A: float, B: float, mate: float) -> float:
-    """Return X of the first contact that the pins leave of the mate's flank; -inf if nothing is cut away.
+    """Return the arc X of the first contact on the part of the mate's flank that the pins do not cut away; -inf if they
+    cut nothing.
 
-    R, A and B are pitch radius, distance from the axle and radius of the pins. `mate` is the pitch radius of the mate,
-    negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank reaches inside the pitch
-    point.
+    R, A and B are pitch radius, distance from the axle and radius of the pins [module]. `mate` is the pitch radius
+    of the mate, negative for a ring gear. X is counted from the pitch point outwards; below 0 the flank extends
+    inside the pitch point.
     """
     first = pin_angle(R, A, B)
     far = first + _FARTHEST * (acos(-1.0) - first)
@@ -284,7 +292,9 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum angle of the pin at which its contact has zero speed along the mate; None if it never has."""
+    """Return the maximum angle of the pin at which the contact has zero speed along the mate [rad]; None without such a
+    cusp.
+    """
 
     def speed(beta: float) -> float:
         L = sqrt((A - R) ** 2 + 4 * A * R * float(np.sin(beta / 2)) ** 2)
@@ -304,14 +314,16 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
 
 def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
-    """Return the point of the mate that a pin at the angle beta touches, from the mate's axle."""
+    """Return the point of the mate that the pin at the angle `beta` touches, relative to the mate's axle, as x + iy."""
     at = np.array([beta])
     G = _centre(R, A, at)
     return complex(_turned(R, mate, G * (1 - B / np.abs(G)) + 1j * mate, at)[0])
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance from a point of the mate to the centres of pins between two angles."""
+    """Return the minimum distance from a point of the mate to the pin's centre between the pin angles `low` and
+    `high`.
+    """
     distance = inf
     for _ in range(_NARROWED):
         t = np.linspace(low, high, _SCAN)
@@ -323,12 +335,12 @@ def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: 
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:
-    """Return the centre of the pin from the pitch point, as x + iy."""
+    """Return the centre of the pin relative to the pitch point, as x + iy [module]."""
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
     return found
 
 
 def _turned(R: float, mate: float, point: Points, beta: Floats) -> Points:
-    """Return a point in the body frame of the mate, from its axle, after the lantern has turned by beta."""
+    """Return a point relative to the mate's axle in the mate's frame, after the lantern has turned by `beta`."""
     found: Points = point * np.exp(1j * R / mate * beta)
     return found

@@ -1,4 +1,4 @@
-"""Base class of conjugate tooth forms: from a declaration to a pair of wheels and its transmission function.
+"""Base class of conjugate tooth forms: computes a pair of wheels and its transmission function from a declaration.
 
 It includes the checks that these forms share: arcs, pressure angles, kinds of wheels, and the numbering of the gears.
 """
@@ -33,7 +33,7 @@ _DESIGN = 1e-9  # relative difference of centre distances that counts as roundin
 
 
 class ConjugateToothForm(ToothForm):
-    """Conjugate tooth form: gives any two wheels a path of contact and a tooth thickness.
+    """Base class of tooth forms that define a path of contact and a tooth thickness for any two wheels.
 
     See Also
     --------
@@ -42,7 +42,7 @@ class ConjugateToothForm(ToothForm):
 
     conjugate: ClassVar[bool] = True
     matched: ClassVar[str] = ""
-    """Text on the quantities, other than arcs, that are matched in a comparison with other forms."""
+    """Quantities, besides the arcs of contact, that are made equal when forms are compared, in words."""
 
     backlash: Length = Field(
         "0",
@@ -66,7 +66,7 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Build the mesh of a pair, its first wheel driving.
+        """Return the mesh of a pair with the first wheel driving.
 
         A ring gear is gear 2 of the form in either order of the pair.
 
@@ -96,7 +96,7 @@ class ConjugateToothForm(ToothForm):
         return mesh
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Explain why a maker's backlash does not apply to this pair, if the pair declares its own.
+        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
 
         Returns
         -------
@@ -120,7 +120,7 @@ class ConjugateToothForm(ToothForm):
         return self.model_copy(update={"backlash": backlash})
 
     def slant_pressure(self, wheels: WheelPair) -> float:
-        """Return the ratio of the force on helical teeth to its component in the transverse plane.
+        """Return the ratio of the normal force on helical teeth to its component in the transverse plane, 1 or more.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class ConjugateToothForm(ToothForm):
         return 1.0
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of one gear and the mate's tip.
+        """Return the bottom clearance between the root of `gear` and the mate's tip.
 
         Parameters
         ----------
@@ -154,7 +154,7 @@ class ConjugateToothForm(ToothForm):
         return None
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at a centre distance that differs from the design.
+        """Return the backlash at a centre distance other than the design distance.
 
         Parameters
         ----------
@@ -316,7 +316,7 @@ class ConjugateToothForm(ToothForm):
         return OffDesignTransmission(pair, distance, friction, driver, direction)
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Return the declared centre distance if it differs from the design distance.
+        """Return the declared centre distance if it differs from the design distance; otherwise None.
 
         Parameters
         ----------
@@ -341,14 +341,14 @@ class ConjugateToothForm(ToothForm):
         return given if abs(given - design) > _DESIGN * design else None
 
     def _standard(self, path: PathOfContact, wheels: WheelPair) -> ConjugatePair:
-        """Return a pair whose teeth share the pitch equally, each thinned by half the backlash."""
+        """Return a pair whose teeth have equal thickness, half a pitch reduced by half the backlash."""
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
         half = path.pitch.p / 4 - self._backlash(path.pitch, wheels) / 4
         return ConjugatePair(path, (half, half))
 
     def _backlash(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
-        """Return the declared backlash as pitch-line displacement X.
+        """Return the declared backlash as an arc X on the pitch surfaces.
 
         For a bevel pair one module is p / pi on the unit sphere.
         """
@@ -357,7 +357,7 @@ class ConjugateToothForm(ToothForm):
 
 @lru_cache(maxsize=1024)
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
-    """Return the pair of a form; the result is cached."""
+    """Return the pair of a tooth form and two wheels from a cache."""
     return form.pair(wheels)
 
 
@@ -365,12 +365,12 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs declared in pitches to X."""
+    """Convert arcs of approach and recess from pitches to arcs X [module]."""
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
 
 def check_arcs(arcs: tuple[Figure, Figure]) -> None:
-    """Raise pydantic's error if an arc is below 0 or both are 0."""
+    """Raise a validation error if an arc is below 0 or both are 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
         raise bad(
@@ -381,7 +381,7 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
 
 
 def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
-    """Raise pydantic's error if the backlash is below 0 or the centre distance is not above 0."""
+    """Raise a validation error if the backlash is below 0 or the centre distance is not above 0."""
     if backlash.value < 0:
         raise bad("backlash", f"backlash {backlash.text} would jam the teeth", "write 0 or more")
     if centre_distance is not None and centre_distance.value <= 0:
@@ -389,7 +389,7 @@ def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
-    """Raise pydantic's error if a pressure angle is not between 0 and `below` turns (an eighth or a quarter)."""
+    """Raise a validation error if a pressure angle is not between 0 and `below` turns (0.25 by default)."""
     turns = angle.si / tau
     if not 0 < turns < below:
         raise bad(
@@ -400,7 +400,7 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
 
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-    """Raise `GearTrainError` if the kinds of wheels cannot have conjugate teeth of this form."""
+    """Raise `GearTrainError` if wheels of these kinds cannot have conjugate teeth of this form."""
     why, fix = _refusal(wheels.kinds), IDEAL
     if "helical" in wheels.kinds:
         if _are_skew(shaft_angle):
@@ -428,7 +428,9 @@ def wheel_specific_parameters(form: ToothForm) -> list[str]:
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` if the form's wheels differ and the pair names its ring gear first."""
+    """Raise `GearTrainError` if the two wheels have different tooth parameters and the pair names its ring gear
+    first.
+    """
     if uneven := wheel_specific_parameters(form):
         ring, pinion = pair
         raise refused(
@@ -439,7 +441,6 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
 
 
 def _are_skew(shaft_angle: ShaftAngle) -> bool:
-    """Return whether the axes of two helical wheels are not parallel."""
     try:
         return shaft_angle() is not None
     except RangeError:
@@ -447,7 +448,7 @@ def _are_skew(shaft_angle: ShaftAngle) -> bool:
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
-    """Return the shaft angle of a bevel pair (rad); None for wheels that mesh like spur wheels."""
+    """Return the shaft angle of a bevel pair [rad]; None for wheels on parallel axes and for contrate wheels."""
     if {"contrate", "helical"} & set(wheels.kinds):
         return None
     angle = shaft_angle()

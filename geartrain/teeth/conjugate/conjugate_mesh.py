@@ -1,7 +1,7 @@
 """Mesh of a gear pair with conjugate teeth in a train: spur, internal or bevel.
 
-It determines which wheel is gear 1 of the form, why the pair does not turn, its figures (arcs and contact ratio of the
-design, transmission error, backlash, efficiency), and its design (sizes, path of contact, losses, wheel outlines).
+It numbers the wheels as gear 1 and gear 2 of the form. It computes the faults of the pair, its results (arcs, contact
+ratio, transmission error, backlash, efficiency) and its design (sizes, path of contact, losses, outlines).
 """
 
 from __future__ import annotations
@@ -47,19 +47,21 @@ _HEADER = (
 
 
 class ConjugateDetails(NamedForm, Protocol):
-    """Interface of the tooth form that such a mesh uses, besides its name; see the methods of the form."""
+    """Methods of a conjugate tooth form that its mesh uses."""
 
     more_contact: ClassVar[str]
     """Advice on how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance under the mate's tip (modules)."""
+        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if it is
+        undefined.
+        """
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at a larger centre distance (modules)."""
+        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
-        """Return the round pins that replace teeth, if any."""
+        """Return the round pins that form the teeth of one wheel; None if both wheels have teeth."""
 
 
 @dataclass(frozen=True)
@@ -79,12 +81,14 @@ class ConjugateMesh(GearMesh):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can turn."""
+        """Verdict on whether these teeth can run."""
         return self.transmission.verdict
 
     @property
-    def stands(self) -> float:
-        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
+    def tooth_phase(self) -> float:
+        """Offset of the driven wheel [pitch]: half a tooth thickness of both wheels, since contact of flanks is the
+        zero position.
+        """
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
 
@@ -101,7 +105,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def separation(self) -> float:
-        """Tangent of the pressure angle at the pitch point."""
+        """Tangent of the pressure angle at the pitch point: radial over tangential tooth force."""
         return abs(tan(float(self.path.at(np.zeros(1)).psi[0])))
 
     @property
@@ -111,14 +115,16 @@ class ConjugateMesh(GearMesh):
         return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module, helix=helix)
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """Return the size of the pair, whose lengths are already in modules; None for bevels."""
+        """Return the size of the pair in modules; None for bevel pairs."""
         del tips
         if self.transmission.path.pitch.bevel:
             return None
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirement on a tooth: the flank of the design, and a root that lets the mate pass."""
+        """Return the requirements on a tooth of `wheel`: its flank as designed, and a root that clears the mate's
+        tip.
+        """
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -129,9 +135,9 @@ class ConjugateMesh(GearMesh):
         )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """Return the outline of a wheel: the flank of the design above a root of the blank's sizes.
+        """Return the outline of a wheel: its designed flanks above a root with the sizes `cut`.
 
-        The default depth of the root is the one that the form defines.
+        If `cut` has no bottom clearance, the bottom clearance of the tooth form is used.
         """
         from geartrain.teeth.outlines.wheel_outline import outline
 
@@ -144,18 +150,20 @@ class ConjugateMesh(GearMesh):
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
     def backlash_apart(self, gap: float) -> float | None:
-        """Return the backlash at another centre distance, as the form defines it."""
+        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
         return self.tooth_form.backlash_apart(self.wheel_pair, gap)
 
     @property
     def label(self) -> str:
-        """Name of the pair with the names of gear 1 and gear 2."""
+        """Name of the pair with the names of its gear 1 and gear 2, for messages."""
         first, second = self.gears
         return f"pair '{self.name}' (gear 1 is '{first}', gear 2 '{second}')"
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of the design with displaced flanks; another centre distance displaces all flanks equally."""
+        """Contact of the designed flanks with small displacements; a changed centre distance displaces all flanks
+        equally.
+        """
         from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 
         pitch, transmission = self.transmission.path.pitch, self.transmission
@@ -163,27 +171,27 @@ class ConjugateMesh(GearMesh):
         return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
-        """Report arcs and contact ratio of the design, transmission error, backlash and efficiency."""
+        """Return a report of arcs, contact ratio, transmission error, backlash and efficiency."""
         figures = _figures(self)
         return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
 
 
 def _shallow_root(gear: int, overlap: float) -> Problem:
-    """Return the problem of a root that the mate's tip would run into; `overlap` in modules."""
+    """Return the problem of a root that overlaps with the mate's tip by `overlap` [module]."""
     return Problem(
         f"the root of gear {gear} interferes with its mate's tip",
         f"they overlap by {overlap:.4g} modules at this centre distance",
-        "give a larger --dedendum or a smaller --addendum",
-        "--dedendum",
+        "give a larger dedendum or a smaller addendum",
+        "dedendum",
     )
 
 
-# -------------------------------------------------------------------------------------------------------------- figures
+# ----------------------------------------------------------------------------------------------------------- properties
 
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Figures of a pair with conjugate teeth, including its path of contact as designed."""
+    """Results of a pair with conjugate teeth, including its path of contact as designed."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -196,21 +204,23 @@ class ConjugateFigures(PairFigures):
     )
 
     arcs: tuple[float, float]
-    """Arcs of the driver's approach and recess (pitches)."""
+    """Arcs of approach and recess of the driver [pitch]."""
     contact_ratio: float
-    """Length of the path of contact, in pitches."""
+    """Arc of contact over the pitch."""
     pressure_angle: float
-    """Pressure angle at the pitch point (rad)."""
+    """Pressure angle at the pitch point [rad]."""
     shaft_angle: float | None
-    """Shaft angle (rad); None for parallel axes."""
+    """Shaft angle [rad]; None for parallel axes."""
     helix_angle: float | None = None
-    """Helix angle of helical wheels (rad); None for straight teeth."""
+    """Helix angle of helical wheels [rad]; None for straight teeth."""
     overlap_ratio: float | None = None
-    """Overlap ratio of helical teeth; None if it is not known."""
+    """Overlap ratio of helical teeth; None for straight teeth or without a face width."""
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Compute the figures of a pair as driven; involutes keep their motion figures even if they cannot run."""
+    """Return the results of a pair as driven; the kinematic results of involutes are computed even if the pair cannot
+    run.
+    """
     transmission, path = mesh.transmission, mesh.transmission.path
     pitch, runs = path.pitch, bool(mesh.verdict)
     approach, recess = _driver_arcs(transmission)
@@ -229,7 +239,7 @@ def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
 
 
 def _overlap_ratio(wheels: MeshingWheels) -> float | None:
-    """Return the overlap ratio: face width times tan(helix angle) over the transverse pitch."""
+    """Return the overlap ratio b tan(helix) / p: b is the face width, p the transverse pitch."""
     if not wheels.helix[0] or wheels.width is None or wheels.module is None:
         return None
     return wheels.width * tan(abs(wheels.helix[0])) / (pi * wheels.module)
@@ -250,7 +260,7 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
 
 
 def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) -> tuple[float, float]:
-    """Return the arcs of approach and recess with respect to the driver, as pitch-line displacements X."""
+    """Return the arcs of approach and recess of the driver as arcs X [module]."""
     approach, recess = transmission.path.arcs
     return (approach, recess) if transmission.driver == 1 else (recess, approach)
 
@@ -260,33 +270,35 @@ def _driver_arcs(transmission: ConjugateTransmission | OffDesignTransmission) ->
 
 @dataclass(frozen=True)
 class DesignLosses(Result):
-    """Losses and loads of a path of contact, and its sliding."""
+    """Loss, stress, heat and sliding of a pair as designed."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
-    """Loss, stress, heat, flash, depth."""
+    """Loss, contact stress, heat, flash temperature and case depth, relative to the standard involute."""
     sliding: float
-    """Maximum sliding over the pitch-line speed."""
+    """Maximum sliding speed over the pitch-line speed."""
     specific_sliding: float
-    """Maximum sliding over the slower contact speed along the flanks; infinite where that speed is 0."""
+    """Maximum sliding speed over the lower of both contact speeds along the flanks; infinite where that speed is 0."""
 
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of sliding if the tooth pairs in contact share the load."""
+    """Efficiency of a pair whose teeth in contact share the load."""
 
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Efficiency, exact in friction."""
+    """Efficiency of sliding, exact in the friction coefficient."""
     assumption: str = SHARED
-    """Assumption on load sharing, in words."""
+    """Assumption on how teeth in contact share the load, in words."""
 
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """Pair with conjugate teeth as designed; gear 1 first, lengths in modules (bevels: rad), angles in rad."""
+    """Pair with conjugate teeth as designed; values of gear 1 first, lengths in modules (bevels: rad), angles in
+    rad.
+    """
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
@@ -301,7 +313,7 @@ class PairDesign(Result):
     )
 
     mesh: ConjugateMesh
-    """Mesh of the pair as driven."""
+    """Mesh of the pair with the wheel that drives."""
     outlines: tuple[WheelOutline, ...] = ()
     """Outlines of the wheels that were cut."""
 
@@ -322,23 +334,25 @@ class PairDesign(Result):
 
     @property
     def pitch_radii(self) -> tuple[float, float]:
-        """Pitch radii of both gears; negative for a ring gear."""
+        """Pitch radii of gear 1 and gear 2 [module; rad for bevels]; negative for a ring gear."""
         return self.path.pitch.R1, self.path.pitch.R2
 
     @cached_property
     def flanks(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Radii that bound the active flanks of each gear, root end first."""
+        """Radii at which the active flanks of gear 1 and gear 2 begin (root side) and end (tip side) [module; rad for
+        bevels].
+        """
         return self.path.radii(1), self.path.radii(2)
 
     @property
     def thickness(self) -> tuple[float, float]:
-        """Thickness of a tooth or pin of each gear on the pitch circle (pitches)."""
+        """Thickness of a tooth or pin of gear 1 and gear 2 on the pitch circle [pitch]."""
         first, second = self.mesh.transmission.pair.halves
         return 2 * first / self.path.pitch.p, 2 * second / self.path.pitch.p
 
     @cached_property
     def top_lands(self) -> tuple[float | None, float | None]:
-        """Angle of the top land of a tooth of each gear (rad); None for round pins."""
+        """Angle of the top land of a tooth of gear 1 and gear 2 [rad]; None for round pins."""
         pair = self.mesh.transmission.pair
         first, second = (
             tip_thickness(self.path, gear, pair.halves) if solid else None for gear, solid in enumerate(pair.solid, 1)
@@ -347,25 +361,25 @@ class PairDesign(Result):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess, gear 1 driving (pitches); one may be negative."""
+        """Arcs of approach and recess with gear 1 driving [pitch]; one may be negative."""
         approach, recess = self.path.arcs
         return approach / self.path.pitch.p, recess / self.path.pitch.p
 
     @property
     def pressure_angles(self) -> tuple[float, float, float]:
-        """Pressure angles at the first contact, the pitch point and the last contact."""
+        """Pressure angles at the first contact, the pitch point and the last contact [rad]."""
         approach, recess = self.path.arcs
         first, middle, last = (float(self.path.at(X).psi) for X in (-approach, 0.0, recess))
         return first, middle, last
 
     @cached_property
     def losses_and_stresses(self) -> DesignLosses | None:
-        """Losses and stresses of the path; None for teeth that cannot run."""
+        """Losses and stresses of the pair; None for teeth that cannot run."""
         return DesignLosses(measure(self.path), *sliding(self.path)) if self.runs else None
 
     @property
     def efficiency(self) -> SharedEfficiency | None:
-        """Efficiency, exact in friction; None for teeth that cannot run."""
+        """Efficiency, exact in the friction coefficient; None for teeth that cannot run."""
         return SharedEfficiency(self.mesh.efficiency(self.mesh.driver)) if self.runs else None
 
     @property

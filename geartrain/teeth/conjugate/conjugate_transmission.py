@@ -1,4 +1,4 @@
-"""Conjugate gear pairs and their transmission function: a constant ratio, and friction losses."""
+"""Conjugate gear pairs and their transmission function: a constant ratio with friction losses."""
 
 from __future__ import annotations
 
@@ -42,17 +42,17 @@ class ConjugatePair(Shown):
     path: PathOfContact
     """Path of contact of the pair."""
     halves: Halves
-    """Half the tooth thickness of each gear on its pitch surface, as pitch-line displacement X."""
+    """Half the tooth thickness of gear 1 and gear 2 as an arc X on the pitch surface [module; rad for bevels]."""
     given: tuple[ToothFault, ...] | None = None
-    """Complete list of faults, if they do not follow from path and thickness; None otherwise."""
+    """Complete list of faults if the form determines it; None if the faults follow from path and thickness."""
     extra: tuple[ToothFault, ...] = ()
     """Faults in addition to those that follow from path and thickness."""
     solid: tuple[bool, bool] = (True, True)
-    """Flags of both gears: False if the teeth are round pins."""
+    """Flags of gear 1 and gear 2: True for teeth, False for round pins."""
 
     @cached_property
     def faults(self) -> tuple[ToothFault, ...]:
-        """Reasons why the pair cannot run; empty if it can."""
+        """Faults that prevent the pair from running; empty if it can run."""
         if self.given is not None:
             return self.given
         first, second = (half if solid else inf for half, solid in zip(self.halves, self.solid, strict=True))
@@ -60,12 +60,12 @@ class ConjugatePair(Shown):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Actual arcs of approach and recess, as pitch-line displacements X; one may be negative."""
+        """Arcs X of approach and recess with gear 1 driving [module; rad for bevels]; one may be negative."""
         return self.path.arcs
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface, as pitch-line displacement X; 0 if it is within rounding."""
+        """Circumferential backlash on the pitch surface [module; rad for bevels]; values within rounding are 0."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -107,12 +107,12 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on the pair: it runs, or a fault prevents it."""
+        """Verdict: the pair runs, or the fault that prevents it."""
         return verdict_of_faults(self.pair.faults, self._backlash)
 
     @property
     def distance(self) -> float:
-        """Design distance of the axles (modules); it has no meaning for cones."""
+        """Design centre distance [module]; meaningless for bevel pairs."""
         return abs(self.path.pitch.R1 + self.path.pitch.R2)
 
     @property
@@ -121,31 +121,35 @@ class ConjugateTransmission(ExactRatio):
         return ConjugateTransmission(self.pair, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> ConjugateTransmission:
-        """Return the transmission function of the opposite flanks; angles keep their sign convention and decrease."""
+        """Return the transmission function of the opposite flanks for motion in the reverse direction.
+
+        Angles keep their sign convention, so they decrease.
+        """
         return ConjugateTransmission(self.pair, self.friction, self.driver, -self.direction)
 
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error at driver angles S (rad): 0, or the backlash if the opposite flanks drive."""
+        """Return the transmission error at driver angles S [rad]: 0, or the backlash if the opposite flanks drive."""
         return self._constant(S, self._advance)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error (rad), which are equal."""
+        """Return the minimum and the maximum transmission error [rad], which are equal."""
         return self._advance, self._advance
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error (rad), and its standard deviation 0."""
+        """Return the mean of the transmission error [rad] and its standard deviation, which is 0."""
         return self._advance, 0.0
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess with respect to the driver, as pitch-line displacements X."""
+        """Arcs X of approach and recess of the driver [module; rad for bevels]."""
         approach, recess = self.pair.arcs
         return (approach, recess) if self.driver == 1 else (recess, approach)
 
     def contacts(self, S: ArrayLike) -> Floats:
-        """Return the displacements X from the pitch point of all tooth pairs in contact, negative in approach.
+        """Return the arcs X from the pitch point to all tooth pairs in contact [module; rad for bevels], negative in
+        approach.
 
         Parameters
         ----------
@@ -169,7 +173,9 @@ class ConjugateTransmission(ExactRatio):
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at which a tooth pair begins or ends contact or passes a kink of its path."""
+        """Return the driver angles [rad] at which a tooth pair enters or leaves contact or passes a kink of the path of
+        contact.
+        """
         approach, recess = self.path.approach, self.path.recess
         if self.driver == 2:
             approach, recess = recess, approach
@@ -183,7 +189,7 @@ class ConjugateTransmission(ExactRatio):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S (rad); NaN where no teeth touch or friction locks."""
+        """Return the efficiency at driver angles S [rad]; NaN where no teeth touch or friction locks them."""
         X = self.contacts(S)
         touching = ~np.isnan(X)
         each = np.zeros(X.shape)
@@ -195,7 +201,10 @@ class ConjugateTransmission(ExactRatio):
         return found
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding and friction of all tooth pairs in contact, which take equal shares of the driver's torque."""
+        """Return the sliding speeds and friction terms of all tooth pairs in contact at driver angles S [rad].
+
+        The pairs take equal shares of the driver's torque.
+        """
         pitch, X = self.path.pitch, self.contacts(S)
         touching = ~np.isnan(X)
         found = [np.full(X.shape, nan) for _ in range(3)]
@@ -221,7 +230,7 @@ class ConjugateTransmission(ExactRatio):
 
     @cached_property
     def _sampled(self) -> tuple[Floats, Floats]:
-        """Efficiency at the Gauss-Legendre nodes of one period, and the normalised weights; gaps in contact are
+        """Efficiency at the Gauss-Legendre nodes of one period and their normalised weights; gaps in contact are
         omitted.
         """
         x, w = _GAUSS
@@ -236,8 +245,8 @@ class ConjugateTransmission(ExactRatio):
         return self.friction >= self.locking_friction
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver's angle in contact at constant driver torque; NaN where friction
-        locks.
+        """Return the mean of the efficiency over the driver angles with contact, at constant driver torque; NaN if
+        friction locks.
         """
         if self._locks:
             return nan
@@ -245,14 +254,14 @@ class ConjugateTransmission(ExactRatio):
         return float(weights @ found)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return work output over work input per pitch at constant load torque; NaN where friction locks."""
+        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
         if self._locks:
             return nan
         found, weights = self._sampled
         return 1 / float(weights @ (1 / found))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, from 201 samples of each smooth interval; NaN where friction locks."""
+        """Return the minimum efficiency, from 201 samples of each smooth interval; NaN if friction locks."""
         if self._locks:
             return nan
         # the ends belong also to the next tooth pair or to the other side of the pitch point

@@ -44,10 +44,10 @@ Value = TypeVar("Value")
 
 
 def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Floats:
-    """Return the azimuth (rad, 0 or more) of points at distance `own` from a gear's axle and `other` from its mate's.
+    """Return the azimuths [rad, 0 or more] of points at distance `own` from a gear's axle and `other` from its mate's.
 
-    The method is the law of cosines, plane or spherical. The result is NaN if no such point exists. The axle of a ring
-    gear's mate is on the other side.
+    The azimuth is measured at the axle of `gear` from the line of centres, by the law of cosines, plane or
+    spherical. It is NaN if no such point exists. The axle of a ring gear's mate is on the opposite side.
     """
     D = pitch.R1 + pitch.R2
     if gear == 2:
@@ -62,10 +62,11 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 
 
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the rotations of both gears while the tip of `gear` touches given points of its mate's flank.
+    """Return the arcs X by which both gears have rotated while the tip of `gear` touches given points of its mate's
+    flank.
 
-    Rotations are given as pitch-line displacements X. The points are polar in the mate's X = 0 position. The tip of
-    gear 1 touches beyond the recess, the tip of gear 2 before the approach.
+    The points are given by radius and azimuth [rad] in the mate's position X = 0. The tip of gear 1 touches beyond the
+    recess, the tip of gear 2 before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)
@@ -77,7 +78,7 @@ def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floa
 
 
 def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
-    """Return polar points of the mate's flank that the tip of `gear` touches beyond the end of the path."""
+    """Return radii and azimuths [rad] of the mate's flank that the tip of `gear` touches beyond the end of the path."""
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
     # quadratic spacing, as the corner leaves the path along a parabola
@@ -96,7 +97,8 @@ def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
 
 
 def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the displacement of a flank along the normal at contact X per 1 rad of rotation about its pitch point.
+    """Return the displacement of a flank along its normal at the contacts X, per 1 rad of rotation about its pitch
+    point.
 
     The rotation is anticlockwise with X to the right and gear 2 above: z . ((P - P0) x n), on the sphere P0 . (P x n).
     """
@@ -111,14 +113,16 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class CornerLag:
-    """Lag (rad) of the driven wheel while a tip touches beyond an end of the path, tabulated at even steps."""
+    """Table of the driven wheel's lag [rad] while a tip corner touches beyond an end of the path, at equal steps."""
 
     step: float
-    """Step of the driver's angle beyond the end (rad); at the last lag the corner reaches the end of the flank."""
+    """Step of the driver's angle beyond the end of the path [rad]."""
     lags: Floats
 
     def __call__(self, beyond: Floats) -> Floats:
-        """Return the lag (rad) at angles beyond the end; 0 before it, infinite where the corner no longer touches."""
+        """Return the lag [rad] at driver angles beyond the end [rad]; 0 before it, infinite where the corner no longer
+        touches.
+        """
         at = np.maximum(beyond, 0.0) / self.step
         low = np.minimum(at.astype(np.int64), len(self.lags) - 2)
         first = self.lags[low]
@@ -127,25 +131,25 @@ class CornerLag:
 
     @property
     def most(self) -> float:
-        """Driver angle (rad) over which the corner touches."""
+        """Driver angle over which the corner touches [rad]."""
         return self.step * (len(self.lags) - 1)
 
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Reference sizes for the errors of one wheel. Lengths in modules (cones: rad on the unit sphere)."""
+    """Sizes of one wheel that convert its manufacturing errors to displacements [module; rad for bevels]."""
 
     z: int
     depth: float
-    """Radial extent of the active flank."""
+    """Radial extent of the active flank [module; rad for bevels]."""
     half_angle: float
-    """Angle between the chord of the active flank and the middle of its tooth (rad), at least 10 degrees."""
+    """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
     modules: float = 1.0
-    """Number of modules in one unit of these lengths."""
+    """Number of modules in one unit of these lengths, for example 1 if lengths are in modules."""
 
     @property
     def pitch(self) -> float:
-        """Circular pitch, in the unit of the lengths."""
+        """Circular pitch in the unit of these lengths."""
         return pi / self.modules
 
 
@@ -159,52 +163,56 @@ class DisplacedContact:
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
-    """The driver and the driven wheel."""
+    """Sizes of the driver and of the driven wheel."""
     start: float
     end: float
     across: tuple[Floats, Floats]
-    """Lag for teeth displaced from their axle across the line of centres, in the direction of motion."""
+    """Lag [rad] per unit displacement of the teeth across the line of centres, in the direction of motion."""
     along: tuple[Floats, Floats]
-    """Lag for teeth displaced from their axle along the line of centres."""
+    """Lag [rad] per unit displacement of the teeth along the line of centres, away from their axle."""
     tilt: tuple[Floats, Floats]
-    """Lag for a flank that is flatter by 1 rad, rotated about its pitch point."""
+    """Lag [rad] for a flank rotated about its pitch point by 1 rad so that it becomes flatter."""
     apart: Floats
-    """Lag for a larger centre distance or shaft angle."""
+    """Lag [rad] per unit increase of the centre distance or shaft angle."""
     normal: Floats
-    """Lag for a flank lower by 1 along its normal: the reciprocal of the moment arm."""
+    """Lag [rad] per unit of material missing along the normal of a flank: the reciprocal of the moment arm."""
     entering: CornerLag
-    """Lag while a tip touches before the start of the path."""
+    """Lag [rad] while a tip touches before the start of the path of contact."""
     leaving: CornerLag
-    """Lag while a tip touches beyond the end of the path."""
+    """Lag [rad] while a tip touches beyond the end of the path of contact."""
     longer: tuple[float, float]
-    """Shift (rad of the driver) of the end (driver's tip) and of the start (driven tip) for a tip higher by 1."""
+    """Shift of the end and of the start of contact [rad of the driver] per unit increase of the driver's and the driven
+    wheel's tip radius.
+    """
     backlash: float
-    """Backlash (rad of the driven wheel)."""
-    stands: float
-    """Position of a driven tooth at driven angle 0 (rad past the line of centres)."""
+    """Backlash [rad of the driven wheel]."""
+    tooth_phase: float
+    """Angle of a driven tooth past the line of centres at driven angle 0 [rad]."""
     even: Floats
-    """Lag (rad) of error-free wheels at the same steps, caused by axles that are not at their design distance."""
+    """Lag [rad] of error-free wheels at the same driver angles, caused by a centre distance other than the design
+    distance.
+    """
     distance: float
-    """Centre distance; infinite if the axles are not parallel."""
+    """Centre distance [module]; infinite if the axles are not parallel."""
 
     @property
     def ratio(self) -> Fraction:
-        """Mean speed ratio."""
+        """Mean speed ratio, driven over driver."""
         return Fraction(self.wheels[0].z, self.wheels[1].z)
 
     @property
     def pitches(self) -> tuple[float, float]:
-        """Pitches of both wheels (rad)."""
+        """Angular pitches of the driver and of the driven wheel [rad]."""
         return 2 * pi / self.wheels[0].z, 2 * pi / self.wheels[1].z
 
     def apart_by(self, shift: float) -> DisplacedContact:
-        """Return the same teeth at a centre distance larger by `shift`."""
+        """Return the contact of the same teeth at a centre distance larger by `shift` [module]."""
         return replace(self, even=self.even + shift * self.apart, distance=self.distance + shift)
 
 
 @lru_cache(maxsize=256)
 def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> DisplacedContact:
-    """Return the contact of a conjugate pair driven by gear `driver`, at a centre distance larger by `gap`."""
+    """Return the contact of a conjugate pair driven by gear `driver` at a centre distance larger by `gap` [module]."""
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
         raise RangeError(
@@ -237,7 +245,7 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
         leaving=_corner_lag(pair, driver, driver),
         longer=_for_both(gears, lambda gear: _end_shift(path, gear) / own),
         backlash=pair.backlash / other,
-        stands=sum(pair.halves) / other,
+        tooth_phase=sum(pair.halves) / other,
         even=np.zeros(_NODES),
         distance=inf if pitch.bevel else abs(pitch.R1 + pitch.R2),
     )
@@ -245,12 +253,11 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
 
 
 def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Value, Value]:
-    """Return a value for the driver and one for the driven wheel."""
     return value(gears[0]), value(gears[1])
 
 
 def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
-    """Return the lag of the driven gear while the tip of one gear touches beyond the path.
+    """Return the lag of the driven wheel while the tip of `gear` touches beyond the path of contact.
 
     The driver's tip touches as the teeth leave contact, the driven tip as they enter it.
     """
@@ -271,7 +278,7 @@ def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
 
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
-    """Return the increase of contact length (pitch-line displacement X) for a tip higher by 1."""
+    """Return the increase of the arc of contact X per unit increase of the tip radius of `gear`."""
     foot, tip = path.ends(gear)
     step = _END_STEP * (foot - tip)
     radius, _ = path.pitch.polar(gear, path.flank(gear, np.array([tip, tip + step])))
@@ -323,13 +330,16 @@ class OffDesignTransmission(OutlineTransmission):
         return OffDesignTransmission(self.pair, self.distance, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> OffDesignTransmission:
-        """Return the transmission function of the opposite flanks; angles keep their sign convention and decrease."""
+        """Return the transmission function of the opposite flanks for motion in the reverse direction.
+
+        Angles keep their sign convention, so they decrease.
+        """
         return OffDesignTransmission(self.pair, self.distance, self.friction, self.driver, -self.direction)
 
 
 @lru_cache(maxsize=64)
 def _outline_gears(pair: ConjugatePair, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at a distance; cached, so that their results are reused."""
+    """Return the outlines of a pair at a centre distance, from a cache that keeps their contact results."""
     return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
 
 
@@ -365,7 +375,6 @@ def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
 
 
 def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
-    """Return the outline of one wheel: its working flank and the mirror image of it."""
     half = pair.halves[gear - 1] / abs(R)
     turn = np.exp(-1j * half)
 
@@ -381,7 +390,9 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
 
 
 def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return points of a flank from the wheel's axle: x towards the space that the tooth leads into, y outwards."""
+    """Return points (x, y) of a flank relative to the wheel's axle: x towards the tooth space ahead, y outwards
+    [module].
+    """
     points = path.flank(gear, X)
     if gear == 1:
         return np.asarray(points + np.array([0.0, path.pitch.R1]))
@@ -390,13 +401,12 @@ def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 def _joints(path: PathOfContact) -> list[float]:
-    """Return X at the ends of the pieces of a path."""
     ends = ((-1.0, path.approach), (1.0, path.recess))
     return [sign * float(side.travel(np.array(d))) for sign, side in ends for d in side.joints]
 
 
 def _root_line(flank: object, foot: float, tip: float) -> OutlineCurve:
-    """Return the root of a tooth: a straight line that continues the foot of its flank."""
+    """Return the root flank of a tooth: a straight line that continues the lower end of its flank tangentially."""
     assert callable(flank)
     # small enough for the tangent, large enough that the difference exceeds rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))

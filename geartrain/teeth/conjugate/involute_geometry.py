@@ -17,12 +17,12 @@ _ROUNDING = 1e-12  # modules
 
 
 def inv(angle: float) -> float:
-    """Return the involute function tan x - x of an angle in rad."""
+    """Return the involute function tan x - x of an angle x [rad]."""
     return tan(angle) - angle
 
 
 def inv_angle(value: float) -> float:
-    """Return the angle (rad) whose involute function is `value`, 0 or more."""
+    """Return the angle [rad] whose involute function is `value`, 0 or more."""
     # the tangent is infinite at a right angle
     high = pi / 2 - 1e-9
     return root(lambda x: inv(x) - value, 0.0, high, -value, inv(high) - value) if value else 0.0
@@ -30,7 +30,9 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """Involute wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad)."""
+    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module] and pressure angle
+    [rad].
+    """
 
     z: float
     psi: float
@@ -38,37 +40,37 @@ class InvoluteWheel:
     addendum: float
     dedendum: float
     cut: float
-    """Depth to which the rack's flank is straight; undercut begins where this depth is too large."""
+    """Depth to which the rack's flank is straight [module]; a larger depth causes undercut."""
     ring: bool = False
 
     @property
     def r(self) -> float:
-        """Radius of the reference circle."""
+        """Radius of the reference circle [module]."""
         return self.z / 2
 
     @property
     def base(self) -> float:
-        """Radius of the base circle."""
+        """Radius of the base circle [module]."""
         return self.r * cos(self.psi)
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle."""
+        """Radius of the tip circle [module]."""
         return self.r + self.shift + (-self.addendum if self.ring else self.addendum)
 
     @property
     def root(self) -> float:
-        """Radius of the root circle."""
+        """Radius of the root circle [module]."""
         return self.r + self.shift + (self.dedendum if self.ring else -self.dedendum)
 
     def half(self, psi: float) -> float:
-        """Return half the tooth thickness (rad) on the circle where the pressure angle is `psi` (rad)."""
+        """Return half the angular tooth thickness [rad] on the circle with the pressure angle `psi` [rad]."""
         sign = -1 if self.ring else 1
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Return the radius up to which the rack's corner cuts the involute away; 0 without undercut and for a ring
-        gear.
+        """Return the radius up to which the rack's corner removes the involute [module]; 0 without undercut and for
+        ring gears.
         """
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
@@ -79,8 +81,8 @@ class InvoluteWheel:
         return root(self._corner_offset, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
 
     def _corner_offset(self, radius: float) -> float:
-        """Return the azimuth of the corner's trochoid less that of the involute at a radius; negative if the corner
-        cuts.
+        """Return the azimuth of the corner's trochoid minus the azimuth of the involute at a radius [rad]; negative
+        where the corner cuts.
         """
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
@@ -93,13 +95,15 @@ class InvoluteWheel:
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Involute wheels at a centre distance, the first driving; the second may be a ring gear."""
+    """Involute wheels at a centre distance [module], the first driving; the second may be a ring gear."""
 
     first: InvoluteWheel
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Total thinning of the teeth of both wheels from a cut without backlash, as pitch-line displacement X."""
+    """Total reduction of the tooth thickness of both wheels relative to a pair without backlash, as an arc X
+    [module].
+    """
 
     @property
     def psi(self) -> float:
@@ -116,19 +120,19 @@ class InvolutePair:
 
     @property
     def halves(self) -> tuple[float, float]:
-        """Half the tooth thickness of each wheel on the operating pitch circles, as pitch-line displacement X."""
+        """Half the tooth thickness of each wheel on its operating pitch circle, as an arc X [module]."""
         pitch, psi = self.pitch, self.psi
         first, second = self.first.half(psi) * pitch.R1, self.second.half(psi) * abs(pitch.R2)
         return first - self.thinned / 4, second - self.thinned / 4
 
     @property
     def backlash(self) -> float:
-        """Backlash on the operating pitch circle, as pitch-line displacement X; negative if the teeth jam."""
+        """Backlash on the operating pitch circle as an arc X [module]; negative if the teeth jam."""
         return self.pitch.p - 2 * sum(self.halves)
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess from the tip circles, as pitch-line displacements X.
+        """Arcs X of approach and recess that the tip circles give [module].
 
         One is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on one
         side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
@@ -146,10 +150,10 @@ class InvolutePair:
 
 
 def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
-    """Return the centre distance without backlash: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
+    """Return the centre distance without backlash [module]: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
 
-    With a ring gear the pinion's z1 and x1 count as negative. Raises `GearTrainError` if the negative shifts are too
-    large for any such distance.
+    With a ring gear, z1 and x1 of the pinion enter with negative sign. Raises `GearTrainError` if no such distance
+    exists because the negative profile shifts are too large.
     """
     psi, sign = first.psi, -1 if second.ring else 1
     teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift
@@ -178,15 +182,15 @@ def _no_contact_error(first: InvoluteWheel, second: InvoluteWheel, distance: flo
 
 
 def base_cone(R: float, psi: float) -> float:
-    """Return the half-angle (rad) of the base cone of a spherical involute: sin base = sin R cos psi.
+    """Return the half-angle of the base cone of a spherical involute [rad]: sin base = sin R cos psi.
 
-    R is the half-angle of the pitch cone.
+    R is the half-angle of the pitch cone and psi the pressure angle [rad].
     """
     return asin(sin(R) * cos(psi))
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:
-    """Return the arc, as pitch-line displacement X, from pitch cone R to the `tip` cone (rad) of a spherical involute.
+    """Return the arc X of a spherical involute from the pitch cone R to the tip cone `tip` [rad on the unit sphere].
 
     It is negative if the tip cone is inside the pitch cone. cos tip = cos d cos R - sin d sin psi sin R, where
     cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
@@ -197,5 +201,5 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
 
 
 def cone_height(R: float, z: float, height: float) -> float:
-    """Return the angle (rad) above a pitch cone R of a height given in modules of the large end."""
+    """Return the angle [rad] above the pitch cone R of a height given in modules of the large end."""
     return atan(height * 2 * sin(R) / z)

@@ -57,12 +57,12 @@ _GIVEN_UP = 1e-4  # of the end: resolution at which an end counts as unreachable
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """Return the side of an involute: constant pressure angle `psi` (rad) over an arc X."""
+    """Return the side of an involute with the arc X: constant pressure angle `psi` [rad]."""
     return PathSide((RayPiece(psi, ray_end(psi, X)),))
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
-    """Return the side of constant Hertzian pressure, kr / cos psi constant.
+    """Return the side with constant Hertzian pressure and the arc X, so that kr / cos psi is constant.
 
     w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0.
     """
@@ -70,9 +70,10 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
-    """Return f(d, v) and df/dv of uniform stress, docs/shapes.md (8): S v' + f(d, v) = 0 with v = sin psi.
+    """Return a function for f(d, v) and df/dv of uniform stress, docs/shapes.md (8): S v' + f(d, v) = 0 with v = sin
+    psi.
 
-    `psi` is the pressure angle (rad) at the pitch point.
+    `psi` is the pressure angle at the pitch point [rad].
     """
     k = sin(psi) * cos(psi)
 
@@ -96,7 +97,7 @@ def _piece_over_arc(
     start: float = 0.0,
     piece_maker: PieceMaker | None = None,
 ) -> PathPiece:
-    """Solve S v' + f = 0 for the piece whose displacement at its end is X.
+    """Solve S v' + f = 0 for the piece that ends at the arc X.
 
     The solution does not depend on the end. It is therefore solved up to a guessed end, and again only if the true end
     lies beyond. If the guess cannot be reached, the end is bisected towards the last one that could.
@@ -108,6 +109,7 @@ def _piece_over_arc(
         try:
             v = solved(pitch, f, first, end, start, v)
         except RangeError:
+            # no solution so far out: approach it from the last solved end, which is a better start
             if end - low < _GIVEN_UP * end:
                 raise
             end = (low + end) / 2
@@ -121,7 +123,7 @@ def _piece_over_arc(
 def _piece_to_arc(
     piece_maker: Callable[[float], PathPiece], X: float, v: ChebyshevSeries
 ) -> tuple[float, PathPiece | None]:
-    """Return the distance at which X is reached, and the piece that ends there.
+    """Return the distance d at which the arc X is reached, and the piece that ends there.
 
     The piece is None if the series must first be solved up to that distance.
     """
@@ -138,9 +140,9 @@ def _piece_to_arc(
 
 
 def _corrected_end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
-    """Find the end at which the piece has the displacement X, by Newton's method on its own series.
+    """Return the end d at which the piece has the arc X, by Newton's method on the series of the piece.
 
-    Returns one Newton step if further steps would leave the range of the series.
+    Return one Newton step if further steps would leave the range of the series.
     """
     most = piece.end + min(_FARTHER, (_REACH / len(v.coefficients)) ** 2) * (piece.end - v.start)
     end, last, first = piece.end, inf, 0.0
@@ -162,12 +164,15 @@ def _corrected_end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
-    """Return the piece whose sin psi is the solution itself."""
+    """Return the piece for a solution v = sin psi."""
     return SampledPiece(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callable[[Floats], Floats]:
-    """Return v' from the equation; close to the pitch point, where that would be 0/0, from the series."""
+    """Return a function for v'.
+
+    It uses the differential equation, and the series close to the pitch point, where the equation gives 0/0.
+    """
     steep = v.derivative()
 
     def slope(d: Floats) -> Floats:
@@ -179,7 +184,9 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callab
 
 
 def _ended_at_arc(piece_maker: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
-    """Return the piece whose displacement at its end is X, by Newton's method with slope 1 / cos psi at the end."""
+    """Return the piece that ends at the arc X, by Newton's method: the derivative of the arc at the end is 1 / cos
+    psi.
+    """
     end, last = guess, inf
     piece = piece_maker(end)
     for _ in range(30):
@@ -194,16 +201,18 @@ def _ended_at_arc(piece_maker: Callable[[float], PathPiece], guess: float, X: fl
 
 
 def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
-    """Return the side of uniform heat over an arc X: w = beta S + gamma S / cos psi, psi = 0 at the pitch point.
+    """Return the side with uniform heat and the arc X: w = beta S + gamma S / cos psi, psi = 0 at the pitch point.
 
-    beta is b of the hotter surface (reading b in docs/shapes.md).
+    beta is the curvature b of the hotter surface, as read in docs/shapes.md.
     """
     f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
     return PathSide((_piece_over_arc(pitch, f, first, _guess_end(beta, gamma, X), X, piece_maker=_quotient_piece),))
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
-    """Return f(d, g) and df/dg of uniform heat, docs/shapes.md (9): S g' + f(d, g) = 0 with g = sin psi / S."""
+    """Return a function for f(d, g) and df/dg of uniform heat, docs/shapes.md (9): S g' + f(d, g) = 0 with g = sin psi
+    / S.
+    """
 
     def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
@@ -216,13 +225,13 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 
 def _guess_end(beta: float, gamma: float, X: float) -> float:
-    """Return a first guess of the end, from the cycloid tangent to the path at the pitch point."""
+    """Return an initial guess of the end d, from the cycloid tangent to the path at the pitch point."""
     rho = 1 / (beta + gamma)
     return circle_end(rho, min(X, 2 * rho))
 
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
-    """Return the piece whose solution is g = sin psi / S, with 2 S' g + S g' = beta + gamma / cos psi."""
+    """Return the piece for a solution g = sin psi / S, with 2 S' g + S g' = beta + gamma / cos psi."""
     steep = _slope(pitch, f, g)
     return SampledPiece(
         lambda d: pitch.S(d) * g(d),
@@ -234,10 +243,9 @@ def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, 
 
 
 def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: float) -> PathSide:
-    """Return a ray of pressure angle `psi` up to the maximum allowed heat of the dedendum, followed by uniform heat.
+    """Return a side with finite stress: a ray of pressure angle `psi` up to the permitted heat, then uniform heat.
 
-    Its stress is finite. The ray ends where S / S' = sin psi / (b + gamma / cos psi). If the ray never reaches that
-    heat, it is the whole side.
+    The ray ends where S / S' = sin psi / (b + gamma / cos psi). If it does not reach that heat, it is the whole side.
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
@@ -257,8 +265,8 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 def least_friction(
     pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
 ) -> PathSide:
-    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum speed `u` along the
-    dedendum.
+    """Return the side of minimum loss: a ray at the maximum pressure angle, then the minimum contact speed `u` along
+    the dedendum, as a fraction of the pitch-line speed.
 
     The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) if friction
     depends on speed and `weight` gives mu S at distances d. Raises `RangeError` if the arc is longer than teeth within
@@ -309,7 +317,7 @@ def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> Ran
 
 
 def _second_sine(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
-    """Return sin psi of the second piece as a function of d, like `SteadySpeedPiece` without its travel series."""
+    """Return a function for sin psi of the second piece, as `SteadySpeedPiece` but without its series of X."""
     eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
 
     def sine(d: Floats) -> Floats:
@@ -320,9 +328,9 @@ def _second_sine(pitch: PitchSurfaces, b: float, u: float, first: float, psi: fl
 
 
 def _second_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
-    """Find the end at which the second piece has the displacement `rest`.
+    """Return the end d at which the second piece has the arc `rest`.
 
-    The method is Newton's, with the displacement by Gauss-Legendre quadrature.
+    The method is Newton's, with the arc by Gauss-Legendre quadrature.
     """
     x, weights = _GAUSS
     end, last = first + rest * cos(psi), inf
@@ -342,7 +350,7 @@ def _second_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
 def _first_variation(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float, loss: Weight
 ) -> float:
-    """Compute the first variation, docs/shapes.md (13) or (19).
+    """Return the first variation, docs/shapes.md (13) or (19).
 
     It is the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi).
     """
@@ -362,7 +370,7 @@ def solved(
     start: float = 0.0,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """Solve S v' + f = 0 on [start, end] with v = `first` at `start`, by Chebyshev collocation.
+    """Return the solution of S v' + f = 0 on [start, end] with v = `first` at `start`, by Chebyshev collocation.
 
     f      function of d, v that returns f and its derivative by v; f(0, first) = 0 makes the solution bounded at the
            pitch point
@@ -392,7 +400,7 @@ def fitted(
     nodes: int,
     near: ChebyshevSeries | None = None,
 ) -> ChebyshevSeries:
-    """Solve the same problem as `solved` with a fixed number of nodes."""
+    """Return the solution of the problem of `solved` with a fixed number of nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges
@@ -410,13 +418,13 @@ class _Collocated:
         self.matrix[0] = 0.0
 
     def residual(self, v: Floats) -> tuple[Floats, Floats]:
-        """Return the residual at each node, and the diagonal that f adds to the Jacobian."""
+        """Return the residual at each node, and the diagonal entries df/dv of the Jacobian."""
         off, slope = self.f(self.d, v)
         off[0], slope[0] = v[0] - self.first, 1.0
         return self.matrix @ v + off, slope
 
     def newton(self, v: Floats) -> Floats:
-        """Solve the equations by damped Newton steps until rounding limits them."""
+        """Return the solution by damped Newton steps, iterated until rounding limits them."""
         left, slope = self.residual(v)
         for _ in range(_STEPS):
             step = np.linalg.solve(self.matrix + np.diag(slope), left)
@@ -425,6 +433,7 @@ class _Collocated:
             # halve a step that leaves the domain of f, or, down to a thousandth, that increases the residual
             while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
                 part /= 2
+                # so short a step has no effect: the equation has no solution up to this end
                 if part < 1e-9:
                     raise unreachable_end(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
@@ -439,7 +448,7 @@ class _Collocated:
 
 
 def unreachable_end(end: float) -> RangeError:
-    """Return the error for an end of the path that cannot be reached."""
+    """Return the error for an end of the path of contact that cannot be reached."""
     return RangeError(
         Problem(
             f"the path of contact does not reach {end:.6g} from the pitch point",
@@ -455,7 +464,9 @@ def unreachable_end(end: float) -> RangeError:
 def variation_integrand(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], d: Floats, end: float, loss: Weight
 ) -> Floats:
-    """Compute the integrand of the first variation: loss of a higher path at d less its gain in arc there."""
+    """Return the integrand of the first variation: loss of a higher path at d minus the loss saved by its longer
+    arc.
+    """
     S, sine = pitch.S(d), sine_of(d)
     cosine = np.sqrt(1 - sine**2)
     last = np.array(end)
@@ -467,7 +478,9 @@ def variation_integrand(
 def check_pieces(
     pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], end: float, first: float, weight: Weight
 ) -> None:
-    """Raise `RangeError` if a ray and one slow piece are not optimal (conditions of docs/shapes.md, section 15)."""
+    """Raise `RangeError` if a ray and one piece of minimum speed are not optimal (conditions in docs/shapes.md, section
+    15).
+    """
     d = np.linspace(0.0, end, _CHECKED)
     if (np.diff(weight(d)) < 0).any():
         raise other_shape_error("the friction loss of a contact decreases there with increasing sliding velocity")

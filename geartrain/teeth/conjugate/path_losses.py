@@ -44,15 +44,15 @@ ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
 
 LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
-"""Names of the measures that depend on load sharing, in the order of tables."""
+"""Names of the results that depend on load sharing, in the order of tables."""
 FREE = ("depth", "contact_ratio", "slowest")
-"""Names of the measures that do not depend on load sharing."""
+"""Names of the results that do not depend on load sharing."""
 _STEP, _STEPS = 1.25, 40  # growth factor of the bracket, and maximum number of growths: 1.25^40 = 7500
 
 
 @dataclass(frozen=True, slots=True)
 class PathLosses(Result):
-    """Loss, stress, heat and flash temperature of a path under one assumption on load sharing.
+    """Loss, stress, heat and flash temperature of a path of contact under one assumption on load sharing.
 
     All are normalised by friction and load. Lengths are in modules, or in radians for bevels.
 
@@ -66,19 +66,19 @@ class PathLosses(Result):
     assumption: str
     """Assumption on how tooth pairs share the load, in words."""
     loss: float
-    """Mean loss over friction, first order.
+    """Mean loss over the friction coefficient, to first order.
 
     One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its path (Buckingham). Shared load: the mean over a
     pitch (Ohlendorf).
     """
     stress: float
-    """Maximum Hertzian pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0."""
+    """Maximum Hertzian pressure over the square root of the tangential force: sqrt(max H); infinite where psi is 0."""
     off_pitch: float
-    """Maximum Hertzian pressure, likewise normalised, where |X| is more than a tenth of a pitch."""
+    """Maximum of the same pressure at contacts more than a tenth of a pitch away from the pitch point."""
     heat: float
-    """Maximum heat per area of either profile, over friction times tangential force: max Q."""
+    """Maximum frictional heat per area of either profile, over friction coefficient times tangential force: max Q."""
     flash: float
-    """Maximum of the quantity to which the flash temperature is proportional."""
+    """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, to which Blok's flash temperature is proportional."""
 
     def over(self, other: PathLosses) -> dict[str, float]:
         """Return the ratio of each quantity to the same quantity of another path.
@@ -93,7 +93,7 @@ class PathLosses(Result):
 
 @dataclass(frozen=True, slots=True)
 class PathMeasures(Result):
-    """Losses and loads of one path, and its geometry. Lengths in modules, or in radians for bevels.
+    """Losses, loads and geometry of one path of contact. Lengths in modules, or in radians for bevels.
 
     See Also
     --------
@@ -103,15 +103,15 @@ class PathMeasures(Result):
     KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
 
     one_pair: PathLosses
-    """Losses and loads if one tooth pair bears the whole load."""
+    """Losses and loads if one tooth pair carries the whole load."""
     shared: PathLosses
     """Losses and loads if the tooth pairs in contact share the load equally."""
     depth: float
-    """Working depth |eta_a| + eta_r."""
+    """Working depth |eta_a| + eta_r [module; rad for bevels]."""
     slowest: float
-    """Minimum speed of the contact along a dedendum, over the pitch-line speed."""
+    """Minimum contact speed along a dedendum over the pitch-line speed."""
     contact_ratio: float
-    """Contact ratio: displacement during which one tooth pair touches, in pitches."""
+    """Contact ratio: arc of contact over the pitch."""
 
     def over(self, other: PathMeasures) -> PathRatios:
         """Return the ratio of each quantity to the same quantity of another path.
@@ -127,20 +127,20 @@ class PathMeasures(Result):
 
 @dataclass(frozen=True, slots=True)
 class PathRatios(Result):
-    """Ratios of the measures of one path to those of a reference path, by name."""
+    """Ratios of the results of one path to the results of a reference path, by name."""
 
     KEYS = (Key("one_pair", to=finite), Key("shared", to=finite), Key("", "free", finite))
 
     one_pair: dict[str, float]
-    """Ratios of losses and loads if one tooth pair bears the whole load."""
+    """Ratios of losses and loads if one tooth pair carries the whole load."""
     shared: dict[str, float]
     """Ratios of losses and loads if the tooth pairs in contact share the load equally."""
     free: dict[str, float]
-    """Ratios of the measures that do not depend on load sharing."""
+    """Ratios of the results that do not depend on load sharing."""
 
 
 def measure(path: PathOfContact) -> PathMeasures:
-    """Compute loss, stress, heat, flash temperature and working depth of a path of contact.
+    """Return loss, stress, heat, flash temperature and working depth of a path of contact.
 
     Parameters
     ----------
@@ -172,11 +172,11 @@ def measure(path: PathOfContact) -> PathMeasures:
 
 
 Stretch = tuple[float, float, int]
-"""Interval of X from first to second value, and the number of tooth pairs in contact on it."""
+"""Interval from the first to the second value of X, and the number of tooth pairs in contact in it."""
 
 
 def sharing(path: PathOfContact) -> list[Stretch]:
-    """Divide the path into intervals of X with a constant number of tooth pairs in contact."""
+    """Return the intervals of X in which the number of tooth pairs in contact is constant."""
     p, (approach, recess) = path.pitch.p, path.arcs
     whole = floor(path.contact_ratio)
     cuts = sorted(
@@ -193,8 +193,9 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 
 
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
-    """Compute the losses and loads if the tooth pairs in contact on each interval share the load equally."""
+    """Return the losses and loads if the tooth pairs in contact in each interval share the load equally."""
     pitch = path.pitch
+    # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch
     bound = 0.1 * pitch.p
 
     # H (pressure squared) and heat are proportional to the force on a pair, flash to its power 3/4
@@ -213,12 +214,12 @@ def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -
 
 
 def _square_root(value: float) -> float:
-    """Return the square root; 0 for a negative value, which is the maximum over no contact."""
+    """Return the square root, or 0 for a negative value: a maximum over no contact is -inf."""
     return float(max(value, 0.0) ** 0.5)
 
 
 def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
-    """Return the sliding integral J of the contacts between two X, summed over both sides."""
+    """Return the sliding integral J of the contacts with arcs X from `low` to `high`, summed over both sides."""
     total = 0.0
     for recess in (False, True):
         if span := path.span(recess, low, high):
@@ -227,7 +228,9 @@ def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
 
 
 def sliding_integral(pitch: PitchSurfaces, side: PathSide, start: float = 0.0, end: float = inf) -> float:
-    """Integrate S / cos^2 psi over d from `start` to `end` of one side: J of docs/shapes.md (7)."""
+    """Return the sliding integral J, docs/shapes.md (7): S / cos^2 psi integrated over d from `start` to `end` of one
+    side.
+    """
     x, weights = _GAUSS
     total = 0.0
     for piece in side.pieces:
@@ -239,13 +242,13 @@ def sliding_integral(pitch: PitchSurfaces, side: PathSide, start: float = 0.0, e
 
 
 def depth(path: PathOfContact) -> float:
-    """Return the working depth: height of the last contact above the first, summed over both sides."""
+    """Return the working depth [module]: height of the last contact above the first, summed over both sides."""
     spans = ((side, path.span(recess)) for recess, side in ((False, path.approach), (True, path.recess)))
     return sum(height(path.pitch, side, *span) for side, span in spans if span)
 
 
 def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end: float | None = None) -> float:
-    """Return the height |eta| of the last contact of a side above its first contact.
+    """Return the height |eta| of the last contact of a side above its first contact [module].
 
     The first contact is on the pitch line except for paths that do not reach the pitch point.
     """
@@ -255,7 +258,9 @@ def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end
 
 
 def sliding(path: PathOfContact) -> tuple[float, float]:
-    """Return the maximum sliding over the pitch-line speed, and over the slower contact speed along the flanks."""
+    """Return the maximum sliding speed over the pitch-line speed, and over the lower of both contact speeds along the
+    flanks.
+    """
     pitch = path.pitch
     slide = maximum(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
     return slide, maximum(path, lambda c: c.Q1.clip(c.Q2) * c.cos_psi)
@@ -268,8 +273,7 @@ def maximum(
     low: float = -inf,
     high: float = inf,
 ) -> float:
-    """Return the maximum of a quantity over contacts with |X| >= `beyond` and X from `low` to `high`; -inf without
-    contact.
+    """Return the maximum of `what` over contacts with |X| >= `beyond` and X from `low` to `high`; -inf without contact.
 
     Each piece is scanned on a grid, and the bracket of its maximum is then refined.
     """
@@ -283,7 +287,7 @@ def maximum(
 def _search_intervals(
     path: PathOfContact, recess: bool, beyond: float, low: float, high: float
 ) -> Iterator[tuple[float, float]]:
-    """Yield the intervals of distance on one side in which a maximum is searched, piece by piece."""
+    """Yield the intervals of distance d on one side in which a maximum is searched, piece by piece."""
     if beyond:
         low, high = (max(low, beyond), high) if recess else (low, min(high, -beyond))
     if not (span := path.span(recess, low, high)):
@@ -318,7 +322,7 @@ def _peak(f: Callable[[Floats], Floats], first: float, last: float, scale: float
 
 
 def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> tuple[Floats, Floats]:
-    """Return power in and power out of a contact over normal force and pitch-line speed; `driver` is 1 or 2."""
+    """Return input and output power of a contact over normal force and pitch-line speed; gear `driver` drives."""
     rising, S = pitch.S_slope(contact.d) * contact.sin_psi, pitch.S(contact.d)
     rub = np.sign(contact.d) * (friction if driver == 1 else -friction)
     first = contact.cos_psi + rub * (rising + pitch.A * S)
@@ -327,7 +331,7 @@ def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: 
 
 
 def efficiency(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> Floats:
-    """Compute the efficiency of one contact of conjugate teeth, exact in friction.
+    """Return the efficiency of one contact of conjugate teeth, exact in the friction coefficient.
 
     Parameters
     ----------
@@ -374,17 +378,14 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
     return 1 / steepest if steepest > 0 else inf
 
 
-# -------------------------------------------------------------------------------- uniform temperature of a wanted depth
+# ---------------------------------------------------------------------------- uniform temperature of a given wear depth
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
-    """Find gamma = (A + B) / heat for which `depth`, which increases with gamma, equals `wanted`.
+    """Return gamma = (A + B) / heat for which `depth`, which increases with gamma, equals `wanted`.
 
-    The search brackets the root around `start`.
-
-    most   an upper bound of the depth, such as the sum of the arcs: a contact rises by less than it travels
-
-    Raises `GearTrainError` if no heat gives that depth.
+    `start` is the initial guess, around which the root is bracketed. `most` is an upper bound of the depth, such as the
+    sum of the arcs, because a contact rises by less than its arc. Raises `GearTrainError` if no heat gives that depth.
     """
 
     def off(gamma: float) -> float:

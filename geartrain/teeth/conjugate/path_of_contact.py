@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
 
 class PathPiece(ABC):
-    """Piece of a path of contact: sin psi as a function of d from `start` to `end`.
+    """Piece of a path of contact: sin psi as a function of the distance d from the pitch point, from `start` to `end`.
 
-    d is the distance from the pitch point. Methods take and return arrays.
+    Methods take and return arrays.
     """
 
     start: float
@@ -42,11 +42,11 @@ class PathPiece(ABC):
 
     @abstractmethod
     def slope(self, d: Floats) -> Floats:
-        """Return d(sin psi)/dd, which equals d(psi)/dX."""
+        """Return the derivative of sin psi with respect to d, which equals d(psi)/dX."""
 
     @abstractmethod
     def travel(self, d: Floats) -> Floats:
-        """Return the pitch-line displacement X since `start`: the integral of 1/cos psi, docs/shapes.md (1)."""
+        """Return the arc X from `start` to d: the integral of 1/cos psi, docs/shapes.md (1)."""
 
 
 class RayPiece(PathPiece):
@@ -56,15 +56,15 @@ class RayPiece(PathPiece):
         self.psi, self.start, self.end = psi, start, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the constant sin psi at every d."""
+        """Return the sine of the constant pressure angle."""
         return np.full(np.shape(d), sin(self.psi))
 
     def slope(self, d: Floats) -> Floats:
-        """Return the zero slope at every d."""
+        """Return the derivative of sin psi with respect to d, which is zero."""
         return np.zeros(np.shape(d))
 
     def travel(self, d: Floats) -> Floats:
-        """Return the displacement (d - start) / cos psi."""
+        """Return the arc X from `start` to d: (d - start) / cos psi."""
         return (np.asarray(d) - self.start) / cos(self.psi)
 
 
@@ -78,20 +78,22 @@ class CirclePiece(PathPiece):
         self.rho, self.start, self.end = rho, 0.0, end
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine d / (2 rho) of the pressure angle."""
+        """Return the sine of the pressure angle: d / (2 rho)."""
         return np.asarray(d) / (2 * self.rho)
 
     def slope(self, d: Floats) -> Floats:
-        """Return the constant slope 1 / (2 rho)."""
+        """Return the derivative of sin psi with respect to d, the constant 1 / (2 rho)."""
         return np.full(np.shape(d), 1 / (2 * self.rho))
 
     def travel(self, d: Floats) -> Floats:
-        """Return the displacement 2 rho psi."""
+        """Return the arc X from the pitch point to d: 2 rho psi."""
         return 2 * self.rho * np.arcsin(np.asarray(d) / (2 * self.rho))
 
 
 class SampledPiece(PathPiece):
-    """Piece whose sin psi is a given function, and whose travel is an integrated Chebyshev series of 1 / cos psi."""
+    """Piece of a path of contact whose sin psi is a given function; X is an integrated Chebyshev series of 1 / cos
+    psi.
+    """
 
     def __init__(
         self,
@@ -105,20 +107,20 @@ class SampledPiece(PathPiece):
         self._travel = ChebyshevSeries.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the given function sin psi at d."""
+        """Return the sine of the pressure angle at d from the given function."""
         return self._sin(d)
 
     def slope(self, d: Floats) -> Floats:
-        """Return the given derivative of sin psi at d."""
+        """Return the derivative of sin psi with respect to d from the given function."""
         return self._slope(d)
 
     def travel(self, d: Floats) -> Floats:
-        """Return the displacement X from the integrated Chebyshev series."""
+        """Return the arc X from `start` to d from the integrated Chebyshev series."""
         return self._travel(d)
 
 
 class SteadySpeedPiece(SampledPiece):
-    """Piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S is in closed form.
+    """Piece of constant contact speed u along the dedendum: w - b S = u, so that sin psi = eta / S in closed form.
 
     Docs/shapes.md (12): eta = S(start) sin psi(start) + u (d - start) + b (integral of S). b is the curvature of the
     pitch surface of the gear whose dedendum works.
@@ -140,12 +142,12 @@ class SteadySpeedPiece(SampledPiece):
 
 
 def ray_end(psi: float, X: float) -> float:
-    """Return the distance d at which a ray has the displacement X."""
+    """Return the distance d at which a ray of pressure angle `psi` has the arc X."""
     return X * cos(psi)
 
 
 def circle_end(rho: float, X: float) -> float:
-    """Return the distance d at which the rolling circle of a cycloid has the displacement X."""
+    """Return the distance d at which a rolling circle of radius `rho` has the arc X."""
     return 2 * rho * sin(X / (2 * rho))
 
 
@@ -160,39 +162,41 @@ class PathSide:
 
     @property
     def start(self) -> float:
-        """Distance of the first contact from the pitch point; 0 except for paths that do not reach the pitch point."""
+        """Distance d of the first contact from the pitch point [module]; 0 unless the path does not reach the pitch
+        point.
+        """
         return self.pieces[0].start
 
     @property
     def end(self) -> float:
-        """Distance of the last contact from the pitch point."""
+        """Distance d of the last contact from the pitch point [module]."""
         return self.pieces[-1].end
 
     @cached_property
     def arc(self) -> float:
-        """Pitch-line displacement X over the whole side."""
+        """Arc X of the whole side [module]."""
         return float(self.travel(np.array(self.end)))
 
     @property
     def joints(self) -> tuple[float, ...]:
-        """Distances d at which the pieces end."""
+        """Distances d from the pitch point at which the pieces end [module]."""
         return tuple(piece.end for piece in self.pieces)
 
     def sin_psi(self, d: Floats) -> Floats:
-        """Return the sine of the pressure angle at d in [start, end]."""
+        """Return the sine of the pressure angle at distances d in [start, end]."""
         return self._by_piece(d, lambda piece, at: piece.sin_psi(at))
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative d(sin psi)/dd at d."""
+        """Return the derivative of sin psi with respect to d."""
         return self._by_piece(d, lambda piece, at: piece.slope(at))
 
     def travel(self, d: Floats) -> Floats:
-        """Return the displacement X at d, counted from `start`."""
+        """Return the arc X from `start` to d."""
         return self._by_piece(d, lambda piece, at: self._offsets[id(piece)] + piece.travel(at))
 
     @cached_property
     def _offsets(self) -> dict[int, float]:
-        """Displacement X at the start of each piece, by the identity of the piece."""
+        """Arc X at the start of each piece, by `id` of the piece."""
         total, starts = 0.0, {}
         for piece in self.pieces:
             starts[id(piece)] = total
@@ -200,7 +204,7 @@ class PathSide:
         return starts
 
     def distance(self, X: Floats) -> Floats:
-        """Return the distance d at displacement X, by Newton's method with dd/dX = cos psi."""
+        """Return the distance d at the arc X, by Newton's method with dd/dX = cos psi."""
         X = np.asarray(X, dtype=float)
         arc = self.arc
         d = self.start + (np.clip(X / arc, 0.0, 1.0) * (self.end - self.start) if arc else np.zeros(X.shape))
@@ -227,7 +231,9 @@ class PathSide:
 
 
 def none(psi: float) -> PathSide:
-    """Return a side without contact: the path begins or ends at the pitch point with pressure angle `psi` (rad)."""
+    """Return a side without contact, for a path that begins or ends at the pitch point with pressure angle `psi`
+    [rad].
+    """
     return PathSide((RayPiece(psi, 0.0),))
 
 
@@ -244,7 +250,7 @@ class PathContact(Shown):
     """
 
     X: Floats
-    """Pitch-line displacement [module; rad for bevels]."""
+    """Arc along the pitch surfaces from the pitch point [module; rad for bevels]."""
     d: Floats
     """Signed distance from the pitch point [module; rad for bevels]."""
     sin_psi: Floats
@@ -252,19 +258,19 @@ class PathContact(Shown):
     cos_psi: Floats
     """Cosine of the pressure angle."""
     q: Floats
-    """Derivative d(psi)/dX."""
+    """Derivative d(psi)/dX of the pressure angle [rad per module]."""
     w: Floats
-    """Derivative d(S sin psi)/dd."""
+    """Derivative d(S sin psi)/dd; S is d, or sin d for bevels."""
     U1: Floats
     """Speed of the contact along the profile of gear 1, over the pitch-line speed."""
     U2: Floats
     """Speed of the contact along the profile of gear 2, over the pitch-line speed."""
     k1: Floats
-    """(Geodesic) curvature of the profile of gear 1, which is convex where k1 > 0."""
+    """(Geodesic) curvature of the profile of gear 1 [1/module], positive where it is convex."""
     k2: Floats
-    """(Geodesic) curvature of the profile of gear 2, which is convex where k2 < 0."""
+    """(Geodesic) curvature of the profile of gear 2 [1/module], negative where it is convex."""
     kr: Floats
-    """Relative curvature k1 - k2."""
+    """Relative curvature k1 - k2 [1/module]."""
     H: Floats
     """Ratio kr / cos psi; the Hertzian pressure is proportional to its square root."""
     Q1: Floats
@@ -278,7 +284,7 @@ class PathContact(Shown):
 
     @property
     def psi(self) -> Floats:
-        """Pressure angle (rad)."""
+        """Pressure angle [rad]."""
         found: Floats = np.arctan2(self.sin_psi, self.cos_psi)
         return found
 
@@ -303,18 +309,18 @@ class PathOfContact(Shown):
     pitch: PitchSurfaces
     """Pitch cylinders or cones of both gears."""
     approach: PathSide
-    """The side before the pitch point."""
+    """Side of the path before the pitch point."""
     recess: PathSide
-    """The side after the pitch point."""
+    """Side of the path after the pitch point."""
     real: tuple[float, float] | None = None
-    """Arcs of approach and recess (pitch-line displacements X) of actual contact, if shorter than the sides.
+    """Arcs X of approach and recess in which the teeth touch, if shorter than the sides [module].
 
-    One is negative if contact begins or ends beyond the pitch point. None for the arcs of the sides.
+    One is negative if contact begins or ends beyond the pitch point. None if the teeth touch along both whole sides.
     """
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Actual arcs of approach and recess, as pitch-line displacements X; one may be negative."""
+        """Arcs X of approach and recess in which the teeth touch [module]; one may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
@@ -339,14 +345,14 @@ class PathOfContact(Shown):
 
     @property
     def contact_ratio(self) -> float:
-        """Contact ratio: displacement X during which one tooth pair touches, in pitches.
+        """Contact ratio: arc of contact over the pitch.
 
         It is negative if the teeth do not reach each other.
         """
         return sum(self.arcs) / self.pitch.p
 
     def ends(self, gear: int) -> tuple[float, float]:
-        """Return the displacements X at which the root end and the tip of a gear's flank touch.
+        """Return the arcs X at which the root end and the tip of a gear's flank touch [module].
 
         Parameters
         ----------
@@ -357,7 +363,8 @@ class PathOfContact(Shown):
         return (-approach, recess) if gear == 1 else (recess, -approach)
 
     def radii(self, gear: int) -> tuple[float, float]:
-        """Return the radii (modules; half-angles of cones, rad) that bound the active flank of a gear, root end first.
+        """Return the radii at which the active flank of a gear begins (root side) and ends (tip side) [module; rad for
+        bevels].
 
         Parameters
         ----------
@@ -368,7 +375,7 @@ class PathOfContact(Shown):
         return float(low), float(high)
 
     def at(self, X: ArrayLike) -> PathContact:
-        """Return the contact quantities at given displacements.
+        """Return the contact quantities at given arcs X.
 
         Parameters
         ----------
@@ -431,7 +438,7 @@ class PathOfContact(Shown):
         return PathContact(X, d, sine, cosine, q, w, U1, U2, k1, k2, kr, H, Q1, Q2, flash, rub)
 
     def flank1(self, X: ArrayLike) -> Floats:
-        """Return points of gear 1's profile in its X = 0 position.
+        """Return the points of gear 1's profile that touch at the arcs X, in the gear's position at X = 0.
 
         Parameters
         ----------
@@ -447,7 +454,7 @@ class PathOfContact(Shown):
         return self.pitch.on_gear1(self._points(X), X)
 
     def flank2(self, X: ArrayLike) -> Floats:
-        """Return points of gear 2's profile in its X = 0 position.
+        """Return the points of gear 2's profile that touch at the arcs X, in the gear's position at X = 0.
 
         Parameters
         ----------
@@ -458,7 +465,7 @@ class PathOfContact(Shown):
         return self.pitch.on_gear2(self._points(X), X)
 
     def flank(self, gear: int, X: ArrayLike) -> Floats:
-        """Return points of the profile of one gear in its X = 0 position.
+        """Return the points of one gear's profile that touch at the arcs X, in the gear's position at X = 0.
 
         Parameters
         ----------

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class PitchSurfaces:
-    """Pitch surfaces of a pair that roll on each other, gear 1 driving.
+    """Pitch cylinders or cones of a gear pair, gear 1 driving.
 
     z1, z2   tooth numbers; the virtual tooth numbers of bevels need not be integers
     R1, R2   spur: pitch radii in modules; bevel: half-angles of the pitch cones (rad) on the unit sphere
@@ -33,12 +33,12 @@ class PitchSurfaces:
 
     @classmethod
     def spur(cls, z1: float, z2: float, internal: bool = False) -> PitchSurfaces:
-        """Return the pitch cylinders of parallel axes at module 1; with `internal`, gear 2 is a ring gear."""
+        """Return the pitch cylinders of parallel axes at module 1; if `internal`, gear 2 is a ring gear."""
         return cls(z1, z2, z1 / 2, -z2 / 2 if internal else z2 / 2)
 
     @classmethod
     def cones(cls, z1: float, z2: float, shaft_angle: float = pi / 2) -> PitchSurfaces:
-        """Return the pitch cones of axes that meet at `shaft_angle` S (rad).
+        """Return the pitch cones of axes that meet at `shaft_angle` S [rad].
 
         tan R1 = sin S / (z2/z1 + cos S), R1 + R2 = S.
         """
@@ -47,24 +47,24 @@ class PitchSurfaces:
 
     @property
     def A(self) -> float:
-        """Curvature of pitch surface 1: 1/R1, or cot R1 on cones."""
+        """Curvature of pitch surface 1 [1/module]: 1/R1, or cot R1 on cones."""
         return 1 / tan(self.R1) if self.bevel else 1 / self.R1
 
     @property
     def B(self) -> float:
-        """Curvature of pitch surface 2: 1/R2, or cot R2 on cones. It is negative for a ring gear and 0 for a crown
-        gear.
+        """Curvature of pitch surface 2 [1/module]: 1/R2, or cot R2 on cones; negative for ring gears, 0 for crown
+        gears.
         """
         return 1 / tan(self.R2) if self.bevel else 1 / self.R2
 
     @property
     def reach(self) -> float:
-        """Pitch-line displacement X per radian of gear 1: R1, or sin R1 on cones."""
+        """Arc X per radian of gear 1: R1, or sin R1 on cones."""
         return sin(self.R1) if self.bevel else self.R1
 
     @property
     def reach2(self) -> float:
-        """Pitch-line displacement X per radian of gear 2: R2 (negative for a ring gear), or sin R2 on cones."""
+        """Arc X per radian of gear 2: R2 (negative for a ring gear), or sin R2 on cones."""
         return sin(self.R2) if self.bevel else self.R2
 
     def teeth_of(self, gear: int) -> float:
@@ -72,27 +72,27 @@ class PitchSurfaces:
         return self.z1 if gear == 1 else self.z2
 
     def reach_of(self, gear: int) -> float:
-        """Return the magnitude of the pitch-line displacement per radian of gear 1 or 2."""
+        """Return the absolute arc |X| per radian of gear 1 or 2."""
         return self.reach if gear == 1 else abs(self.reach2)
 
     def axle_of(self, gear: int) -> float:
-        """Return the height of a gear's axle above the pitch point (modules); for bevels, the angle of its axis from it
-        (rad).
+        """Return the height of a gear's axle above the pitch point [module], or for bevels its angle from the pitch
+        point [rad].
         """
         return -self.R1 if gear == 1 else self.R2
 
     @property
     def p(self) -> float:
-        """Circular pitch as pitch-line displacement X."""
+        """Circular pitch as an arc X [module; rad for bevels]."""
         return 2 * pi * self.reach / self.z1
 
     @property
     def exchanged(self) -> PitchSurfaces:
-        """The same pair with gear 2 driving, which exchanges approach and recess."""
+        """Pitch surfaces of the same pair with gear 2 driving, which exchanges approach and recess."""
         return PitchSurfaces(self.z2, self.z1, self.R2, self.R1, self.bevel)
 
     def S(self, d: ArrayLike) -> Floats:
-        """Return S(d): d on cylinders, sin d on cones."""
+        """Return S(d): d on cylinders, sin d on cones; d is the distance from the pitch point."""
         found: Floats = np.sin(d) if self.bevel else np.asarray(d, dtype=float)
         return found
 
@@ -109,22 +109,26 @@ class PitchSurfaces:
         return found
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
-        """Return contact points in the fixed frame: (..., 2) from the pitch point, or (..., 3) on the unit sphere."""
+        """Return contact points in the fixed frame: shape (..., 2) from the pitch point, or (..., 3) on the unit
+        sphere.
+        """
         S = self.S(d)
         if not self.bevel:
             return np.stack([S * cos_psi, S * sin_psi], axis=-1)
         return np.stack([S * cos_psi, S * sin_psi, np.cos(d)], axis=-1)
 
     def on_gear1(self, points: Floats, X: Floats) -> Floats:
-        """Transform fixed points to the body frame of gear 1 at X = 0: rotation by +X / reach about O1."""
+        """Transform points of the fixed frame to the frame of gear 1 at X = 0: rotation by X / reach about its axle."""
         return self._turned(points, X / self.reach, -self.R1)
 
     def on_gear2(self, points: Floats, X: Floats) -> Floats:
-        """Transform fixed points to the body frame of gear 2 at X = 0: rotation by -X / reach2 about O2."""
+        """Transform points of the fixed frame to the frame of gear 2 at X = 0: rotation by -X / reach2 about its
+        axle.
+        """
         return self._turned(points, -X / self.reach2, self.R2)
 
     def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
-        """Return polar coordinates of fixed points about the axle of a gear.
+        """Return radii and azimuths [rad] of points of the fixed frame about the axle of a gear.
 
         The azimuth is counted from the pitch point and is positive in the direction of increasing X. Cylinders: points
         (..., 2), the radius in modules. Cones: points (..., 3) on the unit sphere, the radius in rad.
@@ -140,7 +144,9 @@ class PitchSurfaces:
         return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
 
     def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
-        """Return fixed points at one radius about the axle of a gear; this is the inverse of `polar`."""
+        """Return points of the fixed frame with one radius and given azimuths about the axle of a gear: the inverse of
+        `polar`.
+        """
         if not self.bevel:
             up = self.axle_of(gear) + self._side(gear) * radius * np.cos(azimuth)
             return np.stack([radius * np.sin(azimuth), up], axis=-1)
@@ -159,7 +165,7 @@ class PitchSurfaces:
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
 
     def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
-        """Rotate points about an axle by Rodrigues' formula.
+        """Return points rotated about an axle by `angle` [rad], by Rodrigues' formula.
 
         The axis has the polar angle `R` from the pitch point; spur: the axle is at height R above the pitch point.
         """

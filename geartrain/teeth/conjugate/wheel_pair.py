@@ -42,7 +42,7 @@ class WheelPair(Shown):
     shaft_angle: float | None = None
     """Shaft angle of bevels [rad]; None for parallel axes."""
     module: float | None = None
-    """Transverse module [m]; all lengths of the pair are transverse. None if no length gives it."""
+    """Transverse module [m], in which all lengths of the pair are expressed; None if it is unknown."""
     helix: float = 0.0
     """Helix angle of helical wheels [rad], 0 or more."""
 
@@ -56,7 +56,7 @@ class WheelPair(Shown):
         pitch_distance: float | None,
         helix: float = 0.0,
     ) -> WheelPair:
-        """Build the pair with the module that follows from its pitch distance.
+        """Return the pair with the module that follows from its pitch distance.
 
         Parameters
         ----------
@@ -91,7 +91,7 @@ class WheelPair(Shown):
 
     @property
     def distance(self) -> float:
-        """Design centre distance in modules."""
+        """Design centre distance [module]."""
         return (self.z2 - self.z1 if self.internal else self.z1 + self.z2) / 2
 
     def check(self) -> None:
@@ -147,6 +147,6 @@ class WheelPair(Shown):
             raise refused(
                 f"the {name} {length.text} cannot be converted to modules",
                 "the wheels declare no module with a unit",
-                f"give the `module` of both wheels, --module to `export`, or the {name} as a plain number of modules",
+                f"give the `module` of both wheels (option --module), or the {name} as a plain number of modules",
             )
         return length.si / self.module

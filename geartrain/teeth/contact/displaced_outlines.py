@@ -36,27 +36,28 @@ _BLUNT = radians(10)  # lower bound of the half aperture
 
 
 class ToothPairContact(NamedTuple):
-    """Contact of a single tooth pair at driver's angles x (rad past its nominal position).
+    """Contact of a single tooth pair at driver angles x [rad past the nominal position].
 
-    The driver's axle is at 0, the driven one on the x axis.
+    The driver's axle is at the origin, the driven axle on the x axis.
     """
 
     x: Floats
     lag: Floats
-    """Lag of the driven wheel behind uniform motion (rad)."""
+    """Lag of the driven wheel behind uniform motion [rad]."""
     point: Floats
-    """Contact points (2, n), in modules."""
+    """Contact points [module], shape (2, n)."""
     normal: Floats
-    """Unit vectors in the direction in which the driver pushes (2, n)."""
+    """Unit vectors in the direction in which the driver pushes, shape (2, n)."""
     angle: Floats
-    """Angle of the driven tooth past the line of centres (rad)."""
+    """Angle of the driven tooth past the line of centres [rad]."""
     corner: Indices
-    """Corners in contact: 1 for the driver's tip, 2 for the driven one, 3 for both, 0 for neither; -1 without contact.
+    """Tip corners in contact: 1 for the driver's, 2 for the driven wheel's, 3 for both, 0 for none; -1 without
+    contact.
     """
 
 
 class ToothPairSearch:
-    """Search for the contact of single tooth pairs of two outlines, front flanks driving."""
+    """Search for the contact of single tooth pairs of two outlines; the front flanks drive."""
 
     def __init__(self, gears: OutlineGears, driver: int) -> None:
         self.first, self.second = gears.of(driver)
@@ -65,7 +66,7 @@ class ToothPairSearch:
         self.offset = 2 * gears.half_teeth / self.second.z
 
     def at(self, x: Floats) -> ToothPairContact:
-        """Return the contact at given driver's angles."""
+        """Return the contact of one tooth pair at driver angles x [rad]."""
         count, none = len(x), np.zeros(len(x), int)
         touch_search = self.pair.touch_search
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
@@ -98,9 +99,10 @@ class ToothPairSearch:
         return found
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals, which pass the point that divides the line of centres in the ratio of speeds.
+        """Return the unit normals of contacts, which pass the point that divides the line of centres in the ratio of
+        speeds.
 
-        At that point itself the result is normal to the flank.
+        At that point itself the result is the normal of the flank.
         """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
@@ -113,7 +115,7 @@ class ToothPairSearch:
 
 @lru_cache(maxsize=256)
 def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
-    """Return the contact of two outlines at their distance, with the effects of displaced flanks.
+    """Return the contact of two outlines at their centre distance, with the effects of displaced flanks.
 
     Raises `RangeError` if the teeth do not touch for a whole pitch.
     """
@@ -150,14 +152,14 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
         leaving=_corner(search, end, most),
         longer=(longer[0], longer[1]),
         backlash=2 * gears.backlash / second.z,
-        stands=search.offset,
+        tooth_phase=search.offset,
         even=found.lag,
         distance=gears.distance,
     )
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return the range in which flanks touch, and the larger range that includes tips (rad of the driver)."""
+    """Return the range of driver angles in which flanks touch, and the larger range in which tips touch too [rad]."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -173,7 +175,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """Return the run of true entries that includes index `at`."""
+    """Return a mask of the contiguous true entries around index `at`."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -182,7 +184,7 @@ def _around(held: Bools, at: int) -> Bools:
 
 
 def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
-    """Return the additional lag of the driven wheel while a tip touches beyond an end of the contact."""
+    """Return the additional lag of the driven wheel while a tip touches beyond an end of flank contact."""
     if abs(last - end) < _NO_CORNER:
         return CornerLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
@@ -190,13 +192,13 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
 
 
 def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
-    """Return the indices at which this tooth pair drives the wheel, not a pair one pitch before or behind."""
+    """Return the indices at which this tooth pair drives the wheel, rather than the pair one pitch before or behind."""
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))
 
 
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Return half the tooth thickness (modules) at the contact."""
+    """Return half the tooth thickness of one wheel at each contact [module]."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -204,14 +206,13 @@ def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) ->
 
 
 def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> DisplacedWheelSizes:
-    """Return the reference sizes of a wheel from radii of contact and half thicknesses there."""
     foot, top = int(np.argmin(radius)), int(np.argmax(radius))
     lean = float(np.arctan2(half[foot] - half[top], radius[top] - radius[foot]))
     return DisplacedWheelSizes(wheel.z, float(tip - radius[foot]), max(lean, _BLUNT))
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return the centres of flank rotation: the points at which the flank in contact crosses the pitch circle."""
+    """Return the coordinates x and y [module] at which the flank in contact crosses the pitch circle of one wheel."""
     wheel, table = ((search.first, search.pair.touch_search.first), (search.second, search.pair.touch_search.second))[
         gear
     ]

@@ -43,15 +43,19 @@ class AxlePlacement:
     ring: Literal[0, 1, 2] = 0
 
     def frame(self, r: Floats, b: Floats) -> DrivenFrame:
-        """Transform points at radii r (bevel: polar angles) and azimuths b about the first axle to the second axle."""
+        """Return the polar coordinates about the second axle of points at radii r and azimuths b about the first axle
+        [rad].
+
+        For bevels r is the polar angle [rad].
+        """
         return DrivenFrame(self, r, b)
 
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
-        """Return the maximum |azimuth| at which a radius from `lowest` to `highest` about the first axle can be in
-        range.
+        """Return the maximum |azimuth| [rad] at which a point can be within the range of radii about the second axle.
 
-        The range of radii about the second axle is from `minimum` to `most`. The result is taken from samples and
-        widened, so that it is never too small except for rounding. It is -1 if no point is in range.
+        The point has a radius from `lowest` to `highest` about the first axle; the range about the second axle is from
+        `minimum` to `most`. The result is computed from samples and widened, so that it is never too small except for
+        rounding. It is -1 if no point is in range.
         """
         r = np.linspace(lowest, highest, 129)[:, None]
         b = np.linspace(0, np.pi, 721)[None, :]
@@ -66,7 +70,7 @@ class AxlePlacement:
 
 
 class DrivenFrame:
-    """Polar coordinates of points about the second axle: `radius` and `azimuth`, and their derivatives."""
+    """Polar coordinates `radius` and `azimuth` of points about the second axle, and their derivatives."""
 
     __slots__ = ("across", "along", "axles", "bevel", "cos_b", "height", "radius", "side", "sin_b", "tilt", "up")
 
@@ -87,25 +91,29 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return the sign of the direction to the second axle, and the sign of the first radius along it."""
+        """Return two signs: direction towards the second axle, and contribution of the first radius along it."""
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
     @property
     def azimuth(self) -> Floats:
-        """Azimuth about the second axle (rad)."""
+        """Azimuth about the second axle [rad]."""
         found: Floats = np.arctan2(self.side, self.along)
         return found
 
     def moved(self, dr: Floats | float, db: Floats | float) -> tuple[Floats, Floats]:
-        """Return the changes of radius and azimuth as the points change by dr and db."""
+        """Return the differentials of radius and azimuth about the second axle for differentials dr and db about the
+        first.
+        """
         e, s = self._signs()
         stretch = self.height * dr
         side, across = stretch * self.sin_b + self.across * db, stretch * self.cos_b - self.side * db
         along = s * self.tilt * across
         if not self.bevel:
+            # polar coordinates: derivatives of the radius and of the azimuth
             h = self.radius
             radius = (self.side * side + self.along * along) / h
             return radius, (self.along * side - self.side * along) / (h * h)
+        # on the sphere, both differentials also change the height along the inclined second axle
         far = sin(self.axles.distance)
         fall = -self._sine() * dr
         along = along + e * far * fall
@@ -116,7 +124,6 @@ class DrivenFrame:
         ) / (h * h)
 
     def _sine(self) -> Floats:
-        """Return sin r for points on the sphere."""
         found: Floats = np.hypot(self.side, self.across)
         return found
 
@@ -125,8 +132,8 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Candidate tooth pairs: driver's angle, shape of its tooth, shape of the driven tooth, its angle, index of the
-    position.
+    """Tooth pairs that may touch: driver angle x [rad], shape index of both teeth, angle of the driven tooth `place`
+    [rad], index of the position.
     """
 
     x: Floats
@@ -137,32 +144,34 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Segments of the driver's side on which G is smooth; n of them."""
+    """Segments of the driver's flanks on which the required driven angle G is smooth; n segments."""
 
     tooth_pair: Indices
-    """Index of the tooth pair, (n,)."""
+    """Index of the tooth pair, shape (n,)."""
     piece1: Indices
-    """Index of the driver's piece, (n,)."""
+    """Index of the polynomial piece of the driver's flank, shape (n,)."""
     piece2: Indices
-    """Index of the driven piece, (n,)."""
+    """Index of the polynomial piece of the driven flank, shape (n,)."""
     u: Floats
-    """Parameters of piece1 at both ends, (2, n)."""
+    """Parameters of `piece1` at both ends of the segment, shape (2, n)."""
     polar2: Floats
-    """Radius and azimuth about the second axle at both ends, and their slopes by u, (4, 2, n)."""
+    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives by u, shape (4, 2,
+    n).
+    """
     v: Floats
-    """End of piece2 that is met at either end, -1 or 1, (2, n); NaN if it is not an end."""
+    """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
 
 
 @dataclass(frozen=True)
 class FlankSegmentation:
-    """Division into segments of one side each of two wheels at given axles."""
+    """Division of the flanks of two wheels at given axles into smooth segments."""
 
     first: FlankTable
     second: FlankTable
     axles: AxlePlacement
 
     def segments(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return all segments at which the tooth pairs can touch."""
+        """Return all segments on which the tooth pairs can touch."""
         cells = self._divided_at_extremes(tooth_pairs, self._cells(tooth_pairs))
         low, high = cells.polar2[0].min(axis=0), cells.polar2[0].max(axis=0)
         tooth = tooth_pairs.tooth2[cells.tooth_pair]
@@ -177,7 +186,9 @@ class FlankSegmentation:
         return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the cells between nodes that may be at radii of the driven side, before a driven piece is chosen."""
+        """Return the intervals between search nodes that may be at radii of the driven flank; their `piece2` is not yet
+        chosen.
+        """
         nodes = self.first.nodes
         pieces, us, begins = (
             nodes[0][tooth_pairs.tooth1],
@@ -202,7 +213,8 @@ class FlankSegmentation:
         )
 
     def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Divide cells in which the distance from the second axle has an extreme."""
+        """Return the intervals, divided where the distance from the second axle has an extremum."""
+        # where the derivative of the radius changes its sign within a cell, the radius has an extreme
         which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
             return cells
@@ -215,15 +227,17 @@ class FlankSegmentation:
 
         middle = roots_by_false_position(slope, *turning.u, *turning.polar2[2])
         polar2 = self._driven_polar(x, turning.piece1, middle)
+        # the old cell ends at the extreme, and a new one begins there
         cells.u[1, which], cells.polar2[:, 1, which] = middle, polar2
         turning.u[0], turning.polar2[:, 0] = middle, polar2
         return joined([cells, turning])
 
     def _clipped_to_pieces(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Clip cells to the radii of their driven piece, by vectorised false position."""
+        """Return the intervals, clipped to the radii of their driven piece by vectorised false position."""
         low, high = self.second.ends[:, cells.piece2]
         u, polar2 = cells.u.copy(), cells.polar2.copy()
         for side in (0, 1):
+            # the ends of a cell whose radius is outside the piece are moved to the limit of the piece
             which = np.flatnonzero((cells.polar2[0, side] < low) | (cells.polar2[0, side] > high))
             above = cells.polar2[0, side, which] > high[which]
             goal = np.where(above, high[which], low[which])
@@ -239,13 +253,15 @@ class FlankSegmentation:
         return cells._replace(u=u, polar2=polar2)
 
     def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Return radius, azimuth and their slopes by u of the driver's points about the second axle, (4, n)."""
+        """Return radius, azimuth and their derivatives by u of the driver's points about the second axle, shape (4,
+        n).
+        """
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """Return the driver's points in the frame of the second axle, and the slopes of their own radius and azimuth
-        by u.
+        """Return the driver's points about the second axle, and the derivatives by u of their radius and azimuth about
+        the first.
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
@@ -256,7 +272,9 @@ class FlankSegmentation:
 
 
 class FirstTouches(NamedTuple):
-    """Touches, one for each segment: driven angle, speed ratio, location, radii about both axles."""
+    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, radii about both
+    axles.
+    """
 
     angle: Floats
     speed: Floats
@@ -270,12 +288,12 @@ class FirstTouches(NamedTuple):
 
 
 class FirstTouchSearch(FlankSegmentation):
-    """Search for the points of the segments that determine the driven angle."""
+    """Search for the points of the driver's flanks that determine the driven angle."""
 
-    # -------------------------------------------------------------------------------------------------- which matter
+    # --------------------------------------------------------------------------------------------- relevant segments
 
     def furthest(self, tooth_pairs: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
-        """Select the segments that can contain, within `margin` (rad), the maximum of G of their position."""
+        """Return the segments that can contain the maximum of G of their position, within `margin` [rad]."""
         ends, slopes = self._estimates(segments)
         with np.errstate(invalid="ignore", divide="ignore"):
             width = segments.u[1] - segments.u[0]
@@ -292,8 +310,8 @@ class FirstTouchSearch(FlankSegmentation):
         return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
 
     def _stalled(self, segments: FlankSegments) -> Bools:
-        """Return flags, (2, n), of segment ends at which one of the two curves is stationary and slopes are
-        meaningless.
+        """Return flags of segment ends at which one of the two curves is stationary, where slopes are meaningless;
+        shape (2, n).
         """
         first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
@@ -301,7 +319,9 @@ class FirstTouchSearch(FlankSegmentation):
         return found
 
     def _estimates(self, segments: FlankSegments) -> tuple[Floats, Floats]:
-        """Estimate G and its slope at both ends, (2, n) each, with an inversion that is not refined."""
+        """Return estimates of G and its slope at both ends, shape (2, n) each, from an inversion that is not
+        refined.
+        """
         piece = np.broadcast_to(segments.piece2, segments.u.shape)
         low, high = self.second.ends[:, segments.piece2]
         r = np.clip(segments.polar2[0], low, high)
@@ -318,17 +338,15 @@ class FirstTouchSearch(FlankSegmentation):
             correction = np.where(within & ~stationary, slant * (r - radius), 0.0)
             return segments.polar2[1] - azimuth - correction, segments.polar2[3] - slant * segments.polar2[2]
 
-    # ------------------------------------------------------------------------------------------------------ exactly
+    # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Compute the touches of each segment to rounding: both ends, and the interior maximum of G if it exists."""
+        """Return the touches of each segment to rounding: both ends, and the interior maximum of G if there is one."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
-            """Return the slope of G times d radius / dv of the driven piece, which is positive but may be 0 at a
-            piece's end.
-            """
+            """Return the slope of G times d radius / dv of the driven piece, a factor that is 0 or more."""
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
             # clipped, because rounding may move a radius beyond the ends of the piece
@@ -355,7 +373,9 @@ class FirstTouchSearch(FlankSegmentation):
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the touch at parameter u; v is not NaN if an end of the driven piece is met there."""
+        """Return the touch at parameter u of the driver's piece; v is NaN unless an end of the driven piece touches
+        there.
+        """
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
         at_end = ~np.isnan(v)

@@ -1,4 +1,6 @@
-"""Flanks of one wheel as polynomial pieces of increasing radius: search nodes, and azimuth as a function of radius."""
+"""Flanks of a wheel as polynomial pieces of increasing radius, with search nodes and the azimuth as a function of
+radius.
+"""
 
 from __future__ import annotations
 
@@ -23,12 +25,12 @@ _NEAR = 1e-10  # a Newton step of this length ends at the root, as the next woul
 
 @dataclass(frozen=True)
 class FlankTable:
-    """Polynomial pieces of one side of all teeth, with parameter u from -1 to 1 and increasing radius."""
+    """Polynomial pieces of the leading or trailing flanks of all teeth, with u from -1 to 1 and increasing radius."""
 
     radius: Floats
-    """Coefficients of the radius by powers of u, (COUNT, pieces)."""
+    """Coefficients of the radius by powers of u, shape (COUNT, pieces)."""
     azimuth: Floats
-    """Coefficients of the azimuth by powers of u, (COUNT, pieces)."""
+    """Coefficients of the azimuth [rad] by powers of u, shape (COUNT, pieces)."""
     corners: Bools
     """Flags, (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
     flat: Bools
@@ -38,16 +40,16 @@ class FlankTable:
     curve: Indices
     """Number of the curve that each piece belongs to, (pieces,), counted through all teeth."""
     error: tuple[float, float]
-    """Maximum differences between pieces and curves: radius, azimuth (rad)."""
+    """Maximum differences between pieces and curves: radius [unit of the outline] and azimuth [rad]."""
 
     @cached_property
     def mirrored(self) -> FlankTable:
-        """Mirror image of the table: azimuths change their sign."""
+        """Mirror image of the table: azimuths have the opposite sign."""
         return replace(self, azimuth=-self.azimuth)
 
     @cached_property
     def ends(self) -> Floats:
-        """Radii at the ends of the pieces, (2, pieces)."""
+        """Radii at the two ends of each piece, shape (2, pieces)."""
         return ends(self.radius)
 
     @cached_property
@@ -60,7 +62,7 @@ class FlankTable:
 
     @cached_property
     def reach(self) -> tuple[float, float, float, float]:
-        """Minimum and maximum radius, minimum and maximum azimuth of all teeth."""
+        """Minimum and maximum radius, and minimum and maximum azimuth [rad], over all teeth."""
         u = np.linspace(-1, 1, 33)
         azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
         # allowance for extremes of the azimuth between two samples
@@ -74,18 +76,20 @@ class FlankTable:
 
     @cached_property
     def span(self) -> tuple[Floats, Floats]:
-        """Minimum and maximum radius of each tooth."""
+        """Minimum and maximum radius of each tooth, each of shape (teeth,)."""
         low, high = (
             np.minimum.reduceat(self.ends[0], self.first[:-1]),
             np.maximum.reduceat(self.ends[1], self.first[:-1]),
         )
         return low, high
 
-    # ------------------------------------------------------------------------------------------------- as the driver
+    # -------------------------------------------------------------------------------------------- flanks of a driver
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Search nodes of each tooth, (teeth, nodes): piece, u, and a flag that a cell begins at the node."""
+        """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins at the
+        node.
+        """
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)
@@ -97,7 +101,7 @@ class FlankTable:
         return piece[at], u[at], begins[at]
 
     def _sample_points(self, piece: int, cells: int) -> Floats:
-        """Return the values of u at which a piece is sampled: uniform, with geometric refinement towards stationary
+        """Return the values of u at which a piece is sampled: uniform, refined geometrically towards stationary
         ends.
         """
         marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
@@ -108,17 +112,19 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Radius, its slope, azimuth and its slope at the nodes."""
+        """Radius, its derivative by u, azimuth [rad] and its derivative by u at the search nodes."""
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
         a, da = value(self.azimuth, piece, u)
         return r, dr, a, da
 
-    # ------------------------------------------------------------------------------------------------- as the driven
+    # -------------------------------------------------------------------------------------- flanks of a driven wheel
 
     @cached_property
     def _bins(self) -> tuple[Floats, Floats]:
-        """Radii at uniform u, (pieces, bins + 1), and the same scaled to one increasing row for a single search."""
+        """Radii at uniform u, shape (pieces, bins + 1), and the same scaled to one increasing row for a single
+        search.
+        """
         pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
         radii = value_alone(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
         low, high = self.ends[:, :, None]
@@ -128,7 +134,10 @@ class FlankTable:
         return radii, (share + 2.0 * pieces).ravel().astype(np.float64)
 
     def guess(self, piece: Indices, r: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return an estimate of u at which pieces have radius r, and a bracket of it; r must be within the pieces."""
+        """Return an estimate of the parameter u at which pieces have radius r, and a bracket of it.
+
+        r must be within the pieces.
+        """
         radii, row = self._bins
         low, high = self.ends[0].take(piece), self.ends[1].take(piece)
         key = 2.0 * piece + np.clip((r - low) / (high - low), 0, 1)
@@ -146,7 +155,10 @@ class FlankTable:
         return found
 
     def inverse(self, piece: Indices, r: Floats) -> Floats:
-        """Return u at which pieces have radius r, by bracketed Newton iteration; r must be within the pieces."""
+        """Return the parameter u at which pieces have radius r, by bracketed Newton iteration.
+
+        r must be within the pieces.
+        """
         u, low, high = self.guess(piece, r)
         return self._newton(piece, r, u, low, high)
 

@@ -1,4 +1,4 @@
-"""Outline of a wheel: smooth curves, teeth made of them, and flanks cut into polynomial pieces."""
+"""Outline of a wheel: smooth curves, teeth made of them, and conversion of flanks to polynomial pieces."""
 
 from __future__ import annotations
 
@@ -150,13 +150,13 @@ class ToothFlanks(Shown):
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """Side that leads when the wheel turns forward, with larger azimuths."""
+    """Flank that leads when the wheel turns forward; it has the larger azimuths."""
     behind: tuple[OutlineCurve, ...]
-    """Side that trails when the wheel turns forward."""
+    """Flank that trails when the wheel turns forward."""
 
     @classmethod
     def symmetric(cls, ahead: Sequence[OutlineCurve], middle: float = 0.0) -> ToothFlanks:
-        """Build a tooth whose side `behind` is the mirror image of `ahead`.
+        """Return a tooth whose flank `behind` is the mirror image of `ahead`.
 
         Parameters
         ----------
@@ -224,7 +224,7 @@ class GearOutline(Shown):
     z: int
     """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
-    """Pitch deviations: angle by which tooth k is ahead of its nominal position [rad], z numbers; empty for equal
+    """Pitch deviations: angle by which tooth k is ahead of its nominal position [rad], z values; empty for equal
     pitches.
     """
     ring: bool = False
@@ -246,12 +246,12 @@ class GearOutline(Shown):
 
     @property
     def pitch(self) -> float:
-        """Angular pitch (rad)."""
+        """Angular pitch [rad]."""
         return 2 * pi / self.z
 
     @property
     def equal(self) -> bool:
-        """True if all teeth have the same shape and equal pitches."""
+        """True if all teeth have the same shape and no pitch deviation."""
         return len(self.teeth) == 1 and not any(self.turns)
 
     @cached_property
@@ -262,16 +262,16 @@ class GearOutline(Shown):
 
     @cached_property
     def ahead(self) -> FlankTable:
-        """Leading sides as polynomial pieces."""
+        """Leading flanks of all teeth as polynomial pieces."""
         return _table([tooth.ahead for tooth in self.teeth])
 
     @cached_property
     def behind(self) -> FlankTable:
-        """Trailing flanks as piecewise polynomials."""
+        """Trailing flanks of all teeth as polynomial pieces."""
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:
-        """Return the same wheel on an eccentric axle; each tooth then has its own shape.
+        """Return the same wheel on an eccentric axle, each tooth with its own shape.
 
         Parameters
         ----------
@@ -325,6 +325,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
                     "give two parameters at which the curve has points off the axle",
                 )
             )
+        # relative to the size of the tooth, because coordinates are rounded
         if last is not None and np.abs(ends[0] - last).max() > _MEETS * np.abs(ends).max():
             raise QuestionError(
                 Problem(
@@ -336,11 +337,11 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
         last = ends[1]
 
 
-# ------------------------------------------------------------------------------------------- cutting flanks into pieces
+# --------------------------------------------------------------------------------------------------- division of flanks
 
 
 def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
-    """Convert one side of all teeth of a wheel to a table. Raises `RangeError` if a curve is not smooth."""
+    """Return one flank of every tooth of a wheel as a table. Raises `RangeError` if a curve is not smooth."""
     pieces: list[tuple[PolynomialPiece, bool, bool]] = []
     first, curves = [0], list[int]()
     for side in sides:
@@ -365,7 +366,9 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
 
 
 def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bool, bool]]]:
-    """Return the pieces of each curve of a chain, with flags that a piece begins and ends at a corner."""
+    """Return the polynomial pieces of each curve of a flank, with flags that a piece begins and that it ends at a
+    corner.
+    """
     found = [
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
         for curve in side
@@ -378,13 +381,14 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
 
 
 def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
-    """Return whether two consecutive curves have different directions at their common point."""
     before, after = _direction(last, 1), _direction(new, -1)
     return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Return the unit tangent of a curve at u = end, -1 or 1; from the second derivative if the first one is 0."""
+    """Return the unit tangent of a curve at u = `end`, -1 or 1; from the second derivative if the first derivative is
+    0.
+    """
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
@@ -398,7 +402,7 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
 
 
 def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
-    """Divide a piece at the extremes of its radius."""
+    """Return the parts of a piece between the extrema of its radius, each fitted again."""
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)
@@ -413,7 +417,7 @@ def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[Polyn
 
 
 def _sign_change(slope: Floats, low: float, high: float) -> float:
-    """Find the sign change of a polynomial between low and high by bisection."""
+    """Return the parameter between `low` and `high` at which a polynomial changes sign, by bisection."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
     # bisection to neighbouring floats, because the slope of a fit is noise where the radius hardly changes
     while low < (middle := low + (high - low) / 2) < high:

@@ -1,6 +1,6 @@
 """Contact of two wheels given by outlines: driven angle, backlash and teeth in contact at given angles of the driver.
 
-`OutlinePair` finds the tooth pairs within range at one centre distance, and the pair that holds the driven wheel.
+`OutlinePair` finds the tooth pairs within range at one centre distance, and the pair that determines the driven angle.
 """
 
 from __future__ import annotations
@@ -30,7 +30,9 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of one side of two wheels at one distance. The back side is the mirror image of the front side."""
+    """Contact of the front or back flanks of two wheels at one distance; the back flanks are solved as mirror
+    images.
+    """
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -38,6 +40,7 @@ class OutlinePair:
         _check_pair(first, second, distance)
         self.first, self.second, self.sign = first, second, 1 if side == "front" else -1
         axles = AxlePlacement(distance, first.bevel, 1 if first.ring else 2 if second.ring else 0)
+        # the back side is computed as the front side of the mirrored wheels
         driving_side, driven_side = (
             (first.ahead, second.behind)
             if side == "front"
@@ -49,12 +52,13 @@ class OutlinePair:
         self.touch_search = FirstTouchSearch(driving_side, driven_side, axles)
         low, high, behind, ahead = driving_side.reach
         minimum, most, _, _ = driven_side.reach
+        # bound of the azimuths at which points of the two sides can touch
         reach = axles.bounds(low, high, minimum, most)
         self.window = (-reach - ahead, reach - behind) if reach >= 0 else (0.0, -1.0)
 
     @property
     def cycle(self) -> int:
-        """Number of driver pitches after which the contact repeats."""
+        """Number of pitches of the driver after which the contact repeats."""
         z1, z2 = self.first.z, self.second.z
         if self.first.equal and self.second.equal:
             return 1
@@ -63,7 +67,7 @@ class OutlinePair:
         return z2 if self.first.equal else lcm(z1, z2)
 
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
-        """Return the fields of `FlankContact` at driver angles of shape (n,)."""
+        """Return the fields of `FlankContact` at driver angles of shape (n,) [rad]; tolerance `within` [rad]."""
         period = self.cycle * self.first.pitch
         # computed within one period; whole periods are added afterwards, so that their rounding does no harm
         turns = np.floor(self.sign * phi1 / period)
@@ -81,7 +85,7 @@ class OutlinePair:
         return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
 
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
-        """Return all tooth pairs within range, and the number of the driving tooth of each.
+        """Return all tooth pairs within range, and the number of the driver's tooth of each.
 
         In the mirror image teeth are numbered backwards.
         """
@@ -134,7 +138,9 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def _kind(self, found: FirstTouches) -> Indices:
-        """Return the kind of each touch: 1 for a corner of the first wheel, 2 of the second, 3 of both, else 0."""
+        """Return the kind of each touch: 0 for two flanks, 1 for a corner of the first wheel, 2 of the second, 3 of
+        both.
+        """
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
@@ -143,7 +149,7 @@ class OutlinePair:
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return the number of tooth pairs with a touch at `minimum` or beyond."""
+        """Return the number of tooth pairs at each position that touch at the driven angle `minimum` or beyond."""
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
 
@@ -153,7 +159,6 @@ def _deviations(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
 
 
 def _no_contact(count: int) -> tuple[Any, ...]:
-    """Return the fields of `FlankContact` for positions without a tooth within range."""
     nan = np.full(count, np.nan)
     none = np.full(count, -1)
     return (
@@ -169,9 +174,7 @@ def _no_contact(count: int) -> tuple[Any, ...]:
 
 
 def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Raise an error if two wheels cannot be in contact: mixed spur and bevel, two ring gears, or a distance out of
-    range.
-    """
+    """Raise an error if the wheels cannot mesh: spur with bevel wheel, two ring gears, or a distance out of range."""
     if first.bevel != second.bevel or (first.ring and second.ring):
         raise QuestionError(
             Problem(
@@ -196,7 +199,7 @@ def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> Non
 
 @dataclass(frozen=True, slots=True)
 class FlankContact(Shown):
-    """Position of the driven wheel against one side of the driver's teeth; arrays of the shape of the driver's angles.
+    """Position of the driven wheel against one flank of the driver's teeth; arrays have the shape of the driver angles.
 
     See Also
     --------
@@ -206,11 +209,11 @@ class FlankContact(Shown):
     angle: Floats
     """Driven angle [rad], NaN where no tooth is within range."""
     speed: Floats
-    """Speed ratio: d angle / d driver's angle."""
+    """Speed ratio: derivative of the driven angle by the driver angle."""
     pair: Indices
     """Number of the driver's tooth in contact, counted forward from tooth 0 without wrapping."""
     kind: Indices
-    """Kind of contact, an index into `KINDS`: smooth sides or a corner."""
+    """Kind of contact, an index into `KINDS`: flanks or corners."""
     radius1: Floats
     """Radius of the contact about the driver's axle, in the outlines' unit; bevel: polar angle [rad]."""
     radius2: Floats
@@ -229,7 +232,7 @@ class FlankContact(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TwoFlankContact(Shown):
-    """Contact of both sides: `front` pushes the driven wheel forward, `back` prevents it from running ahead.
+    """Contact of both flanks: `front` pushes the driven wheel forward, `back` prevents it from running ahead.
 
     See Also
     --------
@@ -243,7 +246,7 @@ class TwoFlankContact(Shown):
 
     @property
     def backlash(self) -> Floats:
-        """Backlash of the driven wheel (rad); below 0 the teeth interfere by this angle."""
+        """Backlash of the driven wheel [rad]; if negative, the teeth interfere by this angle."""
         found: Floats = self.back.angle - self.front.angle
         return found
 
@@ -255,7 +258,7 @@ class TwoFlankContact(Shown):
 def solve(
     first: GearOutline, second: GearOutline, distance: float, phi1: ArrayLike, within: float = 1e-9
 ) -> TwoFlankContact:
-    """Compute the position of the second wheel for given angles of the first, which drives.
+    """Return the position of the second wheel for given angles of the first wheel, which drives.
 
     The driven angle is the maximum that any point of the driver's outline requires; neither normals nor a path of
     contact are used. Angles are accurate to about 1e-15 rad for the given outlines, which are approximated by
@@ -314,7 +317,7 @@ def contact(
     side: Literal["front", "back"] = "front",
     within: float = 1e-9,
 ) -> FlankContact:
-    """Compute one side of `solve`, in half the time.
+    """Return the contact on one flank of `solve`, in half the computing time.
 
     Parameters
     ----------

@@ -1,4 +1,6 @@
-"""Mesh of a gear pair whose form gives only the outlines of both wheels; its motion follows from their contact."""
+"""Mesh of a gear pair whose form defines only the outlines of both wheels; its motion is computed from
+their contact.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,7 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class OutlineMesh(GearMesh):
-    """Spur pair with arbitrary teeth; `teeth` are those of the first and the second wheel as cut, in modules."""
+    """Spur pair with teeth of any shape; `teeth` are the teeth to cut on the first and the second wheel, in modules."""
 
     transmission: OutlineTransmission
     teeth: tuple[FixedTooth, FixedTooth]
@@ -47,18 +49,20 @@ class OutlineMesh(GearMesh):
         return self.transmission.verdict
 
     @property
-    def stands(self) -> float:
-        """Offset of the driven angle (pitches): half a tooth of both wheels, as it is zero at flank contact."""
+    def tooth_phase(self) -> float:
+        """Offset of the driven wheel [pitch]: half a tooth thickness of both wheels, since contact of flanks is the
+        zero position.
+        """
         return self.transmission.gears.half_teeth / pi
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the size of the pair, whose lengths are already in modules."""
+        """Return the size of the pair in modules."""
         del tips
         distance = self.transmission.gears.distance
         return PairSize(1.0, distance, distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the tooth exactly as the form defines it, including arcs."""
+        """Return the tooth of `wheel` exactly as the form defines it, including arcs."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
 
@@ -70,7 +74,9 @@ class OutlineMesh(GearMesh):
         return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
-        """Report speed ratio, transmission error, backlash and efficiency, for both directions of power flow."""
+        """Return a report of speed ratio, transmission error, backlash and efficiency in both directions of power
+        flow.
+        """
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 
         runs = bool(self.verdict)

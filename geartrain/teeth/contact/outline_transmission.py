@@ -1,7 +1,7 @@
 """Transmission function of two outlines at a given centre distance, from the contact of their flanks.
 
-The parts of the teeth in contact are found, not assumed. Transmission error, speed and friction of any teeth of equal
-pitch follow, conjugate or not. Only spur teeth have a centre distance.
+The parts of the teeth in contact are computed, not assumed. Transmission error, speed and friction are obtained for any
+teeth of equal pitch, conjugate or not. Only spur teeth are supported, since bevels have no centre distance.
 """
 
 from __future__ import annotations
@@ -40,13 +40,15 @@ class OutlineGears:
     first: GearOutline
     second: GearOutline
     distance: float
-    """Centre distance of the wheels."""
+    """Centre distance of the wheels [module]."""
     half_teeth: float
-    """Half a tooth of both wheels on the pitch circles, from which the driven angle is counted."""
+    """Half a tooth thickness of both wheels on the pitch circles [module]: offset from which the driven angle is
+    counted.
+    """
     backlash: float
-    """Backlash on the pitch circles as designed."""
+    """Backlash on the pitch circles as designed [module]."""
     faults: tuple[ToothFault, ...] = ()
-    """Faults of the teeth at any distance."""
+    """Faults of the teeth that do not depend on the centre distance."""
 
     def of(self, driver: int) -> tuple[GearOutline, GearOutline]:
         """Return the driving wheel and the driven wheel."""
@@ -54,10 +56,10 @@ class OutlineGears:
 
 
 class OutlineTransmission(TransmissionFunction):
-    """Transmission function of two outlines; with `driver` 2 the second wheel drives, `direction` -1 reverses the
-    motion.
+    """Transmission function of two outlines.
 
-    S = 0 has a driver's tooth on the line of centres, and the driven angle is counted from where flanks touch.
+    `driver` is the driving wheel, 1 or 2; `direction` -1 reverses the motion. At S = 0 a driver's tooth is on the
+    line of centres; the driven angle is 0 where flanks touch.
     """
 
     def __init__(self, gears: OutlineGears, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
@@ -73,7 +75,7 @@ class OutlineTransmission(TransmissionFunction):
 
     @property
     def table(self) -> PiecewiseTransmission:
-        """Driven angle as polynomials, front flanks driving."""
+        """Driven angle as piecewise polynomials of the driver angle, with the front flanks driving."""
         return _tabulated(self.gears, self.driver)
 
     @property
@@ -82,12 +84,15 @@ class OutlineTransmission(TransmissionFunction):
         return OutlineTransmission(self.gears, self.friction, 3 - self.driver, self.direction)
 
     def reversed_motion(self) -> OutlineTransmission:
-        """Return the transmission function of the opposite flanks; angles keep their sign convention and decrease."""
+        """Return the transmission function of the opposite flanks for motion in the reverse direction.
+
+        Angles keep their sign convention, so they decrease.
+        """
         return OutlineTransmission(self.gears, self.friction, self.driver, -self.direction)
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can turn: faults of its teeth, and lack of backlash at this distance."""
+        """Verdict on whether the pair can run: faults of its teeth, and backlash at this distance."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding
@@ -102,49 +107,53 @@ class OutlineTransmission(TransmissionFunction):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert errors of the front flanks to this direction; reversed motion is the mirror image."""
+        """Convert transmission errors of the front flanks to the direction of motion; reversed motion is the mirror
+        image.
+        """
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error (rad of the driven wheel) at driver angles S (rad); NaN without contact."""
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN without contact."""
         return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S (rad)."""
+        """Return the speed ratio at driver angles S [rad]."""
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the steps at which the next tooth takes over at a higher speed, the same as in reversed motion."""
+        """Return the upward steps of the speed ratio where the next tooth takes over; they are the same in reversed
+        motion.
+        """
         return self.table.speed_leaps()
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio falls (1/rad), which is the same in reversed motion."""
+        """Return the maximum rate at which the speed ratio decreases [1/rad]; it is the same in reversed motion."""
         return self.table.steepest_fall()
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at which the contact changes to another tooth or curve."""
+        """Return the driver angles [rad] at which the contact changes to another tooth or curve."""
         return [self.direction * float(at) for at in self.table.kinks]
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error (rad of the driven wheel)."""
+        """Return the minimum and the maximum transmission error [rad of the driven wheel]."""
         low, high = sorted(float(self._in_direction(each)) for each in self.table.extremes())
         return low, high
 
     @property
     def _nodes(self) -> tuple[Floats, Floats]:
-        """Quadrature nodes and weights of a whole period in driver angle, front flanks driving."""
+        """Quadrature nodes [rad of the driver] and weights of a whole period, front flanks driving."""
         return _nodes(self.gears, self.driver)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio, among 16 angles of each smooth stretch and its ends."""
+        """Return the minimum and the maximum speed ratio among 16 angles of each smooth interval and its ends."""
         ends = self.table.breaks
         # at a kink the speed has two values, one on either side
         found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
         return float(np.nanmin(found)), float(np.nanmax(found))
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms about the mean (rad of the driven wheel)."""
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven wheel]."""
         S, weights = self._nodes
         error = self._in_direction(self.table.error(S))
         mean = float(weights @ error)
@@ -153,7 +162,7 @@ class OutlineTransmission(TransmissionFunction):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S (rad); NaN without contact or where friction locks.
+        """Return the efficiency at driver angles S [rad]; NaN without contact or if friction locks the teeth.
 
         The common normal passes the instantaneous pitch point, which divides the centre distance in the ratio of the
         speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
@@ -161,12 +170,12 @@ class OutlineTransmission(TransmissionFunction):
         return self._efficiency_of(_friction_terms(self.gears, self.driver, self._forward(S)))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding and friction of the single contact at driver angles S (rad)."""
+        """Return sliding speed and friction terms of the contact at driver angles S [rad]."""
         forward = self._forward(S)
         return self._rubbing(_friction_terms(self.gears, self.driver, forward), self.table.speed(forward))
 
     def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing]:
-        """Return angles, weights, and sliding and friction at the nodes of `efficiency_mean`."""
+        """Return the nodes of `efficiency_mean` [rad], their weights, and sliding speed and friction terms there."""
         S, weights = self._nodes
         rubbing = self._rubbing(_friction_terms_at_nodes(self.gears, self.driver), self.table.speed(S))
         return self.direction * S, weights, rubbing
@@ -190,14 +199,16 @@ class OutlineTransmission(TransmissionFunction):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks, among the quadrature nodes; infinite if none locks."""
+        """Minimum friction coefficient at which a contact locks, among the quadrature nodes; infinite if no contact
+        locks.
+        """
         cosine, _, out = _friction_terms_at_nodes(self.gears, self.driver)
         steepest = float(np.nanmax(-out / cosine))
         return 1 / steepest if steepest > _FLAT else inf
 
     @cached_property
     def _sampled(self) -> tuple[Floats, Floats, Floats]:
-        """Efficiency, speed and weights at the nodes where teeth touch."""
+        """Efficiency, speed ratio and weights at the quadrature nodes with contact."""
         S, weights = self._nodes
         speed = self.table.speed(S)
         touching = ~np.isnan(speed)
@@ -206,14 +217,14 @@ class OutlineTransmission(TransmissionFunction):
         return found, speed[touching], weights[touching] / weights[touching].sum()
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver's angle in contact at constant driver torque; NaN if friction
-        locks.
+        """Return the mean of the efficiency over the driver angles with contact, at constant driver torque; NaN if
+        friction locks.
         """
         found, _, weights = self._sampled
         return float(weights @ found)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return work output over work input per pitch at constant load torque; NaN if friction locks."""
+        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
         found, speed, weights = self._sampled
         return float((weights @ speed) / (weights @ (speed / found)))
 
@@ -223,9 +234,9 @@ class OutlineTransmission(TransmissionFunction):
 
 
 def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
-    """Compute the friction terms of a contact at (x, y) from the instantaneous pitch point.
+    """Return cos psi and the terms of input and output power per unit friction coefficient, for a contact at (x, y).
 
-    R1 and R2 are the distances of that point from the axles.
+    (x, y) is relative to the instantaneous pitch point; R1 and R2 are the distances of that point from the axles.
     """
     d = np.hypot(x, y)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -237,7 +248,9 @@ def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Fl
 
 
 def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return cos psi, and the terms that unit friction adds to it in the powers that enter and leave."""
+    """Return cos psi and the terms of input and output power per unit friction coefficient, at driver angles `forward`
+    [rad].
+    """
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)
     # a ring's axle is on the other side of its pinion, and both pitch circles turn the same way
@@ -265,7 +278,7 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Return the backlash at angles of a whole period (rad of the driven wheel); NaN without contact."""
+    """Return the backlash [rad of the driven wheel] at equally spaced angles of one period; NaN without contact."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash

@@ -1,6 +1,6 @@
-"""Periodic transmission function of two outlines: polynomials between the driver's angles at which it has a kink.
+"""Fit of the periodic transmission function of two outlines: polynomials between its kinks.
 
-`PiecewiseTransmission` holds the polynomials; `tabulate` fits them.
+`tabulate` computes a `PiecewiseTransmission`.
 """
 
 from __future__ import annotations
@@ -53,38 +53,38 @@ class PiecewiseTransmission:
     ratio: Fraction
     """Mean speed ratio, driven over driver, without sign."""
     period: float
-    """Period in driver's angle (rad)."""
+    """Period in driver angle [rad]."""
     breaks: Floats
-    """Ends of the stretches, (n + 1,), from `breaks[0]` over one period."""
+    """Ends of the intervals [rad], shape (n + 1,), from `breaks[0]` over one period."""
     middles: Floats
-    """Middles of the stretches, (n,): u = (phi1 - middle) / half is from -1 to 1 except for rounding."""
+    """Midpoints of the intervals [rad], shape (n,): u = (phi1 - middle) / half is from -1 to 1 except for rounding."""
     halves: Floats
-    """Half widths of the stretches, (n,)."""
+    """Half widths of the intervals [rad], shape (n,)."""
     errors: Floats
-    """Coefficients of the transmission error (rad) by powers of u, (COUNT, n)."""
+    """Coefficients of the transmission error [rad] by powers of u, shape (COUNT, n)."""
     speeds: Floats
-    """Coefficients of d angle / d phi1 by powers of u, (COUNT, n)."""
+    """Coefficients of the speed ratio d angle / d phi1 by powers of u, shape (COUNT, n)."""
     pair: Indices
-    """Number of the driver's tooth in contact on each stretch, (n,)."""
+    """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
-    """Kind of contact on each stretch, (n,): an index into `KINDS`, or -1 if no tooth is within range."""
+    """Kind of contact in each interval, shape (n,): an index into `KINDS`, or -1 if no tooth is within range."""
     kinks: Floats
-    """Driver's angles at which the contact changes to another tooth or curve."""
+    """Driver angles at which the contact changes to another tooth or curve [rad]."""
     uncertainty: float
-    """Twice the maximum difference of the angle found between nodes (rad)."""
+    """Estimated error of the angle [rad]: twice the maximum difference found between nodes."""
     speed_uncertainty: float
-    """Twice the maximum difference of the speed found between nodes (dimensionless)."""
+    """Estimated error of the speed ratio: twice the maximum difference found between nodes."""
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Return the transmission error (rad of the driven wheel) at driver's angles (rad); NaN without contact."""
+        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
         return self._of(self.errors, phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
-        """Return d angle / d phi1 at driver's angles (rad)."""
+        """Return the speed ratio d angle / d phi1 at driver angles phi1 [rad]."""
         return self._of(self.speeds, phi1)
 
     def angle(self, phi1: ArrayLike) -> Floats:
-        """Return the driven angle (rad) at driver's angles (rad)."""
+        """Return the driven angle [rad] at driver angles phi1 [rad]."""
         return self.error(phi1) + float(self.ratio) * np.asarray(phi1, dtype=float)
 
     def _of(self, coefficients: Floats, phi1: ArrayLike) -> Floats:
@@ -99,7 +99,7 @@ class PiecewiseTransmission:
         return value(coefficients, which, u)[0].reshape(phi1.shape)
 
     def extremes(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error (rad), which are at kinks or where its slope is 0."""
+        """Return the minimum and the maximum transmission error [rad], which are at kinks or where its slope is 0."""
         return extremes(self.errors)
 
     def speed_range(self) -> tuple[float, float]:
@@ -107,7 +107,7 @@ class PiecewiseTransmission:
         return extremes(self.speeds)
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio between stretches, in order of angle; steps by rounding are
+        """Return the upward steps of the speed ratio between intervals, in order of angle; steps by rounding are
         omitted.
         """
         start, before = ends(self.speeds)
@@ -116,14 +116,14 @@ class PiecewiseTransmission:
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Return the maximum of -d speed / d phi1 within the stretches (1/rad), 0 if the speed never falls."""
+        """Return the maximum of -d speed / d phi1 within the intervals [1/rad]; 0 if the speed never decreases."""
         slopes = np.zeros_like(self.speeds)  # degree reduced by one, same number of coefficients
         slopes[:-1] = self.speeds[1:] * np.arange(1, len(slopes))[:, None] / self.halves
         return max(0.0, -extremes(slopes)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error over a period and its rms about that mean (rad); NaN with gaps in
-        contact.
+        """Return the mean of the transmission error over a period and its rms deviation [rad]; NaN if contact has
+        gaps.
         """
         return moments(self.errors, self.halves)
 
@@ -148,7 +148,9 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Fitted stretches: ends (2, n), coefficients (COUNT, n), tooth and kind of contact, maximum differences."""
+    """Intervals with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth, kind of contact, maximum
+    differences.
+    """
 
     ends: Floats
     errors: Floats
@@ -166,7 +168,7 @@ def tabulate(
     tolerance: float = 1e-12,
     side: Literal["front", "back"] = "front",
 ) -> PiecewiseTransmission:
-    """Fit the transmission function of one side of two wheels by polynomials between its kinks.
+    """Return the transmission function of one flank of two wheels, fitted by polynomials between its kinks.
 
     Parameters
     ----------
@@ -240,7 +242,7 @@ class _Fitter:
         self.period = pair_contact.cycle * self.pitch
 
     def fit(self) -> tuple[_Stretches, Floats, Floats]:
-        """Return all stretches in order, their ends, and the ends that are kinks."""
+        """Return all intervals in order, their ends, and the ends that are kinks."""
         count = _PARTS * self.pair_contact.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
@@ -250,6 +252,7 @@ class _Fitter:
             good = self._accepted(stretches, before)
             done.append(some(stretches, good))
             cuts = self._kinks(pending[:, ~good], labels[:, ~good])
+            # a stretch with a kink cannot be fitted by one polynomial, whatever its length
             kinks += cuts
             pending, before = _divided(pending[:, ~good], cuts, stretches.off[~good])
             if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.pair_contact.cycle:
@@ -257,7 +260,7 @@ class _Fitter:
         return self._ordered(done, np.concatenate(kinks))
 
     def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
-        """Return flags of stretches within tolerance, too thin to divide, or limited by rounding."""
+        """Return flags of intervals that are within tolerance, too thin to divide, or limited by rounding."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
         # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding
         stuck = (stretches.off > before / 4) & (before < 1e-10)
@@ -265,7 +268,7 @@ class _Fitter:
         return good
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Fit polynomials on stretches, and return labels of the contact at their nodes, (4, n, nodes)."""
+        """Return polynomials fitted on intervals, and labels of the contact at their nodes, shape (4, n, nodes)."""
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
         angle, speed, labels = self._evaluated(phi1)
@@ -282,13 +285,13 @@ class _Fitter:
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _evaluated(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
-        """Return driven angle, speed, and labels that identify the contact."""
+        """Return driven angle [rad], speed ratio, and labels that identify the contact."""
         angle, speed, pair, kind, _, _, _, curves = self.pair_contact.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Locate the driver's angles at which the contact changes in each stretch, to rounding."""
+        """Return the driver angles at which the contact changes in each interval, located to rounding."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -298,7 +301,9 @@ class _Fitter:
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
     def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Locate the first change of labels from `left` between low and high, by repeated subdivision to rounding."""
+        """Return the first angle between `low` and `high` at which the labels differ from `left`, by repeated
+        subdivision.
+        """
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
@@ -315,7 +320,9 @@ class _Fitter:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Sort the stretches by driver's angle, and move each kink to the intersection of its adjacent stretches."""
+        """Return the intervals sorted by driver angle, with each kink moved to the intersection of its adjacent
+        polynomials.
+        """
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
         breaks = np.append(everything.ends[0], everything.ends[1, -1])
@@ -334,7 +341,7 @@ class _Fitter:
 
 
 def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Divide stretches at their kinks, or bisect those without; also return the previous error of each."""
+    """Return the intervals divided at their kinks, or bisected without kinks, and the previous error of each."""
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
         within = inner[(inner > low) & (inner < high)]

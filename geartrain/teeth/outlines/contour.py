@@ -1,4 +1,6 @@
-"""Closed curves of straight edges and circular arcs, as in DXF: vertices, each with the bulge of its edge."""
+"""Closed curves of straight edges and circular arcs, stored as in DXF: vertices with the bulge of the edge that
+follows.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,7 @@ _MINIMUM_STEP = 2 * pi / 65536  # minimum angle of a chord (rad), which bounds t
 
 @dataclass(frozen=True, slots=True)
 class Contour(Shown):
-    """Closed curve of straight edges and circular arcs, as DXF stores it.
+    """Closed curve of straight edges and circular arcs, stored as in DXF.
 
     Examples
     --------
@@ -32,11 +34,13 @@ class Contour(Shown):
     points: Floats
     """Vertices (n, 2) [mm]; the last one is joined to the first."""
     bulges: Floats
-    """Bulge of the edge that leaves each vertex (n,): tan(sweep / 4), 0 if straight, positive if it turns left."""
+    """Bulge of the edge that leaves each vertex, shape (n,): tan(sweep / 4), 0 if straight, positive if it turns
+    left.
+    """
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:
-        """Build a contour from vertices with bulges; edges of zero length are omitted.
+        """Return a contour through vertices with bulges; edges of zero length are omitted.
 
         Parameters
         ----------
@@ -77,7 +81,7 @@ class Contour(Shown):
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
     def moments(self) -> tuple[float, float]:
-        """Compute area (mm2) and polar second moment about (0, 0) (mm4), exactly, by Green's theorem.
+        """Return area [mm2] and polar second moment about the origin [mm4], exact by Green's theorem.
 
         The result is the sum over the polygon of the vertices and the circular segment of each arc. It is below 0 if
         the contour runs clockwise.
@@ -93,7 +97,7 @@ class Contour(Shown):
         return area, polar
 
     def flattened(self, tolerance: float) -> Floats:
-        """Return points whose chords deviate from the arcs by at most a tolerance.
+        """Return points whose chords deviate from the arcs by at most `tolerance`.
 
         A circle has at most 65 536 points; above radii of some kilometres the deviation is larger.
 
@@ -114,7 +118,7 @@ class Contour(Shown):
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Return the points of an arc without its end point."""
+    """Return the points of a flattened arc, without its end point."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)
@@ -126,7 +130,7 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 
 
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
-    """Return area and polar second moment about (0, 0) of the segment between an arc and its chord.
+    """Return area and polar second moment about the origin of the segment between an arc and its chord.
 
     About its own centre, with radius R and sweep s, they are R^2 (s - sin s)/2 and R^4 (s/4 - sin s (2 + cos s)/12).
     The first moment is 2/3 R^3 sin^3(s/2) along the bisector.
@@ -147,7 +151,7 @@ def _arc_centre(start: Floats, end: Floats, bulge: float) -> Floats:
 
 
 def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
-    """Return the radius of the arc between two vertices."""
+    """Return the radius of the arc with this bulge between two vertices, in the unit of the vertices."""
     return float(np.hypot(*(end - start))) * (1 + bulge**2) / (4 * abs(bulge))
 
 

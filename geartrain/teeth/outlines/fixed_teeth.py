@@ -5,7 +5,7 @@ The tooth of an escape wheel is pointed and leans forward, so that a pallet of t
 The teeth of a strain wave have straight flanks. With a wave of n lobes, whose ring gear has n teeth more, the middle
 line of the thin wheel is displaced outwards by w cos(u), w = n/2 modules, without stretching. A tooth then leaves its
 space of the ring by n/2 (1 - cos u) while it moves along by (u - sin u)/2. Flanks at the angle a from the middle of the
-tooth pass each other while n (1 - cos u) tan a > u - sin u (docs/reducers.md, (8)).
+tooth clear each other while n (1 - cos u) tan a > u - sin u (docs/reducers.md, (8)).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 ESCAPEMENT = "escapement"
 ESCAPE_WORDS = "of a dead-beat escapement, pointed, faces undercut by 6 degrees"
 UNDERCUT = radians(6.0)
-"""Angle of the leading face of a tooth behind the radius through its tip (rad), as for a dead-beat anchor."""
+"""Angle of the leading face of a tooth behind the radius through its tip [rad], as for a dead-beat anchor."""
 _DEPTH = 0.7  # of a pitch: depth of a tooth
 _DEEPEST = 0.5  # of the radius: maximum depth of a tooth
 _BASE = 0.45  # of a pitch: thickness of a tooth at its root
@@ -33,24 +33,23 @@ _LAND = 0.03  # of a pitch: width of a tip
 WAVE = "strain wave"
 WAVE_WORDS = "of a strain wave, straight flanks of 30 degrees, 0.7 modules out and 0.9 in"
 FLANK = radians(30.0)
-"""Angle of a flank from the middle of its tooth (rad)."""
+"""Angle of a flank from the centre line of its tooth [rad]."""
 ADDENDUM, DEDENDUM = 0.7, 0.9
-"""Addendum and dedendum in modules.
+"""Addendum and dedendum [module].
 
 A tooth must have left its space where the wheel is bent in, two modules from where it is bent out.
 """
 WALL = 0.012
-"""Wall thickness of the wheel under its teeth, as a fraction of the pitch diameter; thin enough to be bent."""
+"""Wall thickness of the flexible wheel under its teeth over the pitch diameter."""
 CUP = 0.25
-"""Length of the wall that joins the wheel to its cup, as a fraction of the pitch diameter; a short wall hardly bends.
-"""
+"""Length of the wall between the flexible wheel and its cup over the pitch diameter; a shorter wall is too stiff."""
 
 
 # -------------------------------------------------------------------------------------------------------- escape wheels
 
 
 def escape_tooth(z: int, sense: int) -> FixedTooth:
-    """Return the tooth of an escape wheel of z teeth, 3 or more, with tips on its pitch circle.
+    """Return the tooth of an escape wheel of z teeth, 3 or more, with its tip on the pitch circle.
 
     The middle of its root is on the x axis. Proportions are those of clockmakers, after G. Graham's anchor of about
     1715: faces undercut by 6 degrees, straight backs.
@@ -70,7 +69,7 @@ def escape_tooth(z: int, sense: int) -> FixedTooth:
 def _vertices(pitch: float, radius: float, root: float, face: float) -> Iterator[Vertex]:
     """Yield the vertices counter-clockwise: foot of the back, both ends of the tip, foot of the face.
 
-    The last edge is along the root circle.
+    The last edge lies on the root circle.
     """
     half = _BASE * pitch / 2
     for distance, angle, bulge in (
@@ -86,9 +85,10 @@ def _vertices(pitch: float, radius: float, root: float, face: float) -> Iterator
 
 
 def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
-    """Return the tooth of a strain wave's wheel of z teeth, or of its ring gear; both have straight flanks.
+    """Return the tooth of the flexible wheel of a strain wave with z teeth, or of its ring gear; both have straight
+    flanks.
 
-    `backlash` is in modules along the pitch circle.
+    `backlash` is an arc of the pitch circle [module].
     """
     radius, pitch = z / 2, 2 * pi / z
     side = -1 if ring else 1
@@ -107,12 +107,12 @@ def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
 
 
 def wall(radius: float) -> float:
-    """Return the wall thickness under the teeth of a flexible wheel, in the unit of its pitch radius."""
+    """Return the wall thickness under the teeth of a flexible wheel, in the unit of its pitch radius `radius`."""
     return WALL * 2 * radius
 
 
 def bent_line(line: Floats, middle: float, wave: tuple[float, int], turns: tuple[float, float] = (0.0, 0.0)) -> Floats:
-    """Return points of a thin wheel (n, 2) after a wave has bent it and it has been rotated; lengths in any one unit.
+    """Return points of a thin wheel, shape (n, 2), bent by a wave and rotated, in the length unit of the input.
 
     The wheel is flexible, but its middle line keeps its length. A point on it at the angle t moves outwards by w cos(n
     (t - s)), where s is the angle of the wave, and along by -w/n sin(n (t - s)). Points off the middle line stay on its

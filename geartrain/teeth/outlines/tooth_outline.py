@@ -1,6 +1,4 @@
-"""Outline of one tooth from root to tip: working flank, root fillet, tip land; the flank follows from its path of
-contact.
-"""
+"""Outline of one tooth from root to tip: flank computed from the path of contact, root fillet and top land."""
 
 from __future__ import annotations
 
@@ -32,27 +30,28 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class RootFillet:
-    """Root fillet in the frame of the tooth: x along its axis, y towards the space; modules."""
+    """Root fillet in the frame of the tooth: x along its centre line, y towards the tooth space; lengths in modules."""
 
     start: Point
-    """Point where the straight line ends and the fillet begins."""
+    """Point at which the straight root flank ends and the fillet begins [module]."""
     end: Point
-    """Point where the fillet touches the root circle."""
+    """Point at which the fillet touches the root circle [module]."""
     centre: Point
-    """Centre of the fillet."""
+    """Centre of the fillet [module]."""
     radius: float
-    """Radius of the fillet."""
+    """Radius of the fillet [module]."""
 
     @property
     def half(self) -> float:
-        """Angle (rad) between the axis of the tooth and the beginning of its root circle."""
+        """Angle between the centre line of the tooth and the point where its root circle begins [rad]."""
         return atan2(self.end[1], self.end[0])
 
 
 def fillet(
     flank: FlankCurve, widening: float, root: float, radius: float, z: float, relief: float = 0.0
 ) -> RootFillet | None:
-    """Return the fillet of `radius` between the flank and the circle of radius `root`; None if it does not fit.
+    """Return the fillet of `radius` between the flank and the circle of radius `root` [module]; None if it does not
+    fit.
 
     widening   half angle of the tooth at the pitch circle (rad)
     relief     angle (rad) by which the straight line is turned from the flank's tangent into the tooth
@@ -60,17 +59,21 @@ def fillet(
     r, half = float(flank.r[0]), widening + float(flank.angle[0])
     E = (r * cos(half), r * sin(half))
     along, across = flank.tangent
+    # the flank continues along its tangent, turned into the tooth by the relief
     lean = atan2(across, abs(along)) - relief
     along, across = (cos(lean) if along > 0 else -cos(lean)), sin(lean)
     T = (along * cos(half) - across * sin(half), along * sin(half) + across * cos(half))
     N = (-T[1], T[0])
+    # the normal points into the space
     if -N[0] * sin(half) + N[1] * cos(half) < 0:
         N = (-N[0], -N[1])
     s = flank.outward
+    # the centre is on a line parallel to the flank, at a distance of one radius from the root circle
     base = (E[0] + radius * N[0], E[1] + radius * N[1])
     b = base[0] * T[0] + base[1] * T[1]
     c = base[0] ** 2 + base[1] ** 2 - (root + s * radius) ** 2
     under = b * b - c
+    # the arc would not touch the root circle
     if s * c < 0 or under < 0:
         return None
     t = -b - s * sqrt(under)
@@ -81,37 +84,38 @@ def fillet(
     found = RootFillet(
         (E[0] + t * T[0], E[1] + t * T[1]), (centre[0] * root / far, centre[1] * root / far), centre, radius
     )
+    # an arc across the middle of the space would intersect the arc of the next tooth
     return found if found.half <= pi / z else None
 
 
 Vertex = tuple[float, float, float]
-"""Vertex x, y, and the bulge of the edge to the next one."""
+"""Vertex (x, y, bulge), with the bulge of the edge to the next vertex."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothOutline:
-    """Outline of one of z equal teeth; lengths in modules."""
+    """Outline of one of z equal teeth, lengths in modules."""
 
     z: float
     flank: FlankCurve
     fillet: RootFillet
     widening: float
-    """Half angle (rad) of the tooth at the pitch circle."""
+    """Half the angular tooth thickness at the pitch circle [rad]."""
     root: float
-    """Radius of the root circle."""
+    """Radius of the root circle [module]."""
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle."""
+        """Radius of the tip circle [module]."""
         return float(self.flank.r[-1])
 
     @property
     def land(self) -> float:
-        """Half the angle (rad) of the top land."""
+        """Half the angle of the top land [rad]."""
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Return the half angle (rad) of the tooth as cut, including the fillet, at radii from root to tip."""
+        """Return half the angular thickness of the cut tooth, including its fillet, at radii from root to tip [rad]."""
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
@@ -131,7 +135,7 @@ class ToothOutline:
         return np.asarray(np.where(radius * s < r[0] * s, on_fillet, edge))
 
     def _half(self) -> list[tuple[float, float, float]]:
-        """Return vertices with bulges from root to tip, on the side of positive y."""
+        """Return vertices (x, y, bulge) from root to tip, on the side of positive y."""
         fillet = self.fillet
         half = self.widening + self.flank.angle
         flank = zip((self.flank.r * np.cos(half)).tolist(), (self.flank.r * np.sin(half)).tolist(), strict=True)
@@ -142,11 +146,13 @@ class ToothOutline:
         return [(*end, bulge), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
 
     def whole(self) -> Contour:
-        """Return the contour of all teeth around the axle, counter-clockwise, the first tooth about the x axis."""
+        """Return the contour of all teeth, counter-clockwise, with the first tooth about the x axis [module]."""
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """Return the vertices of one tooth about the x axis, from root to root, the last edge along the root circle."""
+        """Return the vertices of one tooth about the x axis from root to root; the last edge lies on the root
+        circle.
+        """
         half = self._half()
         origin = (0.0, 0.0)
         x, y, _ = half[-1]
@@ -161,7 +167,7 @@ class ToothOutline:
 
 
 def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
-    """Yield the vertices of z teeth around the axle, from the vertices of one.
+    """Yield the vertices of z teeth around the axle, which are rotated copies of one tooth.
 
     Parameters
     ----------
@@ -187,7 +193,7 @@ def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
 
 
 def pin_span(R: float, radius: float) -> Floats:
-    """Return radius and signed angle (2, n) of points of a pin of `radius` on the circle of radius R."""
+    """Return radii and azimuths [rad] of points on a pin of `radius`, whose centre is at the radius R; shape (2, n)."""
     turn = np.linspace(0, 2 * pi, 181)
     x, y = R + radius * np.cos(turn), radius * np.sin(turn)
     return np.stack([np.hypot(x, y), np.arctan2(y, x)])
@@ -200,26 +206,26 @@ def pin_span(R: float, radius: float) -> Floats:
 class FlankCurve:
     """Flank from its root end to its tip end, lengths in modules.
 
-    Chords never protrude from the true tooth. A convex flank is approximated by chords and a concave one by tangents,
+    Its polyline is always inside the true tooth. Convex parts are approximated by chords and concave ones by tangents,
     so that teeth in contact without backlash do not overlap.
     """
 
     r: Floats
-    """Radii of the points."""
+    """Radii of the vertices [module]."""
     angle: Floats
-    """Half angle of the tooth at each point less that at the pitch circle (rad)."""
+    """Half the angular tooth thickness at each vertex minus its value at the pitch circle [rad]."""
     curve: Floats
-    """Radius and angle of many points of the true flank (2, n)."""
+    """Radii and angles of densely spaced points of the true flank, shape (2, n)."""
     tangent: tuple[float, float]
-    """Unit vector at the root end towards the root: along the radius, and across it towards the space."""
+    """Unit tangent at the root end towards the root: component along the radius, component towards the tooth space."""
     R: float
-    """Pitch radius of the wheel."""
+    """Pitch radius of the wheel [module]."""
     outward: int
-    """Sign of the tip direction: 1, or -1 for a ring gear, whose tips are inside."""
+    """Sign of the radial direction from root to tip: 1, or -1 for a ring gear."""
 
 
 def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: float) -> FlankCurve:
-    """Return the flank of gear 1 or 2 over arcs of approach and recess (X), with chords within `tolerance` (modules).
+    """Return the flank of gear 1 or 2 for arcs X of approach and recess, as a polyline within `tolerance` [module].
 
     With a negative arc the flank begins beyond the pitch point.
     """
@@ -243,13 +249,13 @@ def _R(path: PathOfContact, gear: int) -> float:
 
 
 def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
-    """Return radius about the axle, and azimuth from the pitch point of the flank towards the space."""
+    """Return radius about the axle and azimuth from the pitch point, positive towards the tooth space [rad]."""
     radius, azimuth = path.pitch.polar(gear, path.flank(gear, X))
     return radius, azimuth if gear == 1 else -azimuth
 
 
 def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Return displacements with equal chord deviation everywhere: ds sqrt(curvature) constant."""
+    """Return arcs X at which the chords of a flank deviate equally: ds sqrt(curvature) is constant."""
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
     length = np.hypot(steps[:, 0], steps[:, 1])
@@ -266,7 +272,7 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
 
 
 def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the indices of the last points before the curvature of the flank changes its sign."""
+    """Return the indices of the last points before the curvature of the flank changes sign."""
     points = path.flank(gear, X)
     steps = np.diff(points @ np.array([1, 1j]))
     bent = np.angle(steps[1:] * np.conj(steps[:-1]))
@@ -277,7 +283,6 @@ def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 def _with_inflections(found: Floats, bends: Floats) -> Floats:
-    """Insert displacements `bends`, and drop other interior ones near them."""
     if not bends.size:
         return np.asarray(found)
     near = _NEAR * abs(found[-1] - found[0])
@@ -288,7 +293,7 @@ def _with_inflections(found: Floats, bends: Floats) -> Floats:
 
 
 def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return radius and angle of a polyline that nowhere leaves the tooth.
+    """Return radii and angles of a polyline inside the tooth.
 
     Its vertices are points of the flank where it is convex, and intersections of tangents where it is concave.
     """
@@ -316,12 +321,13 @@ def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> 
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    """Return the cross product of plane vectors written as complex numbers."""
     return np.asarray((np.conj(a) * b).imag)
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the unit tangent towards the root: normal to the contact normal, which makes psi with the pitch line."""
+    """Return the unit tangent towards the root, normal to the contact normal: radial component, and component towards
+    the tooth space.
+    """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi
     x, y = path.pitch.point(contact.d, contact.sin_psi, contact.cos_psi).T

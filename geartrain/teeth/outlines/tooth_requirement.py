@@ -1,4 +1,4 @@
-"""Requirements of conjugate pairs on the teeth of a wheel: flanks, and spaces through which all mates pass.
+"""Requirements of conjugate pairs on the teeth of a wheel: its flanks, and tooth spaces that clear all mates.
 
 The mate's tooth is compared with the outline at many positions within a pitch.
 """
@@ -29,14 +29,16 @@ _MARGIN = 1e-3  # modules: minimum gap at the fillet, more than a tip moves betw
 
 @dataclass(frozen=True, slots=True)
 class MateTooth:
-    """Tooth or pin of a mating wheel."""
+    """Outline of a tooth or pin of a mating wheel, with the position of that wheel."""
 
     span: Floats
-    """Radius and signed angle of its points (2, n), rotated by half the backlash so that one of its flanks touches."""
+    """Radii [module] and azimuths [rad] of its points, shape (2, n), rotated by half the backlash so that one flank
+    touches.
+    """
     z: float
     """Tooth number of the mate."""
     distance: float
-    """Centre distance, negative for a wheel in a ring gear."""
+    """Centre distance [module], negative for a wheel in a ring gear."""
     internal: bool
     """True if one of the two wheels is a ring gear; `ring` is True if the mate is."""
     ring: bool
@@ -47,12 +49,14 @@ class MatePassage:
     """Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel."""
 
     radius: Floats
-    """Radius about the wheel's axle; `aside` is the angle (rad) from the axis of the nearest tooth."""
+    """Radii about the wheel's axle [module]; `aside` holds the angles from the centre line of the nearest tooth
+    [rad].
+    """
     aside: Floats
 
 
 def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
-    """Compute the passage of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
+    """Return the positions of a mate's tooth in the tooth spaces of a wheel of z teeth; lengths in modules."""
     turn = _positions(tip, outward, mate)[:, None]
     r, angle = mate.span
     place = mate.distance + r * np.exp(1j * (angle + turn + (0 if mate.internal else pi)))
@@ -65,7 +69,7 @@ def passage(z: float, tip: float, outward: int, mate: MateTooth) -> MatePassage:
 
 
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
-    """Return the depth (modules) to which the mate's tooth cuts into the wheel's in its passage; negative for a gap.
+    """Return the maximum depth to which the mate's tooth would cut into a tooth [module]; negative for a gap.
 
     It is measured along the circle at the flank and the fillet, along the radius at the root circle. At the fillet a
     margin is added.
@@ -80,7 +84,7 @@ def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
 
 
 def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
-    """Return the angles of the mate at which its tooth may be within the wheel's tip circle."""
+    """Return the angles of the mate at which its tooth may be within the wheel's tip circle [rad]."""
     distance = mate.distance
     far = float(mate.span[0].min() if mate.ring else mate.span[0].max())
     if not distance:
@@ -107,14 +111,14 @@ _ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
 @dataclass(frozen=True)
 class ToothRequirement(WheelRequirement):
-    """Required teeth of gear 1 or 2 of a pair, lengths in modules."""
+    """Required teeth of gear 1 or 2 of a conjugate pair, lengths in modules."""
 
     pair: ConjugatePair
     gear: int
     tolerance: float
-    """Maximum deviation of a chord from the flank."""
+    """Maximum deviation of a chord from the flank [module]."""
     clearance: float = CLEARANCE
-    """Bottom clearance between the mate's tips and the root."""
+    """Bottom clearance between the mate's tips and the root [module]."""
     pins: LanternPins | None = None
     """Pins if one of the two gears is a lantern; None otherwise."""
 
@@ -130,7 +134,7 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def distance(self) -> float:
-        """Centre distance of the pair."""
+        """Centre distance of the pair [module]."""
         return abs(self.pair.path.pitch.R1 + self.pair.path.pitch.R2)
 
     @property
@@ -140,12 +144,12 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def widening(self) -> float:
-        """Half angle of the tooth at its pitch circle (rad)."""
+        """Half the angular tooth thickness at the pitch circle [rad]."""
         return float(self.pair.halves[self.gear - 1] / self.flank.R)
 
     @cached_property
     def other(self) -> ToothRequirement:
-        """Requirement of the pair on the mate."""
+        """Requirement of the same pair on the mate."""
         return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
 
     @property
@@ -155,19 +159,19 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle; for pins, of their outermost points."""
+        """Radius of the tip circle [module]; for pins, radius of their outermost points."""
         if self.pins is not None and self.has_pins:
             return self.pins.circle + self.pins.radius
         return self.pair.path.radii(self.gear)[1]
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if one wheel meets both requirements."""
+        """Return True if one wheel can satisfy both requirements."""
         if not isinstance(other, ToothRequirement):
             return False
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the pins, or the one tooth whose root lets the mates of all requirements pass."""
+        """Return the pins, or the tooth whose root clears the mates of all requirements."""
         demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
         for demand in demands:
             check_flat(demand.pair)
@@ -177,7 +181,8 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def root(self) -> float:
-        """Radius of the root circle: its depth below the pitch circle is the mate's addendum plus the clearance.
+        """Radius of the root circle [module]: its depth below the pitch circle is the mate's addendum plus the
+        clearance.
 
         The addendum is negative if the mate's tip does not reach its own pitch circle.
         """
@@ -187,7 +192,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def passage(self) -> MatePassage:
-        """Passage of the mate's tooth or pin through the spaces."""
+        """Positions of the mate's tooth or pin in the tooth spaces."""
         own, other = self.flank, self.other
         found = other.flank
         if self.pins is not None and other.gear == self.pins.gear:
@@ -219,7 +224,7 @@ def _cut(demands: tuple[ToothRequirement, ...]) -> CutTooth:
 
 
 def check_flat(pair: ConjugatePair) -> None:
-    """Raise `QuestionError` if flat wheels cannot be cut for a pair."""
+    """Raise `QuestionError` if the wheels of a pair have no plane outline, or have faults."""
     path = pair.path
     if path.pitch.bevel:
         # the back cone of a crown wheel develops into a rack with infinitely many teeth
@@ -243,7 +248,7 @@ def check_flat(pair: ConjugatePair) -> None:
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """Return True if one tooth meets both requirements: equal flanks where both work, and equal tips."""
+    """Return True if one tooth satisfies both requirements: equal flanks where both are active, and equal tip radii."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False
@@ -259,10 +264,11 @@ def _rising(curve: Floats) -> Floats:
 
 
 def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) -> tuple[ToothOutline, float]:
-    """Return the tooth for all pairs of a wheel, and the angle (rad) of its root off the flank's tangent.
+    """Return the tooth that suits all pairs of a wheel, and the angle between its root flank and the flank's tangent
+    [rad].
 
-    Its flank is as deep as the tips of all mates need, and its root circle clears them. Its fillet, `wanted` or the
-    largest up to 0.38 modules, lets each of them pass. All lengths are in modules, and all flanks must be alike. Raises
+    Its flank extends as deep as the tips of all mates need, and its root circle clears them. Its fillet radius is
+    `wanted` [module], or the largest up to 0.38 modules that clears all mates. All flanks must be alike. Raises
     `QuestionError` if no such tooth exists.
     """
     s = demands[0].flank.outward
@@ -294,7 +300,7 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
             f"gear {demand.gear} cannot have a root circle",
             f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
             "give less clearance, or thinner teeth by more backlash",
-            "--clearance",
+            "--blank clearance",
         )
     )
 
@@ -302,7 +308,9 @@ def _no_root(demand: ToothRequirement) -> QuestionError:
 def _tooth_builder(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float
 ) -> Callable[[float], ToothOutline | None]:
-    """Return a function from a fillet radius to a tooth that interferes with no mate by more than `most`, or None."""
+    """Return a function from a fillet radius to a tooth, or to None if a mate interferes by more than `most`
+    [module].
+    """
     flank, widening, z = own.flank, own.widening, own.z
 
     def made(radius: float) -> ToothOutline | None:
@@ -316,7 +324,9 @@ def _tooth_builder(
 
 
 def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
-    """Find the tooth with the largest fillet below `wanted` by bisection; None if not even a small one fits."""
+    """Return the tooth with the largest fillet radius below `wanted`, by bisection; None if not even a small fillet
+    fits.
+    """
     found = made(_MINIMUM_FILLET)
     low, high = _MINIMUM_FILLET, wanted
     if found is None or wanted <= low:

@@ -1,4 +1,4 @@
-"""Outline of a whole wheel: sizes of its blank, and its outline with the resulting sizes.
+"""Outline of a whole wheel: sizes of its blank, contours and resulting sizes.
 
 Conjugate teeth get roots that the mate's tips do not touch, and a bore or a rim as the blank specifies.
 """
@@ -42,13 +42,13 @@ class BlankSizes:
     """
 
     module: float = 1.0
-    """Pitch diameter over tooth number [mm], above 0."""
+    """Module: pitch diameter over tooth number [mm], above 0."""
     clearance: float | None = None
-    """Bottom clearance between a tip and the mate's root [mm], 0 or more; default a quarter of a module."""
+    """Bottom clearance between a root and the mate's tip [mm], 0 or more; default a quarter of a module."""
     fillet: float | None = None
     """Radius of the root fillet [mm], 0 or more; default 0.38 modules, or the largest that fits."""
     bore: float | None = None
-    """Diameter of the hole in the middle [mm]; default no hole."""
+    """Diameter of the central hole [mm]; default no hole."""
     rim: float | None = None
     """Width of the rim around the roots of a ring gear or the pins of a lantern [mm]; default two modules, or a pin."""
     tolerance: float = 0.001
@@ -59,12 +59,12 @@ class BlankSizes:
         above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
         minimum = {"fillet": self.fillet, "clearance": self.clearance}
         problems = [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} above 0", f"--blank {name}")
             for name, value in above.items()
             if value is not None and not (isfinite(value) and value > 0)
         ]
         problems += [
-            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--{name}")
+            Problem(f"a {name} of {value:g} mm is out of range", "", f"give a {name} of 0 or more", f"--blank {name}")
             for name, value in minimum.items()
             if value is not None and not (isfinite(value) and value >= 0)
         ]
@@ -73,7 +73,6 @@ class BlankSizes:
 
 
 def _diameter(radius: float) -> float:
-    """Return the diameter of a radius."""
     return 2 * radius
 
 
@@ -99,7 +98,7 @@ class WheelOutline(Result):
     kind: str
     """Kind of wheel: external, ring or pins."""
     contours: tuple[Contour, ...]
-    """Contours, the outer one first, then holes; the axle at (0, 0), a tooth or a pin on the x axis."""
+    """Contours [mm], first the outer one, then holes; the axle is at (0, 0), and a tooth or a pin on the x axis."""
     module: float
     """Module [mm]."""
     pitch_radius: float
@@ -113,11 +112,11 @@ class WheelOutline(Result):
     fillet: float
     """Radius of the root fillet [mm]; 0 without a fillet."""
     relief: float
-    """Angle of the root off the flank's tangent, which lets the mate's tip pass [rad]."""
+    """Angle by which the root flank deviates from the flank's tangent to clear the mate's tip [rad]."""
     clearance: float
-    """Tip clearance of the pair [mm]."""
+    """Bottom clearance of the pair [mm]."""
     backlash: float
-    """Backlash of the pair [mm]."""
+    """Backlash of the pair on the pitch circle [mm]."""
     centre_distance: float
     """Centre distance of the pair [mm]."""
     tolerance: float
@@ -128,7 +127,7 @@ class WheelOutline(Result):
 
 
 OutlineSizes = tuple[float, float, float, float, float]
-"""Radii of pitch, tip and root circle, tooth thickness, fillet radius; modules."""
+"""Radii of pitch, tip and root circle, tooth thickness and fillet radius [module]."""
 
 
 def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins | None = None) -> WheelOutline:
@@ -193,7 +192,7 @@ class _PairOutlines:
         return self._wheel(gear, kind, _contours(tooth, self.cut), sizes, relief)
 
     def lantern(self, pins: LanternPins) -> WheelOutline:
-        """Return the outline of a lantern: a disc with a hole for each pin."""
+        """Return the outline of a lantern: a disc with a round hole for each pin."""
         scale = self.cut.module
         inner, outer = pins.circle - pins.radius, pins.circle + pins.radius
         rim = 2 * pins.radius * scale if self.cut.rim is None else self.cut.rim
@@ -227,9 +226,9 @@ class _PairOutlines:
 
 
 def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) -> list[Contour]:
-    """Return the contours of a disc with a hole for each pin (mm), and a rim about the pins.
+    """Return the contours of a disc with a hole for each pin, and a rim of width `rim` outside the pins [mm].
 
-    The default rim is a pin's diameter.
+    The default width is a pin's diameter.
     """
     R, radius = pins.circle * module, pins.radius * module
     turns = [2 * pi * k / z for k in range(z)]
@@ -238,9 +237,10 @@ def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) 
 
 
 def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: float = 0.0) -> Contour:
-    """Return the inner contour (mm) of a ring of radius `root` (modules), with a round seat for each pin.
+    """Return the inner contour of a ring with a round seat for each pin [mm].
 
-    wider   clearance (mm) of the diameter of a seat over the diameter of its pin
+    root    inner radius of the ring [module]
+    wider   diameter of a seat minus the diameter of its pin [mm]
     """
     R, radius, inside = pins.circle * module, pins.radius * module + wider / 2, root * module
     if not abs(R - radius) < inside < R + radius:
@@ -258,25 +258,25 @@ def _fillet_too_large(gear: int, requested: float, fits: float) -> QuestionError
             f"a fillet of {requested:g} mm does not fit the root of gear {gear}",
             "a larger fillet would touch the mate's tips or the next tooth",
             f"give at most {fits:.4g} mm, or more clearance",
-            "--fillet",
+            "--blank fillet",
         )
     )
 
 
 def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
-    """Return the contours of a toothed wheel (mm): teeth and bore, or rim and teeth."""
+    """Return the contours of a toothed wheel [mm]: teeth and bore, or for a ring gear rim and teeth."""
     teeth = tooth.whole().scaled(cut.module)
     if tooth.flank.outward > 0:
         if cut.rim is not None:
-            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --rim", "--rim"))
+            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "omit --blank rim", "--blank rim"))
         return [teeth, *bore(cut, tooth.root * cut.module)]
     if cut.bore is not None:
-        raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --bore", "--bore"))
+        raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --blank bore", "--blank bore"))
     return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """Return the hole of a wheel whose root circle has a radius of `root` (mm), if it has one."""
+    """Return the hole of a wheel with the root radius `root` [mm] as a list of contours, empty without a bore."""
     if cut.bore is None:
         return []
     most = 2 * (root - _THIN * cut.module)
@@ -286,7 +286,7 @@ def bore(cut: BlankSizes, root: float) -> list[Contour]:
                 f"a bore of {cut.bore:g} mm does not fit",
                 f"the wheel's root circle has a diameter of {2 * root:.4g} mm",
                 f"give less than {most:.4g} mm",
-                "--bore",
+                "--blank bore",
             )
         )
     return [Contour.circle(cut.bore / 2)]

@@ -1,4 +1,4 @@
-"""Requirements of a gear pair on the teeth of one of its wheels, and one tooth that fits all pairs of the wheel."""
+"""Requirements of gear pairs on the teeth of a wheel, and the tooth that suits all pairs of the wheel."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SAME_SIZE = 1e-9  # of a length, or rad: smaller differences count as equal
 
 @dataclass(frozen=True, slots=True)
 class LanternPins:
-    """Round pins of a lantern wheel: number of the gear, radius of the pin circle, radius of a pin; modules."""
+    """Round pins of a lantern wheel: number of the gear, radius of the pin circle and radius of a pin [module]."""
 
     gear: int
     circle: float
@@ -26,40 +26,42 @@ class LanternPins:
 
 @dataclass(frozen=True, slots=True)
 class CutTooth:
-    """Tooth of a wheel as cut, lengths in modules."""
+    """Tooth of a wheel to be cut, lengths in modules."""
 
     kind: str
     """Kind of wheel: external, ring or pins."""
     tip: float
-    """Radius of the tip circle."""
+    """Radius of the tip circle [module]."""
     root: float
-    """Radius of the root circle."""
+    """Radius of the root circle [module]."""
     tooth: tuple[Vertex, ...] = ()
-    """Vertices of one tooth about the x axis, from root to root; empty for pins."""
+    """Vertices (x, y, bulge) of one tooth about the x axis, from root to root [module]; empty for pins."""
     pins: LanternPins | None = None
-    """Pins of a lantern, or of a ring gear whose teeth are separate pins seated in its inside."""
+    """Pins of a lantern, or of a ring gear whose teeth are separate pins in seats."""
 
 
 class WheelRequirement(ABC):
-    """Teeth that one pair requires on one of its wheels."""
+    """Requirement of one pair on the teeth of one of its wheels."""
 
     @property
     @abstractmethod
     def tip(self) -> float:
-        """Radius of the tip circle (modules)."""
+        """Radius of the tip circle [module]."""
 
     @abstractmethod
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if one wheel meets both requirements."""
+        """Return True if one wheel can satisfy both requirements."""
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the tooth for this pair and for others that agree. Raises `GearTrainError` if no tooth fits."""
+        """Return a tooth that satisfies this requirement and `others`. Raises `GearTrainError` if no such tooth
+        exists.
+        """
 
 
 @dataclass(frozen=True)
 class FixedTooth(WheelRequirement):
-    """Tooth that its form defines completely, regardless of the mate; fields as in `CutTooth`, lengths in modules."""
+    """Tooth that its form defines completely, independent of the mate; fields as in `CutTooth`, lengths in modules."""
 
     tip_radius: float
     root_radius: float
@@ -69,25 +71,25 @@ class FixedTooth(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle (modules)."""
+        """Radius of the tip circle [module]."""
         return self.tip_radius
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if kind and all vertices are the same."""
+        """Return True if both teeth have the same kind and the same vertices."""
         if not isinstance(other, FixedTooth) or (self.kind, len(self.tooth)) != (other.kind, len(other.tooth)):
             return False
         pairs = (pair for both in zip(self.tooth, other.tooth, strict=True) for pair in zip(*both, strict=True))
         return all(abs(a - b) <= SAME_SIZE * max(abs(a), 1.0) for a, b in pairs)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the tooth itself, regardless of other requirements."""
+        """Return the tooth itself; `others` must agree with it."""
         del others
         return CutTooth(self.kind, self.tip_radius, self.root_radius, self.tooth, self.pins)
 
 
 @dataclass(frozen=True)
 class PairRequirement:
-    """Requirement of a pair on a wheel: name of the pair, form of its teeth, the form in words, and the teeth."""
+    """Requirement of a pair on a wheel: name of the pair, name of its tooth form, the form in words, required teeth."""
 
     pair: str
     form: str
@@ -96,7 +98,7 @@ class PairRequirement:
 
 
 def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
-    """Return the reason why one wheel cannot serve all its pairs; None if it can."""
+    """Return the reason why one wheel cannot satisfy all its pairs; None if it can."""
     odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
     return next((_conflict(requested[0], other) for other in odd), None)
 

@@ -23,7 +23,7 @@ _NEARLY_0 = 1e-9  # of the maximum excess
 
 
 class TriangularContact:
-    """Contact of a pair: sizes, real path with its dwells, backlash, verdict."""
+    """Contact of a pair of triangular wheels: sizes, real path with its dwells, backlash, verdict."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
         self.sizes = sizes
@@ -31,14 +31,17 @@ class TriangularContact:
         self._means: dict[tuple[str, float], float] = {}
 
     def mean(self, of: tuple[str, float], make: Callable[[], float]) -> float:
-        """Return a cached mean over the contact at some friction, shared by all transmissions of the pair."""
+        """Return a cached mean over the contact, computed by `make` if the key `of` (kind, friction) is new.
+
+        All transmission functions of the pair share the cache.
+        """
         if of not in self._means:
             self._means[of] = make()
         return self._means[of]
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """Real path in which the driven wheel dwells while no tooth pushes it."""
+        """Real path of contact in which the driven wheel dwells while no tooth pushes it."""
         return drag(self.path)
 
     @property
@@ -47,11 +50,11 @@ class TriangularContact:
         return self.dragged.intervals
 
     def lag(self, t: float) -> float:
-        """Return the lag y(t) - (z1/z2) t of the dragged driven wheel (rad) at the driver's position t."""
+        """Return the lag y(t) - (z1/z2) t of the driven wheel [rad] at the driver position t [rad]."""
         return self._height(*self.locate(t))
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """Return the interval that contains position t, and alpha_1 there."""
+        """Return the interval that contains the driver position t [rad], and the angle alpha_1 there [rad]."""
         return _locate(self.intervals, t, self.sizes.p1)
 
     def _height(self, interval: DriveInterval, x: float) -> float:
@@ -60,20 +63,20 @@ class TriangularContact:
         return interval.held - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: float) -> float:
-        """Return the speed ratio tau, which is 0 in a dwell."""
+        """Return the speed ratio tau, which is 0 during a dwell."""
         return 0.0 if interval.held is not None else float(self.path.tooth_pair.speed(interval.phase, x))
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals that limit the driven wheel, including contacts that cannot push, with gaps where nothing limits
-        it.
+        """Intervals in which a contact limits the driven wheel, including contacts that cannot drive it; there may be
+        gaps.
         """
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
     @cached_property
     def backlash(self) -> float:
-        """Minimum backlash at the coast flanks over a pitch (rad of the driven wheel); below 0 they jam.
+        """Minimum backlash at the coast flanks over a pitch [rad of the driven wheel]; negative if they jam.
 
         The sum of the transmission function and the mirror image of the bounds is smooth between their kinks. Within a
         smooth cell it has its minimum where both have the same tau.
@@ -90,7 +93,9 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """Return the minimum backlash between two kinks: at one of them, or where both sides have the same tau."""
+        """Return the minimum backlash between two kinks [rad]: at one of them, or where both flanks have the same
+        tau.
+        """
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
         theirs, back = _locate(self._bounds, -middle, pitch)
@@ -113,7 +118,9 @@ class TriangularContact:
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict from the first check that fails: valley, range of contact, overhang, coast flanks, entry, exit."""
+        """Verdict by the first failed check, in the order: valley, range of contact, overhang, coast flanks, entry,
+        exit.
+        """
         sizes = self.sizes
         if not sizes.has_valleys:
             return self._failure("no valley", _no_valley(sizes))
@@ -152,24 +159,26 @@ class TriangularContact:
 
     @property
     def idle(self) -> float:
-        """Driver angle (rad) of all dwells of one pitch."""
+        """Driver angle of all dwells in one pitch [rad]."""
         return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
-        """Driven angle (rad) lost in the dwells of one pitch."""
+        """Driven angle lost in the dwells of one pitch [rad]."""
         return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
-        """Text on an overhanging flank that the path reaches or that turns the driven wheel back; empty if there is
-        none.
+        """Text on an overhanging flank that touches, or that would turn the driven wheel back; empty without such a
+        flank.
         """
         # ends of intervals are roots with a smaller error than this
+        # tolerance for the rounding of the limits of contact
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
             if interval.held is not None:
                 continue
+            # a leaning flank at the entry or the exit, or an end at which the driven wheel would not move forwards
             lean = (sizes.lean[0] and interval.start > sizes.entry - small) or (
                 sizes.lean[1] and interval.end < sizes.exit + small
             )
@@ -184,9 +193,9 @@ class TriangularContact:
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """Return the interval that contains position t, and alpha_1 there.
+    """Return the interval that contains the driver position t, and the angle alpha_1 there [rad].
 
-    In a gap it is the nearest interval, and alpha_1 is outside it.
+    If t is in a gap, return the nearest interval and an angle outside it.
     """
     for interval in intervals:
         gone = (interval.start - t) % pitch
@@ -225,20 +234,20 @@ class ClearanceWindow(Shown):
     """
 
     jam: float
-    """Excess up to which the pair does not turn."""
+    """Excess up to which the pair cannot turn."""
     run: float
     """Excess up to which the pair runs."""
     run_kind: Literal["clash", "dwell"]
-    """Verdict beyond `run`."""
+    """Kind of the verdict beyond `run`."""
     reach: float
-    """Excess beyond which no tip touches."""
+    """Excess beyond which the tips do not touch."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """Verdict below `jam`."""
+    """Kind of the verdict below `jam`."""
     side: int = 1
     """Sign: 1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
-        """Return the clearance factor of an excess.
+        """Return the clearance factor for a given excess.
 
         Parameters
         ----------
@@ -249,17 +258,17 @@ class ClearanceWindow(Shown):
 
     @property
     def jam_factor(self) -> float:
-        """Clearance factor of `jam`."""
+        """Clearance factor at the lower bound `jam`."""
         return self.factor(self.jam)
 
     @property
     def run_factor(self) -> float:
-        """Clearance factor of `run`."""
+        """Clearance factor at the upper bound `run`."""
         return self.factor(self.run)
 
     @property
     def reach_factor(self) -> float:
-        """Clearance factor of `reach`."""
+        """Clearance factor at the excess `reach`."""
         return self.factor(self.reach)
 
     def __bool__(self) -> bool:
@@ -282,7 +291,7 @@ class ClearanceWindow(Shown):
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """Find the clearance window of a pair, regardless of its own clearance.
+    """Return the clearance window of a pair, independent of its own clearance.
 
     The method is bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
 
@@ -324,10 +333,6 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _minimum_excess(sizes: TriangularSizes) -> float:
-    """Return the excess above which the coast flanks have backlash.
-
-    It is 0 if they always have, and the maximum excess if they never have.
-    """
     reach = sizes.maximum_excess
 
     def backlash(excess: float) -> float:
@@ -339,9 +344,7 @@ def _minimum_excess(sizes: TriangularSizes) -> float:
 
 
 def _overhang_excess(sizes: TriangularSizes, jam: float) -> float:
-    """Return the excess up to which the path reaches an overhanging flank; 0 if it does not where the pair ceases to
-    jam.
-    """
+    """Return the excess up to which an overhanging flank touches; 0 if none touches at the excess `jam`."""
     reach = sizes.maximum_excess
     # at the jam limit itself the backlash is 0 except for rounding
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
@@ -355,10 +358,11 @@ def _overhang_excess(sizes: TriangularSizes, jam: float) -> float:
 
 
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Return the first range of excess in which `margin` is positive.
+    """Return the bounds of the first range of excess in which `margin` is positive.
 
     The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.
     """
+    # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
         if start < reach and margin(start) > 0:
             return 0.0, _first_sign_change(margin, start, reach)
@@ -372,19 +376,19 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
 
 
 def _entry(path: RealPath) -> float:
-    """Return the margin at entry: below 0 if a tooth pair enters below the others."""
+    """Return the margin at entry [rad of the driven wheel]: negative if a tooth pair enters below the others."""
     last = path.pieces[-1]
     return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
 
 
 def _exit(path: RealPath) -> float:
-    """Return the margin at exit: below 0 if a tooth pair leaves before another one can drive."""
+    """Return the margin at exit [rad of the driven wheel]: negative if a pair leaves before another can drive."""
     first = path.pieces[0]
     return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above `low` at which `value` changes its sign; `reach` if it never does."""
+    """Return the smallest excess above `low` at which `value` changes sign; `reach` if it does not change."""
     # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)
@@ -399,7 +403,7 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 
 
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
-    """Return the excess whose minimum backlash on the second wheel's pitch circle is `backlash`.
+    """Return the excess at which the minimum backlash on the second wheel's pitch circle equals `backlash`.
 
     The root is unique because the backlash increases with the excess.
     """

@@ -21,7 +21,8 @@ _NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle f
 
 
 def depth(z: int, beta: float) -> float:
-    """Return tooth depth over tip radius, Eq. (1), as a product because the printed difference cancels at large z.
+    """Return the tooth depth over the tip radius, Eq. (1), as a product because the printed difference cancels at large
+    z.
 
     For a ring gear of z teeth pass -z and multiply by the negative radius.
     """
@@ -29,12 +30,12 @@ def depth(z: int, beta: float) -> float:
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank over the tip radius, Eq. (2)."""
+    """Return the length of a flank over the tip radius, Eq. (2); `beta` is the half aperture angle [rad]."""
     return sin(pi / z) / sin(beta + pi / z)
 
 
 def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
-    """Return the maximum |alpha_1| at which tips can touch, Eq. (4), from the overlap of the tip circles.
+    """Return the maximum |alpha_1| at which tips can touch [rad], Eq. (4), from the overlap of the tip circles.
 
     The overlap is delta = R1 + R2 - D.
     """
@@ -45,7 +46,7 @@ def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
 
 
 def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
-    """Return direction psi of a flank of wheel 1 that is nearly tangent to the tip circle of wheel 2, and sin(psi +
+    """Return the direction psi of a flank of wheel 1 almost tangent to the tip circle of wheel 2 [rad], and sin(psi +
     alpha_2).
     """
     sine = min(1.0, (_GRAZING * R2 + R1 * sin(beta)) / D)
@@ -85,9 +86,9 @@ class TriangularSizes(Shown):
     z2: int
     """Tooth number of the second wheel."""
     R1: float
-    """Tip radius of the first wheel."""
+    """Tip radius of the first wheel, in the common length unit."""
     R2: float
-    """Tip radius of the second wheel."""
+    """Tip radius of the second wheel, in the common length unit."""
     beta1: float
     """Half aperture angle of the teeth of the first wheel [rad]."""
     beta2: float
@@ -118,7 +119,7 @@ class TriangularSizes(Shown):
 
     @property
     def signs(self) -> tuple[int, int]:
-        """Sign of tooth number and radius of each wheel in the equations of external pairs: -1 for a ring gear."""
+        """Signs of tooth number and radius of both wheels in the equations of external pairs: -1 for a ring gear."""
         return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
 
     @property
@@ -128,7 +129,7 @@ class TriangularSizes(Shown):
 
     @property
     def signed_radii(self) -> tuple[float, float]:
-        """Tip radii, negative for a ring gear."""
+        """Tip radii of both wheels, negative for a ring gear."""
         return self.signs[0] * self.R1, self.signs[1] * self.R2
 
     @property
@@ -138,29 +139,29 @@ class TriangularSizes(Shown):
 
     @property
     def half_angles(self) -> tuple[float, float]:
-        """Half aperture angles of both wheels (rad)."""
+        """Half aperture angles of both wheels [rad]."""
         return self.beta1, self.beta2
 
     @cached_property
     def depths(self) -> tuple[float, float]:
-        """Depth of the teeth of each wheel, Eq. (1)."""
+        """Tooth depths of both wheels, Eq. (1), in the common length unit."""
         (s1, s2), (R1, R2) = self.signs, self.signed_radii
         return R1 * depth(s1 * self.z1, self.beta1), R2 * depth(s2 * self.z2, self.beta2)
 
     @cached_property
     def flanks(self) -> tuple[float, float]:
-        """Length of the flanks of each wheel, Eq. (2)."""
+        """Lengths of the flanks of both wheels, Eq. (2), in the common length unit."""
         (s1, s2), (R1, R2) = self.signs, self.signed_radii
         return R1 * flank(s1 * self.z1, self.beta1), R2 * flank(s2 * self.z2, self.beta2)
 
     @cached_property
     def deepest_distance(self) -> float:
-        """Centre distance at clearance factor 1."""
+        """Centre distance at which a tip touches the bottom of a space (clearance factor 1)."""
         return self.side * (sum(self.signed_radii) - min(self.depths))
 
     @cached_property
     def D(self) -> float:
-        """Centre distance of the pair."""
+        """Centre distance of the pair, in the common length unit."""
         return self.side * (sum(self.signed_radii) - self.delta)
 
     @property
@@ -170,20 +171,20 @@ class TriangularSizes(Shown):
 
     @property
     def surrounds(self) -> bool:
-        """True if the tip circles of an internal pair overlap at every angle, so that no tooth of the pinion finds a
+        """True if the tip circles of an internal pair overlap at every angle, so that the pinion's teeth have no free
         space.
         """
         return bool(self.ring) and sum(self.signed_radii) >= self.D
 
     @property
     def clearance_factor(self) -> float:
-        """Clearance factor: centre distance over `deepest_distance`, above 1 for an external pair, below 1 for an
-        internal one.
+        """Clearance factor: centre distance over `deepest_distance`, above 1 for external pairs, below 1 for internal
+        pairs.
         """
         return self.factor(self.excess)
 
     def factor(self, excess: float) -> float:
-        """Return the clearance factor of an excess.
+        """Return the clearance factor for a given excess.
 
         Parameters
         ----------
@@ -194,18 +195,18 @@ class TriangularSizes(Shown):
 
     @cached_property
     def delta(self) -> float:
-        """Overlap of the tip circles; 0 or less if no tooth can touch."""
+        """Overlap of the tip circles in the common length unit; 0 or less if no teeth can touch."""
         # R1 + R2 - D would cancel at large tooth numbers
         return min(self.depths) - self.excess * self.deepest_distance
 
     @cached_property
     def p1(self) -> float:
-        """Angular pitch of the driver (rad)."""
+        """Angular pitch of the driver [rad]."""
         return 2 * pi / self.z1
 
     @cached_property
     def p2(self) -> float:
-        """Angular pitch of the driven wheel (rad)."""
+        """Angular pitch of the driven wheel [rad]."""
         return 2 * pi / self.z2
 
     @cached_property
@@ -215,17 +216,17 @@ class TriangularSizes(Shown):
 
     @cached_property
     def reach1(self) -> float:
-        """Angle alpha_1max of Eq. (4) (rad)."""
+        """Maximum angle alpha_1max at which tips can touch, Eq. (4) [rad]."""
         return contact_half_angle(*self.signed_radii, self.side * self.D, self.delta)
 
     @cached_property
     def reach2(self) -> float:
-        """Angle alpha_2max of Eq. (4) (rad)."""
+        """Maximum angle alpha_2max at which tips can touch, Eq. (4) [rad]."""
         return contact_half_angle(*self.signed_radii[::-1], self.side * self.D, self.delta)
 
     @cached_property
     def matching(self) -> float:
-        """Matching position alpha_1m of Eq. (10) (rad), where flank lies on flank; also for unequal aperture angles.
+        """Matching position alpha_1m of Eq. (10) [rad], at which flank lies on flank; also for unequal aperture angles.
 
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The sine of alpha_1m
         is written without the difference of nearly equal angles. Infinite if no such position exists.
@@ -242,7 +243,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def lean(self) -> tuple[bool, bool]:
-        """Overhang of the flanks of each wheel: True if they lean beyond the perpendicular where tips meet.
+        """Overhang of the flanks of both wheels: True if they lean beyond the perpendicular where tips meet.
 
         This occurs with few, deep teeth. It never occurs in an internal pair, in which flank and driven radius turn the
         same way.
@@ -254,7 +255,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def entry(self) -> float:
-        """Angle alpha_1 at which a tooth pair first touches (rad).
+        """Angle alpha_1 at which a tooth pair comes into contact [rad].
 
         It is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before.
         """
@@ -264,7 +265,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def exit(self) -> float:
-        """Angle alpha_1 at which a tooth pair ceases to drive (rad).
+        """Angle alpha_1 at which a tooth pair ceases to drive [rad].
 
         It is -alpha_1max, or larger if the apex slips off an overhanging flank before.
         """
@@ -281,7 +282,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def has_valleys(self) -> bool:
-        """True if two flanks meet in a valley: beta + 180/z < 90 deg, or beta > 180/z for a ring gear."""
+        """True if neighbouring flanks meet in a valley: beta + 180/z < 90 deg, or beta > 180/z for a ring gear."""
         wheels = zip(self.signs, (self.z1, self.z2), self.half_angles, strict=True)
         return all(0 < beta + sign * pi / z < pi / 2 for sign, z, beta in wheels)
 

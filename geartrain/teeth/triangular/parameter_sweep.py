@@ -1,4 +1,4 @@
-"""Verdict and figures of a pair with triangular teeth as one or two parameters vary."""
+"""Verdict and results of a pair with triangular teeth as functions of one or two parameters."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from geartrain.teeth.triangular.real_path import matches
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 TransmissionFactory = Callable[..., TriangularTransmission]
-"""Function that builds a transmission from the values of the varied parameters, by name."""
+"""Function that returns a transmission function for values of the varied parameters, passed by name."""
 
 ASTRIDE = "astride"
 _MOST_CHANGES = 100
@@ -34,7 +34,7 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class ParameterSweep:
-    """Results of a sweep: parameter values (one array each, all of one shape), figures, and verdicts.
+    """Results of a sweep: parameter values (one array each, all of one shape), results, and verdicts.
 
     `phases` names the phases of the real path in order of time, such as "approach+recess".
     """
@@ -51,7 +51,7 @@ class ParameterSweep:
 
     @property
     def labels(self) -> NDArray[np.str_]:
-        """Phases of pairs that run, verdicts of the others."""
+        """Label of each point: the phases of a pair that runs, otherwise its verdict."""
         return np.where(self.verdicts == "runs", self.phases, self.verdicts)
 
     def rows(self) -> Iterator[tuple[object, ...]]:
@@ -63,9 +63,9 @@ class ParameterSweep:
 def sweep(
     make: TransmissionFactory, ranges: Mapping[str, Sequence[float]], on_point: Callable[[], None] = lambda: None
 ) -> ParameterSweep:
-    """Evaluate the transmission at every combination of one or two ranges.
+    """Return the results at every combination of one or two parameter ranges.
 
-    A combination that cannot be built has the verdict "none" and NaN figures.
+    A combination without a valid pair has the verdict "none" and results NaN.
     """
     shape = tuple(len(values) for values in ranges.values())
     grids = np.meshgrid(*(np.asarray(values, dtype=float) for values in ranges.values()), indexing="ij")
@@ -88,9 +88,11 @@ def sweep(
 def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, str, Sequence[float]]:
     try:
         transmission = make(**values)
+    # such teeth do not exist; the sweep continues with the next point
     except GearTrainError:
         return "none", "", [nan] * len(COLUMNS)
     verdict = transmission.verdict
+    # teeth that never touch have a verdict, but no speeds and errors
     if not transmission.intervals:
         return verdict.kind, "", [nan] * len(COLUMNS)
     minimum, most = transmission.speed_range()
@@ -110,9 +112,9 @@ def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, st
 
 
 def phases_of(transmission: TriangularTransmission) -> str:
-    """Return the phases of the real path from its entry on, such as "approach+recess".
+    """Return the phases of the real path, joined from the entry on, such as "approach+recess".
 
-    A path that passes through the matching position is "astride".
+    A phase that passes through the matching position is "astride".
     """
     path = transmission.intervals
     through = [matches(path[at - 1], path[at], transmission.period) for at in range(len(path))]
@@ -137,7 +139,9 @@ class VerdictChange:
 
 
 def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list[VerdictChange]:
-    """Locate every change along a sweep of one parameter by bisection, at most 100 changes."""
+    """Return every change of verdict or phases along a sweep of one parameter, located by bisection; at most 100
+    changes.
+    """
     values = found.parameters[name].tolist()
     labels = [_label(v, p) for v, p in zip(found.verdicts.tolist(), found.phases.tolist(), strict=True)]
     seen: list[VerdictChange] = []
@@ -170,7 +174,8 @@ def _label(verdict: str, phases: str) -> str:
 
 
 def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[float, float] | None:
-    """Return the parameter value of maximum efficiency among pairs that run, and that efficiency.
+    """Return the parameter value with the maximum efficiency among pairs that run, and that efficiency; None if no pair
+    runs.
 
     The best point of the sweep is refined between its neighbours by golden-section search.
     """

@@ -31,7 +31,7 @@ _SMALL = 1e-10  # of a pitch: smaller steps and gaps are rounding
 
 @dataclass(frozen=True, slots=True)
 class MonotonePiece:
-    """Range of alpha_1 in one phase in which tau is monotonic: f is convex or concave."""
+    """Range of alpha_1 [rad] in one phase in which tau is monotonic, so that f is convex or concave."""
 
     phase: str
     low: float
@@ -60,7 +60,7 @@ class DriveInterval:
 
     @property
     def width(self) -> float:
-        """Driver angle from start to end (rad)."""
+        """Driver angle from start to end [rad]."""
         return self.start - self.end
 
 
@@ -68,7 +68,7 @@ class RealPath:
     """Contact of all tooth pairs over one pitch of the driver."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path; `slips` adds contact that limits the driven wheel but cannot push it."""
+        """Create the path; with `slips` it includes contacts that limit the driven wheel but cannot drive it."""
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -76,16 +76,20 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind the mean motion (rad)."""
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] at alpha_1 = x
+        [rad].
+        """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
-        """Return d g / d x: tau less its mean."""
+        """Return the derivative of g at x: tau minus its mean."""
         return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Pieces of recess, then approach, each cut where the curvature of f changes sign; empty without valleys."""
+        """Pieces of recess, then of approach, divided where the curvature of f changes sign; empty for teeth without
+        valleys.
+        """
         if not self.sizes.has_valleys:
             return []
         first, last = self.sizes.entry, self.sizes.exit
@@ -97,7 +101,7 @@ class RealPath:
         return [*self._slip_pieces(), *found] if self.slips else found
 
     def _slip_pieces(self) -> Iterator[MonotonePiece]:
-        """Yield the contacts with overhanging flanks on the exit side."""
+        """Yield the contacts with overhanging flanks beyond the exit."""
         sizes = self.sizes
         for phase, low, high in ((RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit)):
             if high > low:
@@ -117,7 +121,7 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return the extremes of g between `low` and `high`, where tau is monotonic: none or one."""
+        """Return the values of g at its extrema between `low` and `high`, where tau is monotonic: at most one value."""
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
         x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.tooth_pair.slope(phase, x), low, high)
@@ -127,17 +131,20 @@ class RealPath:
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """Parts of the pieces, at most one pitch long, on which a tooth pair can be the lowest of its piece."""
+        """Parts of the pieces, at most one pitch long, in which a tooth pair can be the lowest of its piece."""
         return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
     def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
         low, high, pitch = piece.low, piece.high, self.pitch
+        # only pieces longer than a pitch contain two tooth pairs in contact at the same time
         if high - low <= pitch:
             return [piece]
         left = MonotonePiece(piece.phase, low, low + pitch, piece.convex)
         right = MonotonePiece(piece.phase, high - pitch, high, piece.convex)
+        # the lowest of several pairs on a concave piece is within a pitch of one of its ends
         if not piece.convex:
             return [left, right]
+        # on a convex piece the rise over a pitch increases; the lowest pair is in the pitch over which the rise is 0
         if self._rise(piece.phase, low) >= 0:
             return [left]
         if self._rise(piece.phase, high - pitch) <= 0:
@@ -151,11 +158,11 @@ class RealPath:
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
-        """Return the increase g(x + p1) - g(x) over one pitch."""
+        """Return the increase g(x + p1) - g(x) over one pitch [rad]."""
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """Return the minimum of g over the tooth pairs at position t except pair `besides`; infinite if none is within
+        """Return the minimum of g over the tooth pairs at position t, except pair `besides`; infinite without a pair in
         range.
         """
         minimum = inf
@@ -174,7 +181,7 @@ class RealPath:
         return {k for k in range(nearest - 2, nearest + 3) if first <= k <= last} | {first, last}
 
     def _minimiser(self, piece: MonotonePiece) -> float:
-        """Return the minimiser of g in a convex piece."""
+        """Return the angle alpha_1 at which g is minimal in a convex piece [rad]."""
         low, high = piece.low, piece.high
         if self.slope(piece.phase, low) >= 0:
             return low
@@ -188,7 +195,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Drive intervals over one pitch as t decreases, before dwells are inserted; gaps are omitted."""
+        """Drive intervals over one pitch in order of decreasing t, without dwells; there may be gaps."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:
@@ -200,7 +207,7 @@ class RealPath:
         return self._with_whole_first(_join_neighbours(found))
 
     def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """Shift the period so that it begins where an interval begins, not within one."""
+        """Return the intervals with the period shifted so that it begins where an interval begins."""
         if not found:
             return found
         first, last = found[0], found[-1]
@@ -210,7 +217,7 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """Yield the drive intervals of a range of t in which no branch begins or ends."""
+        """Yield the drive intervals in a range of t in which no branch begins or ends."""
         middle = low + (high - low) / 2
         found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
@@ -233,8 +240,8 @@ class RealPath:
     def _lowest_at(
         self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
     ) -> tuple[MonotonePiece, int]:
-        """Return the lowest branch at t, preferring the previous one within rounding because branches may coincide for
-        a while.
+        """Return the lowest branch at t; within rounding the previous one, because branches may coincide over a
+        range.
         """
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
         minimum = min(heights)
@@ -244,7 +251,7 @@ class RealPath:
 
     @cached_property
     def _noise(self) -> float:
-        """Rounding error of g, from the magnitude of its two terms."""
+        """Rounding error of g [rad], from the magnitude of its two terms."""
         return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(
@@ -280,7 +287,6 @@ class RealPath:
 
 
 def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
-    """Join neighbouring intervals of the same tooth pair and phase."""
     found: list[DriveInterval] = []
     for cell in cells:
         last = found[-1] if found else None
@@ -296,7 +302,7 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Collision: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
+    """Impact: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
 
     `kind` is the phase that begins, or "matching" if the flank of one tooth falls on the other's.
     """
@@ -304,22 +310,22 @@ class SpeedJump(Result):
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
-    """Phase that begins, or `matching`."""
+    """Phase that begins, or "matching"."""
     alpha1: float
-    """Angle of the driver [rad]."""
+    """Driver angle alpha_1 at the impact [rad]."""
     before: float
-    """Speed ratio before the collision."""
+    """Speed ratio before the impact."""
     after: float
-    """Speed ratio after the collision."""
+    """Speed ratio after the impact."""
 
     @property
     def value(self) -> float:
-        """Relative jump of the normal velocity."""
+        """Relative jump of the normal velocity, 1 - before/after."""
         return 1 - self.before / self.after
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """Return True if one tooth pair continues from flank to flank through the matching position."""
+    """Return True if one tooth pair continues through the matching position, at which its contact changes flanks."""
     faces = last.held is None and new.held is None and last.phase != new.phase
     # both are the same root, computed from either side
     return faces and abs(last.end - new.start) < 1e-9 * pitch
@@ -330,7 +336,7 @@ def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class DraggedPath:
-    """Real path with dwells, and the overlap of the entering tips in a clash (rad of the driven wheel)."""
+    """Real path with dwells, and the overlap of the entering tips in a clash [rad of the driven wheel]."""
 
     intervals: tuple[DriveInterval, ...]
     clash: float
@@ -339,7 +345,7 @@ class DraggedPath:
 
 
 def drag(path: RealPath) -> DraggedPath:
-    """Insert a dwell of the driven wheel wherever no tooth pair pushes it."""
+    """Return the real path with a dwell of the driven wheel wherever no tooth pair drives it."""
     envelope = path.envelope
     if not envelope:
         return DraggedPath((), 0.0, inf)
@@ -357,7 +363,7 @@ def _next_pitch(interval: DriveInterval) -> DriveInterval:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum of g over an interval, which the driven wheel reaches from any earlier position."""
+    """Return the minimum of g over an interval, which the driven wheel reaches from any initial position."""
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
@@ -374,8 +380,9 @@ class _PitchTraversal:
         self.arrested = False
 
     def append(self, interval: DriveInterval) -> None:
-        """Append the next interval of the envelope: join it, dwell until it reaches the driven wheel, or clash with its
-        tip.
+        """Append the next interval of the envelope.
+
+        It joins the last one, follows a dwell until it reaches the driven wheel, or clashes with its tip.
         """
         last = self.held or self.done[-1]
         y = self._dwell_angle(last, interval)
@@ -404,7 +411,7 @@ class _PitchTraversal:
         self.done.append(interval)
 
     def _dwell_angle(self, last: DriveInterval, interval: DriveInterval) -> float:
-        """Return the angle at which `last` left the driven wheel, as alpha_2 of the tooth pair of `interval`."""
+        """Return the angle at which `last` left the driven wheel, as alpha_2 of the tooth pair of `interval` [rad]."""
         y = self.path.tooth_pair.angle(last.phase, last.end)
         return float(y + (interval.tooth_pair - last.tooth_pair) * self.path.sizes.p2)
 
@@ -416,7 +423,7 @@ class _PitchTraversal:
         self.done.append(DriveInterval(DWELL, last.end, end, last.tooth_pair, float(held)))
 
     def result(self) -> DraggedPath:
-        """Return the closed path, its first interval shortened to begin after the last dwell."""
+        """Return the closed path; its first interval begins after the last dwell."""
         last = self.done.pop()
         first = DriveInterval(last.phase, last.start, self.first.end, last.tooth_pair - 1)
         return DraggedPath((first, *self.done[1:]), self.clash, self.lost, self.arrested)

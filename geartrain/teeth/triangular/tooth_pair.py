@@ -20,7 +20,7 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 APPROACH, RECESS = "approach", "recess"
 SLIP, RETURN = "slip", "return"
-"""Contact phases that cannot push, with overhanging flanks only.
+"""Phases of contact that cannot drive; they exist with overhanging flanks only.
 
 In slip the driver's apex touches an overhanging driven flank; in return the driven apex touches the far side of an
 overhanging driver flank. Both limit the backlash. The driven wheel would turn back, so it dwells instead.
@@ -37,7 +37,7 @@ DrivenApex: TypeAlias = tuple[Any, Any, Any, Any, Any]
 
 
 class ToothPair:
-    """Constants of one tooth pair, and its contact at any position."""
+    """Constants of one tooth pair, and functions of its contact at any driver angle alpha_1 = x [rad]."""
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
 
@@ -52,7 +52,6 @@ class ToothPair:
     # ------------------------------------------------------------------------------------------------------- approach
 
     def _flank_line(self, x: Any, m: ModuleType) -> FlankLine:
-        """Compute the contact values in approach at x."""
         # half angles: 1 - cos x would cancel near the line of centres
         u, w = m.sin(x / 2), m.cos(x / 2)
         sine, cosine = 2 * u * w, 1 - 2 * u * u
@@ -64,7 +63,7 @@ class ToothPair:
         return u, sin_psi, cos_psi, c, s, m.sqrt(abs((1 - s) * (1 + s)))
 
     def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 in approach, Eq. (7)."""
+        """Return alpha_2 in approach [rad], Eq. (7)."""
         return self._angle_on_flank(self._flank_line(x, m), m)
 
     def _angle_on_flank(self, line: FlankLine, m: ModuleType) -> Any:
@@ -73,7 +72,7 @@ class ToothPair:
         return self.side * m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """Return R1 cos(beta1) - v, with v of Eq. (9): distance of the contact from the foot of O1 on the flank."""
+        """Return R1 cos(beta1) - v with v of Eq. (9): distance along the flank from the foot of O1 to the contact."""
         # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
         if self.leans:
             return self.D * cos_psi - self.R2 * q
@@ -105,7 +104,7 @@ class ToothPair:
         return self.side * more * (more * s / q - sin_psi / cos_psi)
 
     def approach_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return the side of the line of centres (sign of alpha_2), and the tangents tan2, tan1 of Eq. (32).
+        """Return the side of the line of centres (sign of alpha_2) and the tangents tan2, tan1 of Eq. (32).
 
         The efficiency with wheel 1 driving is eta = (1 - f side tan2) / (1 - f side tan1).
         """
@@ -115,7 +114,7 @@ class ToothPair:
         return side, mirror * s / q, mirror * self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
 
     def approach_sliding(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the sliding velocity in approach over the driver's angular speed.
+        """Return the sliding velocity in approach over the driver's angular speed, in the common length unit.
 
         It is R2 |sin y| / cos psi, the distance from C, times 1 + tau.
         """
@@ -126,7 +125,6 @@ class ToothPair:
     # --------------------------------------------------------------------------------------------------------- recess
 
     def _driven_apex(self, x: Any, m: ModuleType) -> DrivenApex:
-        """Compute the contact values in recess at x."""
         u = m.sin(x / 2)
         sine, cosine = 2 * u * m.cos(x / 2), 1 - 2 * u * u
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
@@ -142,7 +140,7 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def recess_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 in recess, Eq. (17) with its quadrants."""
+        """Return alpha_2 in recess [rad], Eq. (17), in the correct quadrant."""
         *_, sin_y, cos_y = self._driven_apex(x, m)
         return self.side * m.atan2(sin_y, cos_y)
 
@@ -181,7 +179,7 @@ class ToothPair:
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def recess_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return the side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
+        """Return the side of the line of centres (sign of alpha_1) and the tangents tan2, tan1 of Eq. (33)."""
         arm, q, s, _, _, sine = self._apex_directions(self._driven_apex(x, m))
         mirror = self.mirror
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
@@ -191,28 +189,30 @@ class ToothPair:
         sine, _, arm, _, _ = self._driven_apex(x, m)
         return abs(self.D * self.R1 * sine / arm)
 
-    # ------------------------------------------------------------------------------------------------------- returning
+    # ---------------------------------------------------------------------------------------------------- return phase
 
     def return_angle(self, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 where the driven apex leaves the driver's overhanging flank past the exit: the second root."""
+        """Return alpha_2 where the driven apex leaves the driver's overhanging flank beyond the exit [rad]: the second
+        root.
+        """
         _, sin_psi, cos_psi, _, s, _ = self._flank_line(-x, m)
         return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
 
     def return_speed(self, x: Any, m: ModuleType = math) -> Any:
-        """Return d alpha_2 / d alpha_1 of the return phase, which is below 0."""
+        """Return d alpha_2 / d alpha_1 in the return phase, which is negative."""
         _, _, cos_psi, _, _, q = self._flank_line(-x, m)
         return -1 - self.D * cos_psi / (self.R2 * q)
 
     def return_slope(self, x: Any, m: ModuleType = math) -> Any:
-        """Return the second derivative of alpha_2 by alpha_1 in the return phase."""
+        """Return the second derivative of alpha_2 with respect to alpha_1 in the return phase [1/rad]."""
         _, sin_psi, cos_psi, _, s, q = self._flank_line(-x, m)
         more = self.D * cos_psi / (self.R2 * q)
         return more * (more * s / q - sin_psi / cos_psi)
 
-    # ----------------------------------------------------------------------------------------------------------- both
+    # -------------------------------------------------------------------------------------------- approach and recess
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return alpha_2 (rad) at alpha_1 = x (rad) in a phase."""
+        """Return alpha_2 [rad] at alpha_1 = x [rad] in a phase."""
         if phase == RETURN:
             return self.return_angle(x, m)
         return self.approach_angle(x, m) if phase == APPROACH else self.recess_angle(x, m)
@@ -224,7 +224,7 @@ class ToothPair:
         return self.approach_speed(x, m) if phase == APPROACH else self.recess_speed(x, m)
 
     def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return alpha_2 and tau; their common intermediate values are computed once."""
+        """Return alpha_2 [rad] and tau, computed from common intermediate values."""
         if phase == RETURN:
             return self.return_angle(x, m), self.return_speed(x, m)
         if phase == APPROACH:
@@ -235,7 +235,7 @@ class ToothPair:
         return self.side * m.atan2(sin_y, cos_y), self._speed_at_apex(apex)
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the slope d tau / d alpha_1 (1/rad)."""
+        """Return the derivative d tau / d alpha_1 [1/rad]."""
         if phase == RETURN:
             return self.return_slope(x, m)
         return self.approach_slope(x, m) if phase == APPROACH else self.recess_slope(x, m)
@@ -248,12 +248,12 @@ class ToothPair:
         return self.approach_friction(x, m) if phase == APPROACH else self.recess_friction(x, m)
 
     def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:
-        """Return the sliding efficiency at friction f, Eqs. (32) and (33) corrected."""
+        """Return the sliding efficiency at the friction coefficient f, Eqs. (32) and (33), corrected."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
 
     def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances n1, n2 of both centres from the common normal; tau = n1/n2."""
+        """Return the distances n1, n2 of both centres from the common normal, with tau = n1/n2."""
         return self.approach_normal_arms(x, m) if phase == APPROACH else self.recess_normal_arms(x, m)
 
     def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
@@ -261,8 +261,8 @@ class ToothPair:
         return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31)
-        corrected.
+        """Return the distances b1, b2 of both centres from the line of force at the friction coefficient f, Eqs. (28)
+        to (31), corrected.
 
         That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
         centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).
@@ -273,7 +273,7 @@ class ToothPair:
         return n1 * (1 - f * side * tan1) / length, n2 * (1 - f * side * tan2) / length
 
     def instant_centre(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the distance O1C of the instant centre from the driver's axis, docs/teeth.md (11b).
+        """Return the distance O1C from the driver's axis to the instant centre, docs/teeth.md (11b).
 
         The common normal intersects the line of centres there.
         """
@@ -281,5 +281,7 @@ class ToothPair:
         return self.D * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
-        """Return f(x) = min(approach, recess) for |x| up to alpha_1max: alpha_2 at first contact in either phase."""
+        """Return f(x) = min(approach, recess) for |x| up to alpha_1max: the angle alpha_2 of the first phase to touch
+        [rad].
+        """
         return float(min(self.approach_angle(x), self.recess_angle(x)))

@@ -1,4 +1,4 @@
-"""Declaration of triangular teeth, and the sizes that follow from it."""
+"""Declaration of triangular teeth, and the sizes computed from it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-_CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance", "window")
+CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance", "window")
+"""Parameters of which exactly one gives the clearance."""
 _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
@@ -97,12 +98,12 @@ class Triangular(ToothForm):
                         "fix": "give a half aperture angle between 0 and 90 deg, at least 0.001 deg",
                     },
                 )
-        given = [name for name in _CLEARANCES if getattr(self, name) is not None]
+        given = [name for name in CLEARANCES if getattr(self, name) is not None]
         if len(given) != 1:
             raise PydanticCustomError(
                 "clearance",
                 "the clearance is given {count} times",
-                {"count": len(given), "fix": f"give exactly one of: {', '.join(_CLEARANCES)}"},
+                {"count": len(given), "fix": f"give exactly one of: {', '.join(CLEARANCES)}"},
             )
         self._check_clearance()
         self._check_lengths()
@@ -119,7 +120,7 @@ class Triangular(ToothForm):
                 continue
             inside = figure.value > low if high is None else low <= figure.value <= high
             if not inside:
-                name = next(name for name in _CLEARANCES if getattr(self, name) is figure)
+                name = next(name for name in CLEARANCES if getattr(self, name) is figure)
                 raise PydanticCustomError(
                     "clearance", "{name} {text} is out of range", {"name": name, "text": figure.text, "fix": fix}
                 )
@@ -153,13 +154,15 @@ class Triangular(ToothForm):
 
     @classmethod
     def with_defaults(cls, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Return parameters with equilateral teeth in the middle of their clearance window, where none are given."""
-        placed = {} if any(name in parameters for name in _CLEARANCES) else {"window": "0.5"}
+        """Return the parameters with defaults for missing ones: equilateral teeth in the middle of the clearance
+        window.
+        """
+        placed = {} if any(name in parameters for name in CLEARANCES) else {"window": "0.5"}
         return {"half_angle": "30 deg", **placed, **parameters}
 
     @property
     def has_lengths(self) -> bool:
-        """True if the teeth are declared in units of length."""
+        """True if a length of the form is declared with a unit."""
         lengths = (self.centre_distance, self.backlash, *self._given_radii)
         return any(length is not None and length.unit for length in lengths)
 
@@ -169,7 +172,7 @@ class Triangular(ToothForm):
         return self.radii if isinstance(self.radii, tuple) else ()
 
     def in_metres(self, module: float | None) -> bool:
-        """Return whether the lengths of `sizes` are in m.
+        """Return True if the lengths of `sizes` are in metres.
 
         Parameters
         ----------
@@ -193,9 +196,9 @@ class Triangular(ToothForm):
         return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Build the mesh of a pair, its first wheel driving.
+        """Return the mesh of a pair with its first wheel driving.
 
-        A contrate wheel is treated as a spur wheel. Bevels are refused.
+        A contrate wheel is treated as a spur wheel. Raises `GearTrainError` for bevel wheels.
         """
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
@@ -208,7 +211,7 @@ class Triangular(ToothForm):
         return TriangularMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem:
-        """Explain why a maker's backlash does not apply to triangular teeth.
+        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
 
         Returns
         -------
@@ -224,7 +227,7 @@ class Triangular(ToothForm):
     def sizes(
         self, z1: int, z2: int, pitch_distance: float | None = None, ring: Literal[0, 1, 2] = 0
     ) -> TriangularSizes:
-        """Compute radii, half aperture angles and clearance of a pair.
+        """Return tip radii, half aperture angles and clearance of a pair.
 
         Parameters
         ----------
@@ -263,7 +266,7 @@ class Triangular(ToothForm):
         return sizes
 
     def _sizes_at_deepest(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
-        """Return the sizes of the two wheels at the distance at which a tip touches the bottom of a space."""
+        """Return the sizes of the wheels at the centre distance at which a tip touches the bottom of a space."""
         from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 
         beta1, beta2 = (angle.si for angle in self.half_angle)
@@ -364,7 +367,7 @@ class Triangular(ToothForm):
 
 
 def refusal(kinds: tuple[str, str], internal: bool) -> str:
-    """Return the reason why a pair cannot have triangular teeth; empty if it can."""
+    """Return the reason why wheels of these kinds cannot have triangular teeth; empty if they can."""
     known = ("spur",) if internal else ("spur", "contrate")
     odd = [kind for kind in kinds if kind not in known]
     if odd and internal:
@@ -373,7 +376,7 @@ def refusal(kinds: tuple[str, str], internal: bool) -> str:
 
 
 def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """Return the clearance window of a pair. Raises `GearTrainError` if no clearance works."""
+    """Return the clearance window of a pair. Raises `GearTrainError` if the pair turns at no clearance."""
     from geartrain.teeth.triangular.clearance_window import find_window
     from geartrain.teeth.triangular.triangular_mesh import OTHER_SHAPES
 

@@ -1,4 +1,4 @@
-"""Mesh of a gear pair with triangular teeth: clearance window, reasons why it does not turn, and its figures."""
+"""Mesh of a gear pair with triangular teeth: clearance window, causes of a pair that does not turn, results."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _SIZES = (
 
 @dataclass(frozen=True)
 class TriangularTooth(WheelRequirement):
-    """Tooth with an apex: tooth number, tip radius (modules), and half aperture angle (rad)."""
+    """Triangular tooth: tooth number, tip radius [module] and half aperture angle [rad]."""
 
     z: int
     tip_radius: float
@@ -55,7 +55,7 @@ class TriangularTooth(WheelRequirement):
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle (modules)."""
+        """Radius of the tip circle [module]."""
         return self.tip_radius
 
     def agrees(self, other: WheelRequirement) -> bool:
@@ -66,7 +66,9 @@ class TriangularTooth(WheelRequirement):
         return all(abs(a - b) <= SAME_SIZE * max(a, 1.0) for a, b in pairs)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the outline of one tooth: straight lines from the middle of a space to the tip and back."""
+        """Return the outline of one tooth: straight lines from the middle of a space to the tip and to the next
+        space.
+        """
         from geartrain.teeth.triangular.pair_geometry import depth
 
         del others
@@ -82,10 +84,10 @@ class TriangularTooth(WheelRequirement):
 
 
 class TriangularDetails(NamedForm, Protocol):
-    """Interface of the tooth form that such a mesh uses, besides its name; see the methods of the form."""
+    """Methods of a triangular tooth form that its mesh uses."""
 
     def in_metres(self, module: float | None) -> bool:
-        """Return whether lengths are in metres for wheels of some module (m)."""
+        """Return True if lengths are in metres for wheels of the given module [m]."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,7 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether these teeth can turn."""
+        """Verdict on whether these teeth can run, with the cause from the clearance window."""
         found = self.transmission.verdict
         return found if found else found.explained(*explain_clearance(self.transmission, self.window))
 
@@ -120,12 +122,14 @@ class TriangularMesh(GearMesh):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of both wheels by name, up to a common scale."""
+        """Tip radii of both wheels by name, in the length unit of the teeth."""
         return {self.driver: self.transmission.sizes.R1, self.driven: self.transmission.sizes.R2}
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the scale of the pair, from the first of: a wheel whose size is fixed, declared lengths, touching
-        pitch circles.
+        """Return the scale and centre distance of the pair.
+
+        The scale follows from the first of these that is known: a wheel with a fixed tip radius, declared lengths,
+        or pitch circles that touch.
         """
         D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
@@ -136,7 +140,9 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """Size from the declaration if it is in m; otherwise the size at which pitch circles touch."""
+        """Size from the declaration if its lengths are in metres; otherwise the size at which the pitch circles
+        touch.
+        """
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):
             return self.size({})
@@ -144,13 +150,15 @@ class TriangularMesh(GearMesh):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Pitch radius at the declared centre distance if that is in m; otherwise the pitch radius from the modules."""
+        """Pitch radius of the first wheel [m], at the declared centre distance if it is in metres, otherwise from the
+        modules.
+        """
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
-        """Return the requirement on a tooth: an apex at the tip radius. Straight flanks need no tolerance."""
+        """Return the required tooth, with its apex at the tip radius; straight flanks need no tolerance."""
         del tolerance
         sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
@@ -159,7 +167,7 @@ class TriangularMesh(GearMesh):
 
     @cached_property
     def separation(self) -> float:
-        """Ratio of the mean separating force to the tangential force, under a constant torque on the driven wheel.
+        """Mean separating force over the tangential force, at constant torque on the driven wheel.
 
         The normal makes the angle psi with the pitch line and passes both centres at n1 + n2 = D cos(psi), or at the
         difference with a ring gear: (31) of docs/strength.md.
@@ -176,16 +184,16 @@ class TriangularMesh(GearMesh):
 
     @property
     def has_cut_sizes(self) -> bool:
-        """True, because the sizes of triangular teeth can have manufacturing errors."""
+        """True, because manufacturing errors of triangular teeth are modelled."""
         return True
 
     @property
     def cut_sizes(self) -> TriangularSizes:
-        """Nominal sizes about which manufacturing errors are drawn."""
+        """Nominal sizes, the means of random manufacturing errors."""
         return self.transmission.sizes
 
     def account(self) -> PairAccount:
-        """Report the clearance, the transmission function and the collisions of the pair."""
+        """Return a report of clearance, transmission function and impacts of the pair."""
         figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
         tables = (
             AccountTable(_CLEARANCE_HEADER, _clearance_row(self)),
@@ -194,7 +202,7 @@ class TriangularMesh(GearMesh):
         return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield every problem of the pair with a remedy."""
+        """Yield all problems of these teeth, each with its fix."""
         yield from (fault.problem for fault in self.verdict.faults)
         if self.wheels.friction_law is not None:
             yield from self.friction_faults()
@@ -202,12 +210,12 @@ class TriangularMesh(GearMesh):
             yield Problem(*explain_friction_lock(self.transmission))
 
 
-# -------------------------------------------------------------------------------------------------------------- figures
+# ----------------------------------------------------------------------------------------------------------- properties
 
 
 @dataclass(frozen=True)
 class TriangularFigures(PairFigures):
-    """Figures of a pair with triangular teeth; angles in rad."""
+    """Results of a pair with triangular teeth; angles in rad."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -216,15 +224,15 @@ class TriangularFigures(PairFigures):
     )
 
     sizes: TriangularSizes
-    """Sizes in m, or in the plain unit of the radii."""
+    """Sizes in m, or in the plain unit of the declared radii."""
     window: ClearanceWindow | None
-    """Clearance window in which the pair turns; None if such teeth do not exist."""
+    """Clearance window of the pair; None if such teeth do not exist."""
     intervals: tuple[DriveInterval, ...]
-    """Real path of contact, in order of time, over one pitch of the driver."""
+    """Real path of contact over one pitch of the driver, in order of time."""
     jumps: tuple[SpeedJump, ...]
-    """Collisions of one pitch."""
+    """Impacts of one pitch."""
     impacts: Any = None
-    """Energy losses of the collisions, if the operating speed of the pair is declared; else None."""
+    """Energy losses of the impacts; None unless the operating speed of the pair is declared."""
 
 
 def _clearance_row(mesh: TriangularMesh) -> tuple[str, ...]:
@@ -259,7 +267,7 @@ def triangular_figures(
     impacts: Result | None = None,
     losses: SlidingEfficiency | None = None,
 ) -> TriangularFigures:
-    """Return the figures of a pair in any train; `losses` replaces the losses of the transmission function."""
+    """Return the results of a pair; `losses` replaces the losses of the transmission function."""
     found, moves = transmission.verdict, bool(transmission.intervals)
     return TriangularFigures(
         (transmission.sizes.z1, transmission.sizes.z2),
@@ -278,7 +286,7 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Return cause and remedy of a pair that does not turn: its clearance window, and the bound that is violated."""
+    """Return cause and remedy for a pair that does not turn: the clearance window, and the bound that is violated."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor
@@ -298,7 +306,7 @@ def explain_clearance(transmission: TriangularTransmission, window: ClearanceWin
 
 
 def explain_friction_lock(transmission: TriangularTransmission) -> tuple[str, str, str]:
-    """Return problem, cause and remedy if friction locks the teeth."""
+    """Return problem, cause and remedy for teeth that friction locks."""
     return (
         f"a friction of {transmission.friction:g} locks these teeth",
         "before the line of centres sliding opposes the push on the driven apex: friction times the tangent of the "

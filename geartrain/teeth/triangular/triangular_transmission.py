@@ -37,7 +37,7 @@ _DEEPEST = 40  # maximum number of bisections of a stretch
 
 @lru_cache(maxsize=4096)
 def _contact(sizes: TriangularSizes) -> TriangularContact:
-    """Return the contact of a pair; cached, so that equal pairs of a long train share it."""
+    """Return the contact of a pair from a cache, which equal pairs of a long train share."""
     return TriangularContact(sizes)
 
 
@@ -78,35 +78,35 @@ class TriangularTransmission(TransmissionFunction):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Real path of contact: drive intervals in order of time, one pitch of the driver in total."""
+        """Drive intervals of the real path of contact in order of time, over one pitch of the driver."""
         return self.contact.intervals
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can turn."""
+        """Verdict on whether the pair can run."""
         return self.contact.verdict
 
-    # ---------------------------------------------------------------------------------------------------- over samples
+    # ----------------------------------------------------------------------------------------------- values at samples
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error (rad of the driven wheel) at driver angles S (rad)."""
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]."""
         lag = self._map(S, self._lag)
         return -lag if self.direction > 0 else self.sizes.p2 + lag
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio tau at driver angles S (rad)."""
+        """Return the speed ratio tau at driver angles S [rad]."""
         return self._map(S, self._tau)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the sliding efficiency at driver angles S (rad); NaN in a dwell."""
+        """Return the sliding efficiency at driver angles S [rad]; NaN during a dwell."""
         return self._map(S, self._eta)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding and friction of the single tooth pair in contact; NaN in a dwell."""
+        """Return sliding speed and friction terms of the tooth pair in contact; NaN during a dwell."""
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
-        """Return the sliding velocity over the pitch-line velocity.
+        """Return the sliding speed over the pitch-line speed.
 
         Parameters
         ----------
@@ -132,23 +132,26 @@ class TriangularTransmission(TransmissionFunction):
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Return sliding over pitch-line velocity, and the friction terms of the powers that enter and leave."""
+        """Return the sliding speed over the pitch-line speed, and the friction terms of input and output power."""
         if interval.held is not None:
             return nan, nan, nan
         side, tan2, tan1 = self.contact.path.tooth_pair.friction(interval.phase, x, np)
         return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission error (rad of the driven wheel) and tau, locating each angle in the path only once."""
+        """Return transmission error [rad of the driven wheel] and tau; each angle is located in the path only once."""
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
     def reversed_motion(self) -> TriangularTransmission:
-        """Return the transmission function of the opposite flanks; angles keep their sign convention and decrease."""
+        """Return the transmission function of the opposite flanks for motion in the reverse direction.
+
+        Angles keep their sign convention, so they decrease.
+        """
         return TriangularTransmission(self.sizes, self.friction, -self.direction)
 
     def alpha1(self, S: ArrayLike) -> Floats:
-        """Return alpha_1 (rad) of the tooth pair that drives.
+        """Return the angle alpha_1 [rad] of the driving tooth pair at driver angles S.
 
         Parameters
         ----------
@@ -163,7 +166,7 @@ class TriangularTransmission(TransmissionFunction):
     def _map_all(
         self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
     ) -> list[Floats]:
-        """Evaluate `count` functions of an interval and alpha_1 at each driver angle."""
+        """Return `count` functions of interval and alpha_1, evaluated at each driver angle."""
         S = np.asarray(S, dtype=float)
         flat = S.ravel()
         found = [np.empty_like(flat) for _ in range(count)]
@@ -194,7 +197,7 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
-        """Drive intervals of the real path. Raises `RangeError` for a pair without one."""
+        """Drive intervals of the real path. Raises `RangeError` for a pair without drive intervals."""
         if not self.intervals:
             fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
             raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
@@ -202,17 +205,17 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def _start(self) -> float:
-        """Start of the first interval, as an angle within the pitch from the line of centres (rad)."""
+        """Angle of the start of the first interval from the line of centres, modulo the pitch [rad]."""
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
     @cached_property
     def _edges(self) -> Floats:
-        """Driver angles from the start of the first interval to the edges of all intervals (rad)."""
+        """Driver angles from the start of the first interval to the ends of all intervals [rad]."""
         return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._drive_intervals])))
 
     def kinks(self) -> list[float]:
-        """Return the driver angles (rad) at the ends of all smooth stretches."""
+        """Return the driver angles at the ends of all smooth intervals [rad]."""
         edges = dict(zip(self.intervals, self._edges.tolist(), strict=False))
         angles = [edges[interval] + interval.start - high - self._start for interval, high, _ in self.stretches]
         return [self.direction * angle for angle in angles]
@@ -236,11 +239,13 @@ class TriangularTransmission(TransmissionFunction):
             return nan
         return self.contact.path.tooth_pair.efficiency(interval.phase, x, self.friction, np)
 
-    # ------------------------------------------------------------------------------------------------ over the pitch
+    # ----------------------------------------------------------------------------------------- values over the pitch
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth stretches: the intervals cut at kinks, at extremes of tau, and at the line of centres."""
+        """Smooth intervals (interval, alpha_1 at start, alpha_1 at end): divided at kinks, extrema of tau and line of
+        centres.
+        """
         return [
             (interval, high, low)
             for interval in self._drive_intervals
@@ -257,7 +262,7 @@ class TriangularTransmission(TransmissionFunction):
             yield centre
 
     def _line_of_centres(self, phase: str) -> float:
-        """Return alpha_1 at which the contact is on the line of centres, where sliding reverses."""
+        """Return the angle alpha_1 at which the contact is on the line of centres, where sliding reverses [rad]."""
         if phase != APPROACH:
             return 0.0
         tooth_pair = self.contact.path.tooth_pair
@@ -268,7 +273,7 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
-        """Quadrature nodes in alpha_1 of each stretch, and weights whose sum over all stretches is 1."""
+        """Quadrature nodes alpha_1 of each smooth interval [rad], and weights whose total is 1."""
         return [node for stretch in self.stretches for node in self._adaptive_nodes(self._tau, *stretch)]
 
     def _adaptive_nodes(
@@ -279,7 +284,7 @@ class TriangularTransmission(TransmissionFunction):
         low: float,
         depth: int = 0,
     ) -> list[tuple[DriveInterval, Floats, Floats]]:
-        """Return Gauss nodes on one stretch, bisected until `what` is integrated to rounding.
+        """Return Gauss-Legendre nodes on one smooth interval, bisected until `what` is integrated to rounding error.
 
         tau is steep near a flank tangent to the tip circle.
         """
@@ -301,12 +306,12 @@ class TriangularTransmission(TransmissionFunction):
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum of tau, which is monotonic on each stretch."""
+        """Return the minimum and the maximum of tau, which is monotonic in each smooth interval."""
         ends = self._end_values(self._tau)
         return min(ends), max(ends)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error (rad of the driven wheel)."""
+        """Return the minimum and the maximum transmission error [rad of the driven wheel]."""
         lags = self._end_values(self._lag)
         for interval, high, low in self.stretches:
             if interval.held is None:
@@ -316,7 +321,7 @@ class TriangularTransmission(TransmissionFunction):
         return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms about the mean (rad of the driven wheel)."""
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven wheel]."""
         lags = [(self._lag(interval, x), weights) for interval, x, weights in self.nodes]
         mean = sum(float(weights @ lag) for lag, weights in lags)
         # two passes: the mean of squares minus the square of the mean would cancel
@@ -324,23 +329,23 @@ class TriangularTransmission(TransmissionFunction):
         return (-mean if self.direction > 0 else self.sizes.p2 + mean), sqrt(square)
 
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver's angle in contact at constant driver torque, Eq. (34).
+        """Return the mean efficiency over the driver angles with contact at constant driver torque, Eq. (34).
 
-        NaN if friction locks.
+        It is NaN if friction locks.
         """
         if self.friction >= self.locking_friction:
             return nan
         return self.contact.mean(("driver", self.friction), lambda: self._contact_mean(self._eta))
 
     def efficiency_at_constant_load(self) -> float:
-        """Return work output over work input per pitch at constant load torque; NaN if friction locks."""
+        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
         if self.friction >= self.locking_friction:
             return nan
         work = partial(self._contact_mean, lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
         return self.contact.mean(("load", self.friction), lambda: self._contact_mean(self._tau) / work())
 
     def _contact_mean(self, what: Callable[[DriveInterval, Any], Any]) -> float:
-        """Return the mean of `what` over the driver's angle in contact.
+        """Return the mean of `what` over the driver angles with contact.
 
         Nodes are graded for `what` itself, because 1/eta is steeper than tau near the locking friction.
         """
@@ -350,7 +355,7 @@ class TriangularTransmission(TransmissionFunction):
         return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum sliding efficiency, from 1001 samples of each stretch."""
+        """Return the minimum sliding efficiency, from 1001 samples of each smooth interval."""
         minimum = inf
         for interval, high, low in self.stretches:
             if interval.held is None:
@@ -362,8 +367,9 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Friction coefficient at which a point of the real path locks: f tan = 1 before the line of centres; infinite
-        if none.
+        """Minimum friction coefficient that locks a point of the real path; infinite if no coefficient does.
+
+        Friction locks where f tan = 1 before the line of centres.
         """
         steepest = 0.0
         for interval, high, low in self.stretches:
@@ -376,7 +382,7 @@ class TriangularTransmission(TransmissionFunction):
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Return the maximum d tau / d alpha_1 (1/rad): tau falls fastest there, as alpha_1 decreases with time."""
+        """Return the maximum of d tau / d alpha_1 [1/rad]; tau decreases in time there, as alpha_1 decreases."""
         tooth_pair = self.contact.path.tooth_pair
         steepest = 0.0
         for interval, high, low in self.stretches:
@@ -386,7 +392,7 @@ class TriangularTransmission(TransmissionFunction):
 
     @cached_property
     def jumps(self) -> list[SpeedJump]:
-        """Collisions of one pitch, in order of time."""
+        """Impacts of one pitch, in order of time."""
         found = []
         for last, new in zip(
             self._drive_intervals, (*self._drive_intervals[1:], self._drive_intervals[0]), strict=True
@@ -400,7 +406,7 @@ class TriangularTransmission(TransmissionFunction):
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the speed ratios before and after every collision of one pitch."""
+        """Return the speed ratios before and after each impact of one pitch."""
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
 
 
@@ -409,7 +415,9 @@ class TriangularTransmission(TransmissionFunction):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of contact over one pitch, in order of time; both ends of every interval are rows."""
+    """Table of contact over one pitch in order of time, with one row for each sample; ends of intervals are
+    included.
+    """
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -425,22 +433,22 @@ class ContactCourse(Result):
     speed_ratio: Floats
     """Speed ratio tau, driven over driver."""
     instant_centre: Floats
-    """Distance O1C of the instant centre from the driver's axis, in the unit of the sizes.
+    """Distance O1C from the driver's axis to the instant centre, in the unit of the sizes.
 
     It is NaN in a dwell, like the columns below.
     """
     driver_arm: Floats
-    """Arm b1 of the force about the driver's axis."""
+    """Moment arm b1 of the force about the driver's axis, in the unit of the sizes; NaN during a dwell."""
     driven_arm: Floats
-    """Arm b2 of the force about the driven wheel's axis."""
+    """Moment arm b2 of the force about the driven wheel's axis, in the unit of the sizes; NaN during a dwell."""
     efficiency: Floats
-    """Efficiency tau b2/b1; also NaN where friction locks."""
+    """Efficiency tau b2/b1; NaN during a dwell and where friction locks."""
 
 
 def contact_course(
     transmission: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
 ) -> ContactCourse:
-    """Tabulate the contact of a pair with `samples` rows for each interval of its real path; empty if teeth never
+    """Return the contact of a pair in `samples` rows for each interval of its real path; empty if the teeth never
     touch.
 
     friction   friction as a function of sliding velocity, which replaces the constant coefficient of the transmission
@@ -458,6 +466,7 @@ def contact_course(
             lambda _: nan,
         )
 
+    # the efficiency is defined only where the force acts with a positive arm on both wheels
     eta = column(
         lambda phase, x: tooth_pair.efficiency(phase, x, transmission.coefficient(phase, x, friction), np),
         lambda _: nan,

@@ -1,6 +1,4 @@
-"""Bar charts of error budgets: for each pointer a bar of its causes, the largest first; for one pointer a bar per
-cause.
-"""
+"""Bar charts of error budgets: a bar of stacked causes for each pointer, or for one pointer a bar for each cause."""
 
 from __future__ import annotations
 
@@ -27,7 +25,7 @@ if TYPE_CHECKING:
 
 COLOURS = {cause: series_colour(at) for at, cause in enumerate(("ratio", "theory", "teeth", "lost motion", "cutting"))}
 MOST = 8
-"""Maximum number of pointers in a figure: those with the largest sum of causes."""
+"""Maximum number of pointers in a figure; pointers with the largest sum of causes are drawn."""
 _HIGH, _LOW = 0.7, 0.42  # heights of bars relative to their distance: fully declared, and declared in part
 _ON_A_BAR: dict[str, Any] = {
     "ha": "center",
@@ -41,7 +39,7 @@ _SIZED, _NAMED = 0.055, 0.2  # minimum shares of a bar for the size, and for siz
 
 
 def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
-    """Draw a bar for each pointer, the worst at the top, with the shares of its causes, the largest first.
+    """Draw a bar for each pointer with the shares of its causes, the pointer with the largest error at the top.
 
     For a single pointer there is a bar for each cause, the largest at the top, in degrees.
 
@@ -95,7 +93,7 @@ def _train_name(found: TrainBudget) -> str:
 
 
 def _causes(found: TrainBudget, pointer: PointerBudget) -> Figure:
-    """Draw the causes of one pointer's error, the largest at the top, and those that are not declared."""
+    """Draw the causes of one pointer's error, the largest at the top, and the causes that are not declared."""
     ranked = [*pointer.ranked, *pointer.undeclared]
     figure, axes = bar_panel([cause.name for cause in ranked], 3.6)
     for at, cause in enumerate(ranked):
@@ -128,7 +126,7 @@ def _axis_note(pointers: int, shown: int, erring: int) -> str:
 
 
 def _size(value: float, digits: int) -> str:
-    """Format a value with a number of significant digits; large values as integers, without a power of ten."""
+    """Return a value as text with `digits` significant digits; large values as integers, without a power of ten."""
     return f"{value:.{digits}g}" if value < 10**digits else f"{value:.0f}"
 
 

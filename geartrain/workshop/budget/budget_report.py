@@ -1,4 +1,4 @@
-"""Report on the error budgets of a train's pointers: ranked causes, in degrees and in days."""
+"""Report on the error budgets of a train's pointers: causes in descending order, in degrees and in days."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _PAIRS = 5  # maximum number of pairs listed for each pointer
 
 
 def describe_budget(found: TrainBudget) -> Document:
-    """Build the report on the causes of each pointer's error, the largest first, and on missing data.
+    """Return the report on the causes of each pointer's error, in descending order, and on missing data.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def _figure(value: float | None) -> str:
 
 
 def _largest_cause(pointer: PointerBudget) -> str:
-    """Return the largest cause, or "-" if all are 0 or unknown."""
+    """Return the name of the largest cause, or "-" if all causes are 0 or unknown."""
     return pointer.ranking[0] if pointer.ranked and pointer.ranked[0].degrees else "-"
 
 
@@ -159,7 +159,7 @@ def _crank(found: TrainBudget) -> Section:
 
 
 def _over_turn(crank: CrankLoad) -> Iterator[Table]:
-    """Yield the table of the torque over a run, if loads are declared."""
+    """Yield the table of the torque over the run, if loads are declared."""
     found = crank.over_turn
     if found is None:
         return
@@ -174,7 +174,7 @@ def _over_turn(crank: CrankLoad) -> Iterator[Table]:
 
 
 def _unit(crank: CrankLoad) -> str:
-    """Return the unit of the torques, which is known if they were computed over a run."""
+    """Return the unit of the torques in parentheses; empty if they were not computed over a run."""
     return f" ({crank.over_turn.unit})" if crank.over_turn is not None and crank.over_turn.unit else ""
 
 
@@ -183,7 +183,7 @@ def _efficiency(value: float | None) -> str:
 
 
 def _weight(crank: CrankLoad) -> Iterator[str]:
-    """Yield a sentence on the weight that drives the train, if it has one."""
+    """Yield a sentence on the weight that drives the train, if there is one."""
     weight = crank.weight
     if weight is None:
         return

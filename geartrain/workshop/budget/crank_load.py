@@ -28,14 +28,15 @@ if TYPE_CHECKING:
 
 YEAR = period_table()["year_tropical_J2000"].value  # d
 MOST_PASSAGES = 600_000
-"""Maximum number of tooth passages times pairs evaluated at each. Longer runs are cut off; this takes about two minutes
-without compiled kernels.
+"""Maximum number of tooth passages times pairs evaluated at each passage.
+
+Longer runs are cut off at this number, which takes about two minutes without compiled kernels.
 """
 SAMPLES = 2_000
 
 
 def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> TorqueCycle:
-    """Compute the torque over the natural run of a train.
+    """Return the torque over the natural run of a train: a year, or a shorter period after which everything repeats.
 
     driving_link   the input
     of             link whose torque is computed, by default the crank
@@ -45,7 +46,7 @@ def find_natural_run(train: GearTrain, state: str | None, driving_link: str, of:
 
 
 def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: str | None = None) -> float:
-    """Return the turns of the input in the natural run of a train.
+    """Return the number of turns of the input in the natural run of a train.
 
     The run is a year, or a period after which everything repeats if that is shorter. If the unit of speeds is not a
     time, one unit replaces the year. For a train of constant ratio any run gives the same result, so the run is one
@@ -66,7 +67,7 @@ def natural_turns(train: GearTrain, state: str | None, driving_link: str, of: st
 
 @dataclass(frozen=True, slots=True)
 class WeightDrive(Result):
-    """Torque of a weight at its drum, and the part of it that reaches the escape wheel over a run.
+    """Torque of a weight at its drum, and the torque that reaches the escape wheel over a run.
 
     See Also
     --------
@@ -76,32 +77,33 @@ class WeightDrive(Result):
     KEYS = ("link", "torque", "needed", "suffices", "wheel", "mean", "minimum", "efficiency")
 
     link: str
-    """Link of the drum."""
+    """Name of the link of the drum."""
     torque: float
-    """Mass times gravity times the radius at which the line pulls [N m]."""
+    """Torque of the weight [N m]: mass times gravity times the radius at which the line acts."""
     needed: float | None = None
-    """Torque that starts the train at its worst position under its declared loads [N m]; None without loads, or if it
-    locks.
+    """Torque that starts the train at its worst position under its declared loads [N m].
+
+    None without declared loads, or if friction locks the train.
     """
     wheel: str | None = None
-    """Link of the escape wheel; None without an escapement, or if loads are declared."""
+    """Name of the escape wheel's link; None without an escapement, or if loads are declared."""
     mean: float | None = None
-    """Mean torque over the run at the escape wheel while only the weight drives [N m]."""
+    """Mean torque at the escape wheel over the run, driven by the weight only [N m]."""
     minimum: float | None = None
-    """Minimum torque over the run at the escape wheel while only the weight drives [N m]."""
+    """Minimum torque at the escape wheel over the run, driven by the weight only [N m]."""
     efficiency: float | None = None
-    """Energy at the escape wheel divided by the energy of the weight."""
+    """Energy that reaches the escape wheel over the energy of the weight."""
 
     @property
     def suffices(self) -> bool | None:
-        """True if the weight starts the train at its worst position; None if that is unknown."""
+        """True if the weight starts the train at its worst position; None if this is unknown."""
         return None if self.needed is None else self.torque >= self.needed
 
 
 def find_weight_drive(
     train: GearTrain, state: str | None, link: str, driving_link: str, under_load: TorqueCycle | None
 ) -> WeightDrive | None:
-    """Return the weight that drives a train in one state; None if it is not driven by a weight.
+    """Return the weight that drives a train in one state; None if it is driven otherwise.
 
     link           link of the drum; `driving_link`, the input
     under_load     torque over the run under the declared loads; None if there are none
@@ -122,7 +124,7 @@ def find_weight_drive(
 
 
 def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> GearTrain:
-    """Return the same train with a torque at the drum, in its direction of rotation."""
+    """Return the same train with the torque `pull` [N m] at the drum as its only load, in its direction of rotation."""
     from geartrain.analysis.gear_train import GearTrain
 
     speed = train.solve(state)[link]
@@ -136,7 +138,7 @@ def _driven_by(train: GearTrain, state: str | None, link: str, pull: float) -> G
 
 @dataclass(frozen=True, slots=True)
 class CrankLoad(Result):
-    """Torque and efficiency of the link that drives a train.
+    """Torque and efficiency at the link that drives a train.
 
     See Also
     --------
@@ -144,30 +146,31 @@ class CrankLoad(Result):
     """
 
     link: str
-    """Driven link: the crank or the input."""
+    """Name of the driving link: the crank or the input."""
     torque: float | None
-    """Torque under the declared loads, in the link's own sense of rotation, positive if it puts power in, as in
-    `over_turn` [N m, or the unit of the loads]; None without loads.
+    """Torque under the declared loads [N m, or the unit of the loads]; None without loads.
+
+    It refers to the link's own sense of rotation and is positive if it puts power in, as in `over_turn`.
     """
     efficiency: float | None
-    """Output power divided by input power; None if neither friction nor an efficiency is declared, or if it is
+    """Output power over input power; None if neither friction nor an efficiency is declared, or if it is
     undetermined.
     """
     note: str
-    """Loads that apply, or the missing data."""
+    """Text on the loads that apply, or on missing data."""
     pointers: Mapping[str, float] = field(default_factory=dict)
-    """Efficiency of a train that drives only this pointer, by pointer; without pointers that cannot be driven, and
-    empty without friction.
+    """Efficiency of the train if it drives one pointer only, by pointer.
+
+    Pointers that cannot be driven are omitted; it is empty without friction.
     """
     over_turn: TorqueCycle | None = None
-    """Torque at each position over a year, or over a shorter period after which everything repeats; None without loads.
-    """
+    """Torque at each position over the natural run; None without loads."""
     weight: WeightDrive | None = None
     """Weight that drives the train; None if it is driven otherwise."""
 
 
 def find_crank_load(train: GearTrain, state: str | None, driving_link: str, links: Mapping[str, str]) -> CrankLoad:
-    """Compute the load of the crank at mean speeds and over a run.
+    """Return the load of the crank at mean speeds and over a run.
 
     Without declared loads, only the efficiency from the input to the output is computed.
 
@@ -190,6 +193,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, link
     link, has_losses = train.declaration.crank or driving_link, _has_losses(train.declaration)
     found = train.torques(state)
     pointers = dict(_efficiencies(train, state, link, links)) if has_losses else {}
+    # a positive torque acts in the sense in which the link turns
     if found.verdict.kind != "unloaded":
         sense = -1 if train.solve(state).speeds[link] < 0 else 1
         torque = found.external.get(link)
@@ -198,6 +202,7 @@ def _at_mean_speeds(train: GearTrain, state: str | None, driving_link: str, link
         return CrankLoad(link, None if torque is None else sense * float(torque), efficiency, note, pointers)
     if not has_losses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
+    # without a load no torque can be computed, but the efficiency at a unit of power can
     ways = drive_both_ways(train.mechanics, state)
     if not ways or not ways[0].torques.verdict:
         return CrankLoad(link, None, None, "no loads are declared", pointers)
@@ -224,6 +229,6 @@ def _efficiency(found: Torques) -> float | None:
 
 
 def _has_losses(declared: Train) -> bool:
-    """Return whether any friction or efficiency is declared."""
+    """Return True if any friction or efficiency is declared."""
     pairs = any(gear.friction is not None or gear.efficiency is not None for gear in declared.gears)
     return declared.friction is not None or pairs or any(link.bearing for link in declared.links.values())

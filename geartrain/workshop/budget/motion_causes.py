@@ -48,25 +48,25 @@ _NEAR = 0.02  # maximum relative difference of a target from the period of the b
 
 @dataclass(frozen=True)
 class ErrorDifference:
-    """Difference of the errors of two compositions, for the same outputs at the same positions."""
+    """Difference of the errors of two compositions with the same outputs at the same positions."""
 
     one: ErrorComposition
     other: ErrorComposition
 
     @property
     def chunk(self) -> int:
-        """Number of positions processed at once."""
+        """Maximum number of positions that are evaluated at once."""
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences at given turns of the input, at most one chunk of them."""
+        """Return the differences of the errors at given turns of the input, at most `chunk` of them."""
         one, other = self.one.at(turns), self.other.at(turns)
         return error_difference(one, other)
 
 
 class DeclaredPairs(NamedTuple):
-    """Pairs that move an output: number of gear pairs with teeth and in total; couplings, and those without
-    dimensions.
+    """Pairs that move an output: number of gear pairs with tooth forms, number of all gear pairs, names of couplings,
+    names of couplings without dimensions.
     """
 
     real: int
@@ -80,18 +80,18 @@ class ToothMotion:
     """Effect of the teeth of a train on its outputs over a run."""
 
     ripple: Mapping[str, RunningStatistics]
-    """Statistics of the error due to the teeth, by output."""
+    """Statistics of the error due to the teeth [rad], by output."""
     lost: Mapping[str, tuple[float, float]]
-    """Maximum and rms of the motion lost when the crank turns back, by output [rad]."""
+    """Maximum and rms of the motion lost when the crank reverses [rad], by output."""
     pairs: Mapping[str, Mapping[str, float]]
-    """Peak-to-peak error due to each pair by itself, by output [deg]."""
+    """Peak-to-peak error due to each single pair [deg], by output and pair."""
     declared: Mapping[str, DeclaredPairs]
-    """Pairs that move each output, and their declared data."""
+    """Pairs that move each output, with counts of declared data."""
     reversing_drivers: tuple[str, ...]
 
 
 def without_teeth(motion: Motion) -> Motion:
-    """Return the same train with the same pins, and with teeth of constant ratio without backlash."""
+    """Return the motion of the same train and pins with ideal teeth: constant ratio, no backlash."""
     from geartrain.dynamics import Motion
 
     return Motion(replace(motion._problem, meshes={}), motion.outputs)
@@ -100,10 +100,11 @@ def without_teeth(motion: Motion) -> Motion:
 def find_tooth_motion(
     motion: Motion, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
 ) -> ToothMotion:
-    """Compute ripple and lost motion of every output at `samples` positions of `turns` of the input.
+    """Return ripple and lost motion of every output at `samples` positions within `turns` turns of the input.
 
     on_done   callback with the number of positions of each chunk that is done
     """
+    # the difference of two motions at the same position: with and without teeth, then backwards and forwards
     ripple = ErrorDifference(motion._forward, without_teeth(motion)._forward)
     lost = ErrorDifference(motion._backward, motion._forward)
     tallies = motion._statistics()
@@ -121,6 +122,7 @@ def find_tooth_motion(
         maximum = np.maximum(maximum, np.abs(backlash.error).max(axis=1))
         squares += np.sum(backlash.error**2, axis=1)
         on_done(len(at))
+    # samples miss the extremes, so each is refined
     search = ExtremeSearch(ripple.one, less=ripple.other)
     count_extremes(search, turns, turns / (samples - 1), peaks, tallies)
     names = list(motion.outputs)
@@ -137,8 +139,8 @@ def find_tooth_motion(
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return by output the range of each pair's error times its sensitivity [deg], in descending order;
-    without pins.
+    """Return the peak-to-peak error of each pair times its sensitivity [deg] by output, in descending order; without
+    pins.
     """
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.pins}
@@ -151,7 +153,7 @@ def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
 
 
 def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
-    """Return the pairs and couplings whose error reaches an output, directly or through the angle of a pin."""
+    """Return the names of pairs and couplings whose error reaches an output, directly or through the angle of a pin."""
     spread, signs = motion._propagation, motion._problem.signs
     couplings = {circuit.id for circuit in motion._problem.circuits if circuit.swings}
     # depth-first search: the error of a pin depends on the angle of its driver, which other pairs move
@@ -170,7 +172,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 
 
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
-    """Return the pairs that move an output, and how many of them have declared teeth and dimensions."""
+    """Return the pairs that move an output, with the numbers of those with declared teeth and dimensions."""
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     real = set(motion._problem.meshes)
     sized = {joint.coupling.name for joint in motion._problem.pins}
@@ -186,7 +188,7 @@ def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
 
 
 def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCause]:
-    """Return the causes ripple and lost motion of one output."""
+    """Return two causes of the error of one output: ripple of the teeth, and lost motion."""
     known = found.declared[name]
     if known.gears and not known.real:
         return _undeclared(f"none of the {known.gears} pairs that move it has a tooth form")
@@ -222,14 +224,14 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """Data of a body's orbit."""
+    """Orbit of a body, for comparison with the anomaly of a pointer."""
 
     eccentricity: float
-    """Present eccentricity of its ellipse."""
+    """Present eccentricity of the orbit."""
     period: float
-    """Sidereal or tropical period, to 0.01 d. The target of a pointer must be near it [d]."""
+    """Sidereal or tropical period [d], to 0.01 d; the target of a pointer must be close to it."""
     words: frozenset[str]
-    """Words by which a name of an output or link indicates the body."""
+    """Words in the name of an output or link that indicate the body."""
     source: str
     """Source of the eccentricity."""
 
@@ -241,7 +243,7 @@ TRUE_MOTIONS: dict[Body, TrueMotion] = {
 
 
 def equation_of_centre(M: Floats, e: float) -> Floats:
-    """Return true minus mean anomaly [rad] at mean anomalies M [rad], for eccentricity 0 <= e < 1.
+    """Return the equation of centre, true minus mean anomaly [rad], at mean anomalies M [rad] for 0 <= e < 1.
 
     Kepler's equation is solved by Newton's method to rounding accuracy. It starts at E = M + e sin M, from which it
     converges for the small e of these orbits.
@@ -263,7 +265,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """Error of the anomaly of one link [rad], or the reason why it is unknown."""
+    """Error of the anomaly of one link against the true motion [rad], or the reason why it is unknown."""
 
     known: bool
     """False if a pin that moves the link has no dimensions, or if several pins move it."""
@@ -275,7 +277,9 @@ class TheoryError:
 def find_bodies(
     outputs: Iterable[OutputResult], frame: str, unit_days: float | None, named: Mapping[str, Body | None]
 ) -> dict[str, Body]:
-    """Return the links that represent a body, by the name of an output or link and a target near the body's period.
+    """Return the body that each link represents, by link.
+
+    It is found from the name of an output or link and a target near the body's period.
 
     named   by output, the body that it represents whatever its name; None for no body
     """
@@ -302,7 +306,7 @@ def _represents(output: OutputResult, body: Body, unit_days: float | None) -> bo
 
 
 def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
-    """Compare the anomaly of one link, with ideal teeth, with the true motion of a body."""
+    """Return the error of the anomaly of one link with ideal teeth against the true motion of a body."""
     from geartrain.dynamics import Motion
 
     motion = Motion(replace(problem, meshes={}), {link: (link, problem.frame)})
@@ -324,9 +328,9 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre, at the phase of minimum squares.
+    """Return an error over one cycle minus the equation of centre [rad], at the phase of minimum sum of squares.
 
-    error   (n,) at phases 2 pi k/n [rad]; the mean of the result is 0
+    error   error at phases 2 pi k/n, shape (n,) [rad]; the mean of the result is 0
     """
     from scipy.optimize import minimize_scalar
 
@@ -349,7 +353,7 @@ def minimum_difference(error: Floats, e: float) -> Floats:
 
 
 def theory_cause(parts: list[TheoryError]) -> BudgetCause:
-    """Combine the theory errors of a pointer and of its reference link into one cause.
+    """Return one cause that combines the theory errors of a pointer's link and of its reference link.
 
     Their cycles differ, so peak-to-peak values add, and rms values add as squares.
     """

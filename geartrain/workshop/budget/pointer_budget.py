@@ -1,6 +1,4 @@
-"""Results of an error budget: each cause of a pointer's error in degrees and in days, ranked, or marked as not
-declared.
-"""
+"""Results of an error budget: the causes of each pointer's error in degrees and in days, and causes without data."""
 
 from __future__ import annotations
 
@@ -25,7 +23,7 @@ MEASURES: Mapping[CauseName, str] = {
     "lost motion": "maximum",
     "cutting": "central 95 % range",
 }
-"""Meaning of the degrees of each cause."""
+"""Quantity that the degrees of each cause represent, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,19 +40,20 @@ class BudgetCause(Result):
     name: CauseName
     """Name of the cause."""
     declared: Declared
-    """Completeness of the data that the train declares for the cause."""
+    """Completeness of the declared data for this cause: "whole", "part" or "not declared"."""
     degrees: float | None = None
-    """Size as defined by `measure` [deg]; None if the data are not declared."""
+    """Size of the error as defined by `measure` [deg]; None if no data are declared."""
     rms: float | None = None
-    """Root mean square [deg]: of a drift and of cutting about the mean, of lost motion itself."""
+    """Root mean square [deg]: deviation from the mean for a drift and for cutting, the value itself for lost motion."""
     days: float | None = None
-    """Time in which the pointer turns through `degrees` at its mean speed [d]; None if it does not turn or no time is
-    declared.
+    """Time in which the pointer turns through `degrees` at its mean speed [d].
+
+    None if the pointer does not turn, or the unit of time is not declared.
     """
     interval: tuple[float, float] | None = None
-    """95 % confidence interval of `degrees` [deg]; None if it is not an estimate."""
+    """95 % confidence interval of `degrees` [deg]; None if the value is not a statistical estimate."""
     note: str = ""
-    """Origin of the cause, or the missing data."""
+    """Text on the origin of the error, or on missing data."""
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
@@ -70,7 +69,7 @@ class BudgetCause(Result):
         return cls(name, "not declared", note=note)
 
     def in_days(self, degrees_per_day: float | None) -> BudgetCause:
-        """Return the cause with its size also as a time.
+        """Return the cause with its size also given in days.
 
         Parameters
         ----------
@@ -83,13 +82,16 @@ class BudgetCause(Result):
 
     @property
     def measure(self) -> str:
-        """Meaning of `degrees`: a drift over the span, a peak-to-peak value, a maximum, or a central 95 % range."""
+        """Quantity that `degrees` represents: drift over the span, peak-to-peak value, maximum, or central 95 %
+        range.
+        """
         return MEASURES[self.name]
 
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Error of the mean speed of a pointer against one of its targets; positive if the pointer is fast.
+    """Drift of a pointer against one of its targets, due to the error of its mean speed; positive if the pointer is
+    fast.
 
     See Also
     --------
@@ -101,7 +103,7 @@ class RatioDrift(Result):
     ppm: float | None
     """Relative error of the speed [parts per million]; None if the target is 0."""
     degrees_per_turn: float | None
-    """Angle gained in a turn of the pointer [deg]."""
+    """Angle gained per turn of the pointer [deg]; None if the target is 0."""
     degrees_per_year: float | None
     """Angle gained in 365.25 days [deg]; None if the train's unit is not a time."""
     degrees_per_century: float | None
@@ -112,7 +114,7 @@ class RatioDrift(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerBudget(Result):
-    """Error budget of one pointer: the contribution of each cause.
+    """Error budget of one pointer: the size of each cause.
 
     Examples
     --------
@@ -133,47 +135,47 @@ class PointerBudget(Result):
     name: str
     """Name of the output."""
     of: str
-    """Link that turns."""
+    """Name of the link that turns with the pointer."""
     relative_to: str
-    """Reference link against which it is read."""
+    """Name of the link relative to which it is read."""
     speed: SpeedValue | None
-    """Mean speed relative to the reference link [the train's unit]."""
+    """Mean speed relative to that link [the train's unit]."""
     degrees_per_day: float | None
     """Absolute mean speed [deg/d]; None if the train's unit is not a time."""
     causes: tuple[BudgetCause, ...]
     """All five causes, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Drift against every target. The first one is used for the ratio."""
+    """Drift against every target. The first target is used for the cause "ratio"."""
     pairs: Mapping[str, float] | None = None
-    """Peak-to-peak error [deg] due to the ripple of each pair's teeth by itself, in descending order."""
+    """Peak-to-peak error due to the teeth of each single pair [deg], in descending order; None if unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
 
     @property
     def ranked(self) -> tuple[BudgetCause, ...]:
-        """Causes of known size, in descending order."""
+        """Causes with known size, in descending order."""
         known = [cause for cause in self.causes if cause.degrees is not None]
         return tuple(sorted(known, key=lambda cause: -(cause.degrees or 0.0)))
 
     @property
     def ranking(self) -> tuple[str, ...]:
-        """Names of the causes of known size, in descending order."""
+        """Names of the causes with known size, in descending order."""
         return tuple(cause.name for cause in self.ranked)
 
     @property
     def undeclared(self) -> tuple[BudgetCause, ...]:
-        """Causes of unknown size."""
+        """Causes with unknown size."""
         return tuple(cause for cause in self.causes if cause.degrees is None)
 
     @property
     def total(self) -> float:
-        """Sum of all known sizes, the worst case [deg]."""
+        """Sum of the sizes of all known causes, an upper bound of the error [deg]."""
         return sum(cause.degrees or 0.0 for cause in self.ranked)
 
     @property
     def overtaken_after_years(self) -> float | None:
-        """Julian years after which the drift of the ratio equals the largest other cause; None if it never does."""
+        """Julian years after which the drift equals the largest other cause; None without a drift or another cause."""
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
         # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
@@ -182,7 +184,7 @@ class PointerBudget(Result):
 
 @dataclass(frozen=True, slots=True)
 class TrainBudget(Tabular, Pictured, Result):
-    """Error budgets of a train's pointers in one state, with the crank torque and the jams of its wheels.
+    """Error budgets of a train's pointers in one state, with the crank torque and the probability of jams.
 
     See Also
     --------
@@ -218,13 +220,13 @@ class TrainBudget(Tabular, Pictured, Result):
     name: str
     """Name of the train."""
     state: str | None
-    """Name of the state."""
+    """Name of the state; None for a train without states."""
     span_days: float
-    """Time over which ratios drift [d]."""
+    """Time over which drifts are evaluated [d]."""
     turns: float
-    """Turns of the input over which teeth and lost motion are followed."""
+    """Turns of the input over which teeth and lost motion are evaluated."""
     samples: int
-    """Number of positions of the input."""
+    """Number of positions of the input at which teeth are evaluated."""
     driving_link: str
     """Name of the driving link."""
     pointers: tuple[PointerBudget, ...]
@@ -232,11 +234,11 @@ class TrainBudget(Tabular, Pictured, Result):
     crank: CrankLoad
     """Torque and efficiency at the crank."""
     jams: tuple[ClearanceCase, ...] = ()
-    """Probability that wheels with cutting errors jam, over clearance; empty if no cutting errors are declared."""
+    """Probability that wheels with cutting errors jam, by clearance; empty if no cutting errors are declared."""
     jams_note: str = ""
     """Reason why `jams` is empty."""
     reversing_drivers: tuple[str, ...] = ()
-    """Pairs whose driver turns against its mean direction at times. Their backlash is not followed there."""
+    """Pairs whose driver reverses at times, which is not included in their lost motion."""
 
     def _summary(self) -> str:
         totals = (f"{each.name} {each.total:.3g} deg" for each in self.pointers[:3] if each.total is not None)
@@ -246,7 +248,7 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each cause of each pointer: size and rms [deg], and size in days; None if unknown."""
+        """Table with a row for each cause of each pointer: size and rms [deg], size in days; None if unknown."""
         rows = [(pointer.name, cause) for pointer in self.pointers for cause in pointer.causes]
         return {
             "pointer": [name for name, _ in rows],

@@ -1,4 +1,4 @@
-"""Budget of a train in one state: its options, the collection of all causes, and two of the causes.
+"""Budget of a train in one state: its options, the collection of all causes, and the causes ratio and cutting.
 
 First cause, the ratio: a pointer of speed w (turns per unit) that should turn at t gains 360 (|w| - |t|) degrees per
 unit, and 360 (|w|/|t| - 1) per turn. Both w and t are exact.
@@ -61,7 +61,7 @@ SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 
 @dataclass(frozen=True)
 class BudgetQuestion:
-    """Options of a budget.
+    """Options of an error budget.
 
     Examples
     --------
@@ -70,37 +70,39 @@ class BudgetQuestion:
     """
 
     outputs: tuple[str, ...] = ()
-    """Names of outputs; by default all that have a target or a dial, or all outputs if none has."""
+    """Names of outputs; by default all outputs with a target or a dial, or all outputs if none has one."""
     without: tuple[str, ...] = ()
-    """Names of pairs to leave out, so that teeth do not overconstrain a loop."""
+    """Names of pairs to leave out, so that real teeth do not overconstrain a loop."""
     span_days: float = SAROS
-    """Time over which ratios drift [d]; by default one Saros."""
+    """Time over which drifts are evaluated [d], above 0 and below 1e9; default one Saros."""
     turns: float = 20.0
-    """Turns of the input over which teeth are followed."""
+    """Turns of the input over which teeth are evaluated, above 0 and up to 1e6."""
     samples: int = 20_000
-    """Number of positions of these turns, 2 or more."""
+    """Number of positions within these turns, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Cutting errors that replace the declared ones, such as "pitch_deviation=1 %"; by default the declared ones."""
+    """Cutting errors that replace the declared ones, such as "pitch_deviation=1 %"; default the declared ones."""
     trials: int = 256
     """Number of trials with cutting errors."""
     seed: int = 1
-    """Seed of the random numbers."""
+    """Random seed of the trials."""
     jam_trials: int = 64
-    """Number of trials at each clearance."""
+    """Number of trials at each clearance, to estimate the probability of jams."""
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
-    """Fractions of each pair's clearance window, or factors of the centre distance, at which jams are counted."""
+    """Clearances at which jams are counted: fractions of each pair's clearance window, or factors of the centre
+    distance.
+    """
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Body whose true motion an output shows, by output, where its name does not indicate it; None for no body."""
+    """Body whose true motion an output represents, by output, if its name does not indicate it; None for no body."""
 
     def __post_init__(self) -> None:
         if not 0 < self.span_days < 1e9:
-            what = f"the span is {self.span_days:g} days"
+            what = f"a span of {self.span_days:g} days is out of range"
             raise QuestionError(
                 Problem(what, "it must be above 0 and below 1e9 days", "give for example --span '6940 d'")
             )
         if self.samples < 2 or not 0 < self.turns <= 1e6:
-            what = f"{self.samples} positions of {self.turns:g} turns are requested"
-            why = "teeth are followed at 2 or more positions, over more than 0 and up to 1e6 turns"
+            what = f"{self.samples} positions in {self.turns:g} turns are out of range"
+            why = "the errors of teeth are computed at 2 or more positions in more than 0 and at most 1e6 turns"
             raise QuestionError(Problem(what, why, "give for example --turns 20 --samples 20000"))
 
 
@@ -115,7 +117,7 @@ def find_budget(
     means: Execution | None = None,
     on_stage: Callable[[], None] = lambda: None,
 ) -> TrainBudget:
-    """Compute the error budget of each pointer of a train: its causes in degrees and in days.
+    """Return the error budget of each pointer of a train: its causes in degrees and in days.
 
     Parameters
     ----------
@@ -189,7 +191,7 @@ def find_budget(
 
 @dataclass(frozen=True)
 class _TrainCauses:
-    """Causes found for the whole train, from which the budget of each pointer is compiled."""
+    """Causes for the whole train, from which the budget of each pointer is compiled."""
 
     requested: BudgetQuestion
     unit_days: float | None
@@ -219,7 +221,7 @@ class _TrainCauses:
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
-    """Return the requested outputs, by default those with a target or a dial, or all outputs if none has either."""
+    """Return the requested outputs; by default those with a target or a dial, or all outputs if none has one."""
     for name in (*requested.outputs, *requested.bodies):
         check_choice("output", name, tuple(answer.outputs))
     if requested.outputs:
@@ -239,7 +241,7 @@ def _float(value: Fraction | None) -> float | None:
 def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
-    """Return by pointer the theory errors of its link and of its reference link, each compared with its body."""
+    """Return the theory errors of each pointer's link and of its reference link, each against its body, by pointer."""
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
@@ -255,7 +257,7 @@ def _theories(
 def _jams(
     plan: TrialPlan | None, uncut: str, requested: BudgetQuestion, means: Execution
 ) -> tuple[tuple[ClearanceCase, ...], str]:
-    """Return the probability of jams over clearance, or the reason why it is unknown."""
+    """Return the probability of jams by clearance, or an empty tuple with the reason why it is unknown."""
     if plan is None:
         return (), uncut
     return jams_over_clearance(plan, requested.clearances, requested.jam_trials, requested.seed, means)
@@ -268,7 +270,7 @@ YEAR, CENTURY = 365.25, 36525.0  # Julian, in days
 
 
 def find_drifts(output: OutputResult, unit_days: float | None, span_days: float) -> tuple[RatioDrift, ...]:
-    """Return the drift of an output against each of its targets; observed periods come first.
+    """Return the drift of an output against each of its targets, observed periods first.
 
     unit_days   the train's unit of time [d], None if its unit is not a time
     """
@@ -278,9 +280,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def _is_observed(target: Target) -> bool:
-    """Return whether a target is an observed period of the shipped table; speeds and relations are intentions of
-    makers.
-    """
+    """Return True if a target is an observed period of the shipped table, not an intention of the makers."""
     return target.name is not None and period_table()[target.name].kind == "period"
 
 
@@ -290,13 +290,13 @@ def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> R
     return RatioDrift(
         result.goal.words if result.goal.sense else result.label,
         ppm,
-        None if ppm is None else ppm * 360e-6,
+        None if ppm is None else ppm * 360e-6,  # 1 ppm of a turn is 360e-6 deg
         *(None if per_day is None else per_day * days for days in (YEAR, CENTURY, span_days)),
     )
 
 
 def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
-    """Return the drift over the span against the first target as a cause."""
+    """Return the cause "ratio": the drift over the span against the first target."""
     if not drifts:
         return BudgetCause.unknown("ratio", "no target is declared for this pointer")
     first = drifts[0]
@@ -313,13 +313,15 @@ def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
 
 @dataclass(frozen=True)
 class CuttingTrials:
-    """Trials of a train, with the errors of perfect teeth at the same positions [rad], (outputs, trials)."""
+    """Trials of a train with cutting errors, and the errors `even` of perfect teeth at the same positions [rad], shape
+    (outputs, trials).
+    """
 
     trials: TrialResults
     even: Floats
 
     def cause(self, name: str, known: DeclaredPairs) -> BudgetCause:
-        """Return the central 95 % range of the errors of one output as a cause, with an interval from both percentiles.
+        """Return the cause "cutting" of one output: the central 95 % range of its errors, with a confidence interval.
 
         known   pairs and couplings that move the output
         """
@@ -351,7 +353,7 @@ class CuttingTrials:
 
 
 def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution) -> CuttingTrials:
-    """Run the trials with cutting errors; `motion` is the motion with perfect teeth."""
+    """Return the results of trials with cutting errors; `motion` is the motion with perfect teeth."""
     found = run_trials(plan, count, seed, means)
     if not found.complete:  # interrupted: a budget does not state that it uses only some of the trials
         raise KeyboardInterrupt
@@ -363,8 +365,9 @@ def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, 
 def cutting_plan(
     train: GearTrain, cutting: Sequence[str], outputs: Sequence[str], state: str | None, without: Sequence[str]
 ) -> tuple[TrialPlan | None, str]:
-    """Return the plan of the trials, or the reason why there is none; `GearTrainError` if `cutting` cannot
-    be applied.
+    """Return the plan of the trials, or None with the reason why there is none.
+
+    Raises `GearTrainError` if the errors `cutting` cannot be applied.
     """
     settings = read_error_overrides(cutting)
     try:
@@ -378,7 +381,7 @@ def cutting_plan(
 def jams_over_clearance(
     plan: TrialPlan, clearances: Sequence[float], count: int, seed: int, means: Execution
 ) -> tuple[tuple[ClearanceCase, ...], str]:
-    """Return the probability of jams at each clearance; empty with the reason if a pair has no clearance window."""
+    """Return the probability of jams at each clearance, or an empty tuple with the reason why it is unknown."""
     if not clearances:
         return (), "no clearance was requested"
     try:

@@ -20,6 +20,7 @@ from geartrain.cli.common import (
     check_distinct_outputs,
     draw,
     give,
+    option_error,
     picture_sink,
     sink,
 )
@@ -33,14 +34,14 @@ if TYPE_CHECKING:
 
 def run(
     file: File,
-    output: Annotated[Names, typer.Option("--output", help="Output to report; can be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output to report; may be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
     span: Annotated[
         str, typer.Option("--span", help="Time over which ratios drift: '6940 d', or a name from `geartrain periods`.")
     ] = "saros_223_synodic_modern",
     turns: Annotated[
-        str, typer.Option("--turns", help="Revolutions of the input over which teeth are followed.")
+        str, typer.Option("--turns", help="Revolutions of the driving link over which teeth are followed.")
     ] = "20",
     samples: Annotated[
         int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of positions of the input.")
@@ -66,7 +67,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """List the causes of each pointer's error, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
+    """List the causes of each pointer's error, in degrees and days: ratio, theory, teeth, lost motion, cutting.
+
+    Example: `geartrain budget freeth-2021 --of moon`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.numerics.work import Execution
     from geartrain.workshop.budget.budget_report import describe_budget
@@ -114,7 +118,7 @@ def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:
     for text in texts:
         name, equals, body = text.rpartition("=")
         if not equals or body not in known:
-            what = f"'{text}' is not OUTPUT=moon, OUTPUT=sun or OUTPUT=none"
-            raise typer.BadParameter(what, param_hint="--body")
+            fix = "write it as OUTPUT=moon, OUTPUT=sun or OUTPUT=none"
+            raise option_error("--body", f"'{text}' is not an output with a body", fix)
         found[name] = known[body]
     return found

@@ -55,9 +55,13 @@ class CutWheel:
     tip: Floats
     """Height of each tip above R [unit of R]."""
     leading: Floats
-    """Angle by which each leading flank is flatter than the half angle, turned about the tip [rad]."""
+    """Angle by which each leading flank deviates from the half angle, positive if flatter, rotated about the tip
+    [rad].
+    """
     trailing: Floats
-    """Angle by which each trailing flank is flatter than the half angle, turned about the tip [rad]."""
+    """Angle by which each trailing flank deviates from the half angle, positive if flatter, rotated about the tip
+    [rad].
+    """
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
@@ -73,12 +77,12 @@ class CutWheel:
 
     @property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the leading axes: () for one wheel."""
+        """Shape of the leading axes; () for a single wheel."""
         return np.broadcast_shapes(*(each.shape[:-1] for each in (self.place, self.tip, self.leading, self.trailing)))
 
     @property
     def sign(self) -> int:
-        """Sign of the radius: -1 for an internal wheel, else 1."""
+        """Sign of the radius: -1 for an internal wheel, otherwise 1."""
         return -1 if self.radius < 0 else 1
 
     @property
@@ -88,12 +92,12 @@ class CutWheel:
 
     @property
     def theta(self) -> Floats:
-        """Polar angle of every tip [rad]."""
+        """Polar angle of each tip [rad]."""
         return np.arange(self.z) * self.pitch + self.place
 
     @property
     def r(self) -> Floats:
-        """Radius of every tip, negative for an internal wheel."""
+        """Radius of each tip [unit of R], negative for an internal wheel."""
         return self.radius + self.tip
 
     @property
@@ -102,38 +106,42 @@ class CutWheel:
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def trial(self, at: int) -> CutWheel:
-        """Return the wheel of one trial; arrays shared by all trials are kept."""
+        """Return the wheel of the trial with index `at`."""
         one = (each[at] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *one)
 
     def taken(self, part: slice | NDArray[np.int64]) -> CutWheel:
-        """Return the wheels of some trials; arrays shared by all trials are kept."""
+        """Return the wheels of selected trials; arrays common to all trials are not copied."""
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
     # ------------------------------------------------------------------------------------------------------ with errors
 
     def placed(self, place: ArrayLike) -> CutWheel:
-        """Return the wheel with its teeth moved along the rim [rad], backwards if positive; flanks turn with them."""
+        """Return the wheel with pitch deviations added: teeth with their flanks rotated backwards by `place` [rad]."""
         return replace(self, place=self.place + np.asarray(place)).checked()
 
     def grown(self, tip: ArrayLike) -> CutWheel:
-        """Return the wheel with higher teeth [unit of R]; tips move radially, flank angles are kept."""
+        """Return the wheel with tip heights increased by `tip` [unit of R]; flank angles do not change."""
         return replace(self, tip=self.tip + np.asarray(tip)).checked()
 
     def widened(self, leading: ArrayLike, trailing: ArrayLike | None = None) -> CutWheel:
-        """Return the wheel with other flank angles, flatter if positive [rad]; one argument applies to both flanks."""
+        """Return the wheel with flank angles increased [rad], so that flanks are flatter; one argument applies to both
+        flanks.
+        """
         trailing = leading if trailing is None else trailing
         return replace(
             self, leading=self.leading + np.asarray(leading), trailing=self.trailing + np.asarray(trailing)
         ).checked()
 
     def eccentric(self, e: ArrayLike, towards: ArrayLike = 0.0) -> CutWheel:
-        """Return the same teeth cut about a centre at a distance e from the axis [unit of R] in a direction [rad]."""
+        """Return the wheel with its teeth cut about a centre at a distance e from the axis [unit of R], in a direction
+        [rad].
+        """
         return self.moved(e, towards).checked()
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return the wheel of `eccentric` without checking that it can be cut."""
+        """Return the wheel as `eccentric` does, without checking that it can be cut."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         # the flanks keep their directions, but the radius through the tip turns
@@ -147,7 +155,7 @@ class CutWheel:
         )
 
     def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
-        """Return the same teeth with flanks lowered along their normals; each tip moves down the other flank.
+        """Return the wheel with flanks lowered along their normals; each tip moves down along the opposite flank.
 
         leading, trailing   depths of filing, 0 or more, (..., z) [unit of R]
         """
@@ -163,7 +171,9 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """Return the mirrored wheel, turning the other way; its tooth i is tooth `first` - i of this one."""
+        """Return the mirror image of the wheel, which turns the other way; its tooth i is tooth `first` - i of this
+        wheel.
+        """
         # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
@@ -178,7 +188,7 @@ class CutWheel:
     # ---------------------------------------------------------------------------------------------------------- checks
 
     def checked(self) -> CutWheel:
-        """Return the wheel itself; raise `RangeError` if teeth cannot be cut because no tooth or no space is left."""
+        """Return the wheel itself. Raises `RangeError` if an error leaves no tooth or no tooth space."""
         if not self.cuttable.all():
             bad = int(np.size(self.cuttable) - np.count_nonzero(self.cuttable))
             where = np.unravel_index(int(np.argmin(self.cuttable)), np.shape(self.cuttable))
@@ -194,7 +204,7 @@ class CutWheel:
 
     @property
     def cuttable(self) -> NDArray[np.bool_]:
-        """Mask (..., z): True if a tooth and the next one have tips, flanks, and a space between them."""
+        """Mask of shape (..., z): True if a tooth and the next one have tips, flanks and a space between them."""
         gap = self.pitch + np.roll(self.place, -1, -1) - self.place
         near, far = np.broadcast_arrays(self.r, np.roll(self.r, -1, -1))
         # angle at each tip between its radius and the line to the other tip; the flanks must be inside both
@@ -207,14 +217,16 @@ class CutWheel:
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """Return the value of one tooth in each trial; a scalar 0, which saves an array, if all values are 0."""
+    """Return the value of one tooth in each trial; the scalar 0 if all values are 0, which saves an array."""
     if each.ndim == 1:
         return each[teeth] if each.any() else 0.0
     return each[rows, teeth]
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return the radial displacement and the rotation of points due to a shift, seen from a fixed centre; exact.
+    """Return the radial displacement and the rotation [rad] of points that are shifted, as seen from a fixed centre.
+
+    The formula is exact.
 
     radius, angle   polar coordinates of the points (angle in rad)
     e, towards      length and direction (rad) of the shift
@@ -232,7 +244,7 @@ def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tupl
 
 
 class CutToothPairs(ToothPair):
-    """Contact of pairs of a driving and a driven tooth; all arrays broadcast with each other and with the angles.
+    """Contact of many pairs of a driving and a driven tooth; all arrays broadcast with each other and with the angles.
 
     R1, R2         radii of the tips, negative for an internal wheel
     beta1, beta2   half angles of the two flanks in contact (rad)
@@ -255,9 +267,7 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return the tooth pairs of a gear pair with tip heights, flank angles and centre distance
-        increased by errors.
-        """
+        """Return the tooth pairs for the nominal sizes plus errors of tip heights, flank angles and centre distance."""
         R1, R2 = sizes.signed_radii
         return cls(
             R1 + tips[0],
@@ -269,23 +279,22 @@ class CutToothPairs(ToothPair):
         )
 
     def contact(self, x: Any) -> Any:
-        """Return f(x) = min(approach, recess): the angle alpha_2 of the driven tooth at contact, for |x| within the
-        reach.
+        """Return alpha_2 of the driven tooth in contact at alpha_1 = x [rad], for |x| up to `reach`.
+
+        It is f(x) = min(approach, recess).
         """
         return np.fmin(self.approach_angle(x, np), self.recess_angle(x, np))  # far out of reach one of them is NaN
 
     def approaches(self, x: Any) -> Any:
-        """Return whether the contact at x is in the approach phase."""
+        """Return a mask of the contacts at x that are in the approach phase."""
         return self.approach_angle(x, np) < self.recess_angle(x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio at x in the given phase; infinite if jamming teeth overlap below the end of the driven
-        flank.
-        """
+        """Return the speed ratio at x in the given phase; infinite if jamming teeth overlap below the driven flank."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
-        """Return some of the tooth pairs, or all in another order: `pick` is applied to every constant."""
+        """Return selected tooth pairs, or all in another order; the function `pick` is applied to every array."""
         # without __init__, which would recompute every constant
         found = CutToothPairs.__new__(CutToothPairs)
         found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
@@ -294,12 +303,12 @@ class CutToothPairs(ToothPair):
         return found
 
     def rolled(self, n: int) -> CutToothPairs:
-        """Return the tooth pairs rotated by n: each is replaced by the one n before it in the cycle."""
+        """Return the tooth pairs cyclically shifted: each is replaced by the pair n before it in the cycle."""
         return self if n == 0 else self.picked(lambda each: np.roll(each, n, -1) if np.ndim(each) else each)
 
     @property
     def leaning(self) -> NDArray[np.bool_]:
-        """True if a flank is inclined beyond the perpendicular when the tips meet."""
+        """Mask of pairs in which a flank leans beyond the perpendicular when the tips meet."""
         # rounding errors may exceed 1
         flank = np.arcsin(np.clip(np.maximum(abs(self.sin1), abs(self.sin2)), -1.0, 1.0))
         turned = np.maximum(self.reach, 0.0) - self.side * self.exit_angle
@@ -308,13 +317,13 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the reach of wheel 1, equation (4)."""
+    """Return the sine of half the angle within which the teeth of wheel 1 can touch, equation (4)."""
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
 
 @dataclass(frozen=True)
 class CutGearPair:
-    """Pair of cut wheels, the first driving, with a centre distance; `sizes` are the sizes without errors."""
+    """Pair of cut wheels at a centre distance, the first driving; `sizes` are the nominal sizes."""
 
     sizes: TriangularSizes
     first: CutWheel
@@ -329,11 +338,11 @@ class CutGearPair:
 
     @cached_property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the trials: () for one pair."""
+        """Shape of the trials; () for a single pair."""
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def tooth_pairs(self, k: Any) -> CutToothPairs:
-        """Return the tooth pairs with the numbers k, counted through all turns."""
+        """Return the tooth pairs with the numbers k, which are counted through all turns."""
         i = k % self.sizes.z1
         j = k % self.sizes.z2
         one, two, sizes = self.first, self.second, self.sizes
@@ -342,12 +351,14 @@ class CutGearPair:
         return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the angles by which both teeth of the tooth pairs k are late [rad, each of its own wheel]."""
+        """Return the pitch deviations of both teeth of the tooth pairs k [rad of its own wheel], positive backwards."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
     def mirrored(self) -> CutGearPair:
-        """Pair turning the other way. Its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
+        """Mirror image of the pair, which turns the other way.
+
+        Its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
 
         If U' is the lag of the mirrored pair at first contact, the back flanks here meet at L(t) = -U'(-t) - p2.
         """
@@ -355,7 +366,9 @@ class CutGearPair:
 
     @cached_property
     def widest(self) -> float:
-        """Maximum reach of any tooth pair [rad of the driver]; -inf if no teeth can touch."""
+        """Upper bound of the angle |alpha_1| at which any tooth pair can touch [rad of the driver]; -inf if none can
+        touch.
+        """
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
         R1, R2 = sizes.signed_radii
@@ -366,7 +379,7 @@ class CutGearPair:
 
     @cached_property
     def leans(self) -> Bools:
-        """Mask of the trials in which a flank is inclined beyond the perpendicular when the tips of its pair meet."""
+        """Mask of the trials in which a flank leans beyond the perpendicular when the tips of its pair meet."""
         k = np.arange(self.count)
         both = [np.atleast_2d(each.leaning).any(axis=1) for each in (self.tooth_pairs(k), self.mirrored.tooth_pairs(k))]
         found: Bools = np.broadcast_to(both[0] | both[1], self.trials or (1,)).copy()

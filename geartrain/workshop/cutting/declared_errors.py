@@ -1,4 +1,6 @@
-"""Errors that a train declares, as fractions of pitch, depth and half angle, and overrides of these errors."""
+"""Manufacturing errors that a train declares, as fractions of pitch, depth and half angle, and overrides of these
+errors.
+"""
 
 from __future__ import annotations
 
@@ -29,24 +31,26 @@ MOST = {
     "centre": 2.0,
     "bearing": 2.0,
 }
-"""Maximum sizes, as fractions of pitch, half angle and depth. A larger error leaves no tooth."""
+"""Upper limits of errors as fractions of pitch, half angle or depth; a larger error leaves no tooth."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorSpecification:
-    """Error of fixed value `size`, or random with the standard deviation or half width `size`, as a fraction."""
+    """Error as a fraction: fixed value `size`, or random with the standard deviation or half width `size`."""
 
     size: float = 0.0
     way: ErrorDistributionKind = "value"
 
     def times(self, factor: float) -> ErrorSpecification:
-        """Return the error multiplied by a factor."""
+        """Return the error with its size multiplied by a factor."""
         return replace(self, size=self.size * factor)
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces the declared one: kind, distribution and amount, for one wheel or pair (`of`) or for all."""
+    """Error that replaces the declared one: kind, distribution and amount, for the wheel or pair `of`, or for all if
+    empty.
+    """
 
     kind: str
     way: ErrorDistributionKind
@@ -58,7 +62,7 @@ class ErrorOverride:
 class WheelErrors:
     """Errors of one wheel.
 
-    pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth divided by its tip radius
+    pitch, half_angle  of the perfect wheel (rad); `depth` of its teeth over its tip radius
     ring               True for an internal wheel
     errors             by kind: pitch_deviation in pitches, aperture_deviation in half angles, the others in depths
     towards            direction of the eccentricity from the first tooth (rad); None for a random direction
@@ -82,7 +86,7 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Depth of a tooth divided by the tip radius; for displaced flanks in modules, for bevel gears in rad."""
+        """Tooth depth over the tip radius; for displaced flanks in modules, for bevel gears in rad."""
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property
@@ -92,7 +96,7 @@ class WheelErrors:
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
-    """Parse errors of cutting and fitting that replace the declared errors of a train.
+    """Return errors of cutting and mounting that replace the declared errors of a train, parsed from texts.
 
     Parameters
     ----------
@@ -128,7 +132,7 @@ def _setting(text: str) -> ErrorOverride:
     if not sign or kind not in ERROR_KINDS:
         fix = f"write KIND=SIZE or NAME.KIND=SIZE; KIND is one of {', '.join(ERROR_KINDS)}"
         why = "an error is set by its kind and its size, such as 'tip=3 %'"
-        raise QuestionError(Problem(f"'{text}' does not set an error", why, fix))
+        raise QuestionError(Problem(f"'{text}' is not a valid setting of an error", why, fix))
     # errors quoted without a distribution are usually standard deviations
     way: ErrorDistributionKind = "normal"
     for each in ("value", "normal", "uniform"):
@@ -139,7 +143,7 @@ def _setting(text: str) -> ErrorOverride:
         amount = Quantity.parse(said.strip(), unit, plain=True)
     except PydanticCustomError as error:
         fix = str((error.context or {}).get("fix", "give a size"))
-        raise QuestionError(Problem(f"'{text}' does not set an error", error.message(), fix)) from None
+        raise QuestionError(Problem(f"'{text}' is not a valid setting of an error", error.message(), fix)) from None
     if way != "value" and amount.value < 0:
         what = f"the size in '{text}' is negative"
         why = "the standard deviation or half width of a distribution is 0 or more"
@@ -149,7 +153,7 @@ def _setting(text: str) -> ErrorOverride:
 
 
 def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs: Sequence[str]) -> None:
-    """Raise `QuestionError` if an override names a wheel or pair that the train does not have, or that is not cut."""
+    """Raise `QuestionError` if an override names a wheel or pair that is not in the trials."""
     for each in settings:
         known = wheels if each.kind in OF_WHEELS else pairs
         if each.of and each.of not in known:
@@ -160,8 +164,9 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """Return the errors of one wheel: its own or those of the train, then overrides; `RangeError` if larger than a
-    tooth.
+    """Return the errors of one wheel: its own or those of the train, with overrides applied.
+
+    Raises `RangeError` if an error is larger than a tooth.
     """
     name = even.name
     link, wheel = train.wheels[name]
@@ -184,7 +189,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
-    """Return the errors of the axes of a pair, as fractions of the depth of the wheel `lesser`, which has the smaller
+    """Return the errors of the axes of a pair, as fractions of the tooth depth of `lesser`, the wheel with the smaller
     depth.
     """
     fitting = mesh.gear.fitting or train.fitting
@@ -198,9 +203,7 @@ def pair_errors(
 
 
 def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
-    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is
-    not filed.
-    """
+    """Return the depth of one stroke of the file over the smaller tooth depth; 0 if the pair is not filed."""
     fitting = mesh.gear.fitting or train.fitting
     filing = fitting.filing if fitting is not None else None
     return _pair_reader(train, mesh, lesser).fraction("stroke", filing.stroke) if filing is not None else 0.0
@@ -211,7 +214,7 @@ def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the unit of each fraction: an angle [rad], or a length [m] (None if no module with a unit is declared)."""
+    """Return the unit of each fraction by kind: an angle [rad] or a length [m]; None without a module with a unit."""
     deep = None
     module = wheel.transverse_module
     if module is not None:
@@ -228,7 +231,7 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Reader of the errors of one wheel or pair as fractions."""
+    """Converter of the declared errors of one wheel or pair to fractions."""
 
     place: str
     name: str

@@ -1,4 +1,4 @@
-"""Pair of wheels with displaced flanks: which tooth pair drives, and the backlash to the opposite flanks.
+"""Pair of wheels with displaced flanks: the tooth pair that drives, and the backlash to the opposite flanks.
 
 Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. The leading
 flank of the driver pushes the trailing flank of the driven tooth. The trailing flank of the driver faces the leading
@@ -41,28 +41,28 @@ _FINE = 512  # positions per pitch for the mean of a lag, which has a few kinks
 
 @dataclass(frozen=True, slots=True)
 class DisplacedWheel:
-    """Wheel with displaced flanks, as arrays (..., z) with trials as leading axes; `e` and `towards` have one value per
-    trial.
+    """Wheel with displaced flanks.
+
+    Arrays have shape (..., z) with trials as leading axes; `e` and `towards` have one value for each trial. Lengths
+    are in modules (bevel gears: rad).
     """
 
     place: Floats
     """Angle of each tooth behind its nominal position [rad]."""
     tip: Floats
-    """Height of each tip above nominal."""
+    """Height of each tip above nominal [module]."""
     leading: Floats
-    """Angle by which each leading flank is flatter, turned about its pitch point [rad]."""
+    """Angle by which each leading flank is flatter, rotated about its pitch point [rad]."""
     trailing: Floats
-    """Angle by which each trailing flank is flatter, turned about its pitch point [rad]."""
+    """Angle by which each trailing flank is flatter, rotated about its pitch point [rad]."""
     leading_low: Floats
-    """Depth by which each leading flank is lowered along its normal."""
+    """Depth of material removed from each leading flank along its normal [module]."""
     trailing_low: Floats
-    """Depth by which each trailing flank is lowered along its normal."""
+    """Depth of material removed from each trailing flank along its normal [module]."""
     e: Any = 0.0
-    """Eccentricity: distance of the centre of the teeth from the axis."""
+    """Eccentricity: distance of the centre of the teeth from the axis [module]."""
     towards: Any = 0.0
-    """Direction of the eccentricity [rad], counted from the first tooth against the direction of rotation, like the
-    teeth.
-    """
+    """Direction of the eccentricity from the first tooth [rad], positive against the direction of rotation."""
 
     @classmethod
     def even(cls, z: int) -> DisplacedWheel:
@@ -76,13 +76,13 @@ class DisplacedWheel:
 
     @property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the leading axes: () for one wheel."""
+        """Shape of the leading axes; () for a single wheel."""
         shapes = (getattr(self, name).shape[:-1] for name in _OF_TEETH)
         return np.broadcast_shapes(*shapes, np.shape(self.e), np.shape(self.towards))
 
     @property
     def tips(self) -> Floats:
-        """Height of each tip above nominal, including the eccentricity."""
+        """Height of each tip above nominal, including the effect of the eccentricity [module]."""
         if not np.any(self.e):
             return self.tip
         angle = np.arange(self.z) * (2 * pi / self.z) - np.asarray(self.towards)[..., None]
@@ -90,24 +90,28 @@ class DisplacedWheel:
         return found
 
     def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
-        """Return the flattening angles and the lowering depths of one side of the teeth."""
+        """Return the flattening angles [rad] and the depths of removed material [module] of the trailing or leading
+        flanks.
+        """
         return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
 
     @property
     def cuttable(self) -> Bools:
-        """Mask (..., z): True if a tooth and the next one keep their order."""
+        """Mask of shape (..., z): True if the next tooth follows in the nominal order."""
         found: Bools = np.roll(self.place, -1, -1) - self.place > -2 * pi / self.z
         return found
 
     def taken(self, part: slice | NDArray[np.int64]) -> DisplacedWheel:
-        """Return the wheels of some trials; arrays shared by all trials are kept."""
+        """Return the wheels of selected trials; arrays common to all trials are not copied."""
         teeth = {name: getattr(self, name) for name in _OF_TEETH}
         some = {name: each[part] if each.ndim > 1 else each for name, each in teeth.items()}
         e, towards = (each[part] if np.ndim(each) else each for each in (self.e, self.towards))
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """Return the mirrored wheel, turning the other way; its tooth i is tooth `first` - i of this one."""
+        """Return the mirror image of the wheel, which turns the other way; its tooth i is tooth `first` - i of this
+        wheel.
+        """
         order = (first - np.arange(self.z)) % self.z
         return DisplacedWheel(
             -self.place[..., order],
@@ -121,28 +125,30 @@ class DisplacedWheel:
         )
 
     def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
-        """Return the wheel with its flanks lowered further."""
+        """Return the wheel with more material removed from its flanks [module], arrays of shape (trials, z)."""
         return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lag of tooth pairs on one side at one position of the driver within a pitch, by the number n of
-    pitches passed.
+    """Lag of the tooth pairs on the front or back flanks at one position of the driver within a pitch.
+
+    It is the sum of a term of each wheel, indexed by the number n of pitches passed.
     """
 
     driver: Any
-    """Contribution of the driver to the lag [rad of the driven wheel], (trials, z), indexed by its n."""
+    """Term of the driver [rad of the driven wheel], shape (trials, z), indexed by its own n."""
     driven: Any
-    """Contribution of the driven wheel to the lag [rad of the driven wheel], (trials, z), indexed by its n."""
+    """Term of the driven wheel [rad of the driven wheel], shape (trials, z), indexed by its own n."""
     pitches: int
-    """Number of pitches by which the driving tooth of the pair came earlier."""
+    """Number of pitches by which the driving tooth of this pair came earlier."""
 
 
 @dataclass(frozen=True)
 class DisplacedPair:
-    """Pair of wheels with displaced flanks, the first driving; `shift` increases the centre distance (one value or one
-    each).
+    """Pair of wheels with displaced flanks, the first driving.
+
+    `shift` is the increase of the centre distance [module], one value or one for each trial.
     """
 
     contact: DisplacedContact
@@ -162,17 +168,19 @@ class DisplacedPair:
 
     @cached_property
     def trials(self) -> tuple[int, ...]:
-        """Shape of the trials: () for one pair."""
+        """Shape of the trials; () for a single pair."""
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
-        """Return some of the trials."""
+        """Return the pair with selected trials."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         return DisplacedPair(self.contact, self.first.taken(rows), self.second.taken(rows), shift)
 
     @cached_property
     def widest(self) -> tuple[float, float]:
-        """First and last angle, relative to the position of a tooth, at which it can touch [rad of the driver]."""
+        """First and last angle, relative to the nominal position of a tooth, at which it can touch [rad of the
+        driver].
+        """
         at, (leaving, entering) = self.contact, self._end_margins
         return at.start - at.entering.most - entering, at.end + at.leaving.most + leaving
 
@@ -184,9 +192,7 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which a tooth reaches the end of its path earlier, or its start later, because
-        of errors.
-        """
+        """Maximum angles by which errors advance the end of contact and the start of contact [rad of the driver]."""
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
@@ -195,8 +201,8 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the terms of all tooth pairs on one side that may have the minimum lag, with the driver u beyond a
-        pitch.
+        """Yield the terms of all tooth pairs that may have the minimum lag, with the driver at the angle u within a
+        pitch [rad].
         """
         sign = -1.0 if back else 1.0
         low, high = self.widest
@@ -215,7 +221,7 @@ class DisplacedPair:
 
     @cached_property
     def _spread(self) -> float:
-        """Upper bound of the difference that errors make between two tooth pairs [rad of the driven wheel]."""
+        """Upper bound of the difference of the lags of two tooth pairs due to errors [rad of the driven wheel]."""
         at, found = self.contact, 0.0
         for gear, wheel in enumerate((self.first, self.second)):
             flanks = np.maximum(np.abs(wheel.leading).max(initial=0.0), np.abs(wheel.trailing).max(initial=0.0))
@@ -233,22 +239,24 @@ class DisplacedPair:
         return max(float(np.diff(each.lags).max(initial=0.0)) / each.step for each in (at.entering, at.leaving))
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag of tips beyond the ends of the path of contact, with tips higher by given amounts."""
+        """Return the lag while tips touch beyond the ends of the path of contact [rad], for tips raised by given
+        amounts.
+        """
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
     def _even(self, x: Floats) -> Floats:
-        """Return the lag of perfect wheels, also beyond the ends of the path of contact."""
+        """Return the lag of perfect wheels [rad], also beyond the ends of the path of contact."""
         return np.asarray(self._along(self.contact.even, x) + self._kinks(x))
 
     def _along(self, column: Floats, x: Any) -> Any:
-        """Interpolate one column of the contact at x, as in `_columns`."""
+        """Return one column of the contact interpolated linearly at x [rad]; it is constant beyond the ends."""
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Floats) -> list[Floats]:
-        """Interpolate all columns of the contact at x linearly; they are constant beyond the ends.
+        """Return all columns of the contact interpolated linearly at x [rad]; they are constant beyond the ends.
 
         Order: across, along and tilt of both wheels, normal, even, apart.
         """
@@ -262,7 +270,7 @@ class DisplacedPair:
         return [each[low] + (each[low + 1] - each[low]) * part for each in columns]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Evaluate equation (2) separately for both wheels at one x; teeth are indexed by n = tooth + j.
+        """Return the terms of equation (2) for both wheels at one x [rad]; teeth are indexed by n = tooth + j.
 
         late    (trials, z): angle by which the driver is later for each n (rad); tips are then taken as nominal
         """
@@ -287,13 +295,13 @@ class DisplacedPair:
         driver = np.roll(own, j, -1) + self._eccentric_terms(one, u, 0.0, -t1 * sign, -y1)
         turned = ratio * u - sign * even
         driven = np.roll(other, j - back, -1) + self._eccentric_terms(
-            two, turned, at.stands + back * at.backlash, t2 * sign, y2
+            two, turned, at.tooth_phase + back * at.backlash, t2 * sign, y2
         )
         return SideTerms(driver, driven, j)
 
     @staticmethod
     def _eccentric_terms(wheel: DisplacedWheel, turned: float, stands: float, across: float, along: float) -> Any:
-        """Return the contribution of an eccentric wheel after each number of pitches."""
+        """Return the term of an eccentric wheel after each number of pitches [rad of the driven wheel]."""
         if not np.any(wheel.e):
             return 0.0
         angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + stands
@@ -303,7 +311,9 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield a front and a back tooth pair, for all that meet at some position of the driver within a pitch."""
+        """Yield the terms of a front and of a back tooth pair, for all that touch at the same position of the
+        driver.
+        """
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
@@ -311,7 +321,7 @@ class DisplacedPair:
             yield from product(self.side_terms(u, False), self.side_terms(u, True))
 
     def backlash(self) -> Floats:
-        """Return the minimum backlash over the whole meshing cycle [rad of the driven wheel], (trials,).
+        """Return the minimum backlash over the whole meshing cycle [rad of the driven wheel], shape (trials,).
 
         The contributions of the wheels are separate, so the minimum sum over all tooth pairs is the sum of minimum
         terms.
@@ -322,7 +332,9 @@ class DisplacedPair:
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash with the most protruding of the four flanks involved."""
+        """Return the position of minimum backlash, with the flank that protrudes most among the four in contact
+        there.
+        """
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
@@ -335,7 +347,9 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the most protruding of the four flanks that meet, in some trials."""
+        """Return wheel, tooth and side of the flank that protrudes most among the four in contact, in selected
+        trials.
+        """
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         left = np.stack(
@@ -358,19 +372,21 @@ class DisplacedPair:
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """Return the pair with its flanks lowered by arrays (trials, 2 sides, z) of both wheels."""
+        """Return the pair with material removed from the flanks [module], by one array (trials, 2 sides, z) for each
+        wheel.
+        """
         first, second = (
             wheel.filed(each[:, 0], each[:, 1]) for wheel, each in zip((self.first, self.second), low, strict=True)
         )
         return DisplacedPair(self.contact, first, second, self.shift)
 
     def verdicts(self) -> MeshingVerdicts:
-        """Return the events of each trial over the whole meshing cycle."""
+        """Return the events (jam, clash, dwell, loss of contact) of each trial over the whole meshing cycle."""
         clash, dwell = self.tip_contacts(True), self.tip_contacts(False)
         return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged(), np.zeros(self.trials, bool))
 
     def disengaged(self) -> Bools:
-        """Return a mask (trials,): True if at some position no tooth pair is in reach."""
+        """Return a mask of shape (trials,): True if no tooth pair can touch at some position."""
         at = self.contact
         whole = (at.end + at.leaving.most) - (at.start - at.entering.most)
         gap = at.pitches[0] + np.roll(self.first.place, -1, -1) - self.first.place
@@ -378,7 +394,7 @@ class DisplacedPair:
         return found
 
     def tip_contacts(self, entering: bool) -> Bools:
-        """Return a mask (trials,) of contacts of tip on tip, where a tooth pair enters or where it leaves.
+        """Return a mask of shape (trials,): True if tip meets tip where a tooth pair enters (`entering`) or leaves.
 
         At an entry this is a clash, at an exit a dwell. It occurs if the neighbouring pair, which should hold the
         driven wheel, gives it a larger lag than the pair itself.
@@ -403,21 +419,23 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k (on the back side: the lead), with the driver at S
-        [rad].
+        """Return the lag of the driven wheel due to tooth pairs k with the driver at angles S [rad]; for back flanks
+        the lead.
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
         place = of_teeth(one.place, rows, i)
+        # position in the path of contact; the back flanks use the mirrored path
         x = sign * (S - k * at.pitches[0] - place)
         (flank1, low1), (flank2, low2) = one.flanks(back), two.flanks(not back)
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         t1, t2, y1, y2, l1, l2, w, even, apart = self._columns(x)
+        # to first order, the contributions of pitch, flank, depth and eccentricity add up
         lag = sign * (ratio * place - of_teeth(two.place, rows, j)) + even + apart * shift
         lag = lag - of_teeth(flank1, rows, i) * l1 + of_teeth(flank2, rows, j) * l2
         lag = lag + (of_teeth(low1, rows, i) + of_teeth(low2, rows, j)) * w
-        turned = ratio * S - sign * even + at.stands + back * at.backlash
+        turned = ratio * S - sign * even + at.tooth_phase + back * at.backlash
         for wheel, angle, across, along in ((one, S, -t1, -y1), (two, turned, t2, y2)):
             if np.any(wheel.e):
                 e, towards = (each[rows] if np.ndim(each) else each for each in (wheel.e, wheel.towards))
@@ -426,7 +444,9 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag over all tooth pairs at driver angles S, and its tooth pair; inf if no teeth touch."""
+        """Return the minimum lag over all tooth pairs at driver angles S [rad], and its tooth pair; inf without
+        contact.
+        """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
         low, high = self.widest
@@ -440,12 +460,12 @@ class DisplacedPair:
 
 
 def even_backlash(contact: DisplacedContact) -> float:
-    """Return the minimum backlash of perfect wheels [rad of the driven wheel]."""
+    """Return the minimum backlash of wheels without errors [rad of the driven wheel]."""
     return float(DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels)).backlash())
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of perfect wheels [rad of the driven wheel]; 0 at the nominal centre distance."""
+    """Return the mean lag of wheels without errors [rad of the driven wheel]; 0 at the nominal centre distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
@@ -454,25 +474,29 @@ def mean_lag(contact: DisplacedContact) -> float:
 
 
 def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:
-    """Return terms of some trials, one tooth number for each."""
+    """Return the terms of selected trials, for one tooth number in each trial."""
     return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
 
 
 def _by_residue(driver: Any, driven: Any) -> list[Floats]:
-    """Group the terms of both wheels by residue class modulo gcd(z1, z2); teeth of one class meet in the cycle."""
+    """Return the terms of both wheels grouped by residue class modulo gcd(z1, z2): teeth of one class meet in the
+    cycle.
+    """
     rests = gcd(driver.shape[-1], driven.shape[-1])
     return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
 
 def minimum_sum(driver: Any, driven: Any) -> Floats:
-    """Return the minimum sum of a driver's term and a driven wheel's term that meet in the cycle."""
+    """Return the minimum sum of a term of the driver and a term of the driven wheel over all teeth that meet in the
+    cycle.
+    """
     one, two = _by_residue(driver, driven)
     found: Floats = (one.min(axis=-2) + two.min(axis=-2)).min(axis=-1)
     return found
 
 
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """Return the minimum sum as in `minimum_sum`, and the numbers of both terms, (trials,)."""
+    """Return the minimum sum as in `minimum_sum`, and the indices of its two terms, each of shape (trials,)."""
     one, two = _by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]
     total = one.min(axis=1) + two.min(axis=1)

@@ -1,4 +1,4 @@
-"""Filing to fit: a pair is turned through its cycle, and a tooth that jams is filed until it passes.
+"""Filing of pairs to fit: a pair is turned through its cycle, and a tooth that jams is filed until it passes.
 
 At minimum backlash, four flanks of two tooth pairs are in contact. The most protruding of them is filed until the tooth
 pairs pass. This is repeated at the next tightest position, until the pair turns through its cycle.
@@ -24,20 +24,22 @@ _ROUNDS = 4000  # maximum iterations: enough to file every flank of a pair twice
 
 @dataclass(frozen=True)
 class TightPlace:
-    """Position of minimum backlash of each of some pairs, and the flank to file there."""
+    """Position of minimum backlash of each pair, and the flank to file there."""
 
     backlash: Floats
     """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
     wheel: Ints
-    """Wheel to file: 0 driver, 1 driven wheel. `tooth` is its tooth and `side` the flank: 0 leading, 1 trailing."""
+    """Wheel to file: 0 for the driver, 1 for the driven wheel; `tooth` is its tooth, `side` its flank: 0 leading, 1
+    trailing.
+    """
     tooth: Ints
     side: Ints
     gain: Floats
-    """Maximum increase of the backlash when the flank is lowered by one unit of length [rad of the driven wheel]."""
+    """Maximum increase of the backlash per unit depth of filing [rad of the driven wheel per unit of length]."""
 
 
 class FileablePair(Protocol):
-    """Pairs of cut wheels whose flanks can be filed."""
+    """Pairs of cut wheels whose flanks can be filed, one pair for each trial."""
 
     @property
     def trials(self) -> tuple[int, ...]:
@@ -48,13 +50,13 @@ class FileablePair(Protocol):
         """Numbers of teeth of the driver and of the driven wheel."""
 
     def taken(self, rows: Ints) -> Self:
-        """Return some of the trials."""
+        """Return the pairs of selected trials."""
 
     def tight_place(self) -> TightPlace:
         """Return the position of minimum backlash of each pair."""
 
     def filed(self, low: tuple[Floats, Floats]) -> Self:
-        """Return the pairs with flanks lowered by arrays (trials, 2 sides, z) of each wheel."""
+        """Return the pairs with material removed from the flanks by one array (trials, 2 sides, z) for each wheel."""
 
 
 Pair = TypeVar("Pair", bound=FileablePair)
@@ -62,25 +64,25 @@ Pair = TypeVar("Pair", bound=FileablePair)
 
 @dataclass(frozen=True)
 class FilingWork(Generic[Pair]):
-    """Result of filing many pairs: the filed pairs, and the numbers of strokes and of filed teeth, (trials,)."""
+    """Result of filing many pairs: the filed pairs, numbers of strokes and numbers of filed teeth, shape (trials,)."""
 
     pair: Pair
     strokes: Ints
     teeth: Ints
     low: tuple[Floats, Floats]
-    """Depth by which each flank of each wheel is lowered, (trials, 2 sides, z)."""
+    """Depth of material removed from each flank of each wheel, shape (trials, 2 sides, z)."""
 
     @property
     def filed(self) -> Bools:
-        """Mask of the trials in which the pair was filed."""
+        """Mask of the trials in which the pair was filed, shape (trials,)."""
         found: Bools = self.strokes > 0
         return found
 
 
 def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
-    """Lower the flanks of pairs by filing until they pass, one `stroke` of depth at a time.
+    """Return pairs filed until they pass, one `stroke` of depth at a time.
 
-    A pair is given up, and still jams, if a flank would be lowered by more than `deepest`.
+    A pair remains jammed if more than `deepest` would have to be removed from a flank.
     """
     count = pair.trials[0]
     low = tuple(np.zeros((count, 2, z)) for z in pair.teeth)
@@ -132,17 +134,19 @@ class FileableCutPair:
         return self.pair.first.z, self.pair.second.z
 
     def taken(self, rows: Ints) -> FileableCutPair:
-        """Return some of the trials."""
+        """Return the pairs of selected trials."""
         return FileableCutPair(taken(self.pair, rows))
 
     def filed(self, low: tuple[Floats, Floats]) -> FileableCutPair:
-        """Return the pairs with flanks lowered by arrays (trials, 2 sides, z) of each wheel."""
+        """Return the pairs with material removed from the flanks by one array (trials, 2 sides, z) for each wheel."""
         pair = self.pair
         first, second = pair.first.filed(low[0][:, 0], low[0][:, 1]), pair.second.filed(low[1][:, 0], low[1][:, 1])
         return FileableCutPair(CutGearPair(pair.sizes, first, second, pair.shift))
 
     def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash of each pair, with the most protruding of the four flanks there."""
+        """Return the position of minimum backlash of each pair, with the flank that protrudes most among the four in
+        contact.
+        """
         parts = [MeshingCycle(part).tightest() for part in chunks(self.pair, CHUNK // self.pair.count)]
         backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
         rows, (z1, z2), sizes = np.arange(len(backlash)), self.teeth, self.pair.sizes
@@ -162,12 +166,13 @@ class FileableCutPair:
         # a flank is inclined by its half angle plus the reach, which gives a lower bound of the moment arm
         lean = max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2
         nearest = sizes.R2 if sizes.ring == 2 else sizes.R2 - sizes.depths[1]
+        # the lower limit of 0.1 keeps the gain finite for flanks almost parallel to the motion
         gain = 1 / (nearest * max(cos(min(lean, 1.4)), 0.1))
         return TightPlace(backlash, flank // 2, teeth[flank, rows], flank % 2, np.full(len(backlash), gain))
 
 
 def _flank_height(wheel: CutWheel, side: int) -> Floats:
-    """Return the height of each leading or trailing flank along its normal halfway down the tooth, (trials, z)."""
+    """Return the height of each flank along its normal above nominal, halfway down the tooth, shape (trials, z)."""
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
     half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
     found = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean

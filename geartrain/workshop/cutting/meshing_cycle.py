@@ -50,40 +50,44 @@ _UNSURE = 1e-4  # driven pitches: a smaller backlash is recomputed without table
 
 @dataclass(frozen=True, slots=True)
 class MeshingVerdicts:
-    """Events of each trial, as arrays (trials,)."""
+    """Events of each trial over the meshing cycle, as arrays of shape (trials,)."""
 
     backlash: Floats
-    """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if front and back flanks overlap
-    (jam), inf if no teeth touch.
+    """Minimum backlash over the meshing cycle [rad of the driven wheel].
+
+    It is negative if front and back flanks overlap (jam), and inf if no teeth touch.
     """
     clash: Bools
-    """Clash: a tooth enters against a tip or in front of it while the driven wheel drags.
+    """Mask of clashes: a tooth enters with its tip against or ahead of the mate's tip while the driven wheel drags.
 
     The pair then locks or, rarely, skips a tooth; turning the driven wheel by hand within its backlash may free it.
     """
     dwell: Bools
-    """Dwell: the driven wheel stops somewhere until the next tooth reaches it."""
+    """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
     disengaged: Bools
-    """Loss of contact: at some position no tooth is in reach."""
+    """Mask of losses of contact: at some position no tooth can touch."""
     leans: Bools
-    """True if a flank is inclined beyond the perpendicular when tips meet; which tooth pair touches first is then
-    uncertain.
+    """Mask of trials with a flank that leans beyond the perpendicular when tips meet.
+
+    The tooth pair that touches first is then uncertain.
     """
 
     @property
     def jams(self) -> Bools:
-        """True if flanks jam: the pair cannot turn, wherever the driven wheel is within its backlash."""
+        """Mask of jams: the pair cannot turn, whatever the position of the driven wheel within its backlash."""
         stuck: Bools = self.backlash < 0
         return stuck
 
     @property
     def stops(self) -> Bools:
-        """True if the pair with a dragging driven wheel cannot turn through its cycle, because of a jam or a clash."""
+        """Mask of pairs that cannot turn through their cycle with a dragging driven wheel, because of a jam or a
+        clash.
+        """
         return self.jams | self.clash
 
     @classmethod
     def joined(cls, parts: list[MeshingVerdicts]) -> MeshingVerdicts:
-        """Combine the verdicts of several batches."""
+        """Return the verdicts of several batches, concatenated."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
@@ -95,7 +99,7 @@ def batch_verdicts(
     shift: Any = 0.0,
     chunk: int = CHUNK,
 ) -> MeshingVerdicts:
-    """Return the events of each trial, for wheels with arrays (trials, z), or (z,) if all trials share one.
+    """Return the events of each trial, for wheels with arrays (trials, z), or (z,) for a wheel common to all trials.
 
     shift   increase of the centre distance [unit of the radii], one value or (trials,)
     chunk   number of tooth pairs processed at once
@@ -112,7 +116,7 @@ def batch_verdicts(
     if len(whole.trials) != 1 or whole.trials[0] < 1:
         raise RangeError(
             Problem(
-                f"the trials have the shape {whole.trials}",
+                f"wheels with trials of shape {whole.trials} are not a batch",
                 "a batch has one axis of trials, with at least one trial",
                 "give arrays of shape (trials, z) for at least one of the wheels",
             )
@@ -142,20 +146,20 @@ def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def taken(pair: CutGearPair, part: slice | Ints) -> CutGearPair:
-    """Return some trials of a batch."""
+    """Return selected trials of a batch."""
     shift = pair.shift if np.ndim(pair.shift) == 0 else pair.shift[part]
     return CutGearPair(pair.sizes, pair.first.taken(part), pair.second.taken(part), shift)
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
-    """Yield a batch in parts of some trials, at least one."""
+    """Yield a batch in parts of at most `trials` trials."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
         yield taken(pair, slice(start, min(start + step, count)))
 
 
 def _parts(chosen: Bools, size: int) -> Iterator[NDArray[np.int64]]:
-    """Yield the indices of the chosen rows, `size` at a time."""
+    """Yield the indices of the true entries, at most `size` at a time."""
     rows = np.flatnonzero(chosen)
     for start in range(0, len(rows), max(1, size)):
         yield rows[start : start + max(1, size)]
@@ -165,11 +169,11 @@ def _some(pair: CutGearPair, rows: NDArray[np.int64]) -> CutGearPair:
     return CutGearPair(pair.sizes, pair.first.taken(rows), pair.second.taken(rows), pair.shift)
 
 
-# ----------------------------------------------------------------------------------------------------- couple by couple
+# --------------------------------------------------------------------------------------------- tooth pair by tooth pair
 
 
 def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
-    """Return the events of each trial of a batch, found pair by pair."""
+    """Return the events of each trial of a batch, computed tooth pair by tooth pair."""
     cycle = MeshingCycle(pair)
     backlash, dwell, clash = cycle.backlash(), cycle.dwells(), cycle.clashes()
     if dwell.any():
@@ -178,7 +182,7 @@ def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
 
 
 class MeshingCycle:
-    """Tooth pairs of a full meshing cycle, for all trials of a batch: arrays (trials, tooth pairs)."""
+    """Tooth pairs of a full meshing cycle for all trials of a batch, as arrays (trials, tooth pairs)."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes, self.trials = pair, pair.sizes, pair.trials[0]
@@ -188,14 +192,14 @@ class MeshingCycle:
         self.back = pair.mirrored.tooth_pairs(-k)
         self.driver, self.driven = pair.places(k)
 
-    # ---------------------------------------------------------------------------------------------------------- places
+    # ------------------------------------------------------------------------------------------------------- positions
 
     def ahead(self, n: int) -> Any:
-        """Return the angle of each driving tooth behind the one n tooth pairs before it [rad]."""
+        """Return the angle of each driving tooth behind the driving tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p1 + (self.driver - np.roll(self.driver, n, -1))
 
     def apart(self, n: int) -> Any:
-        """Return the angle of each driven tooth behind the one n tooth pairs before it [rad]."""
+        """Return the angle of each driven tooth behind the driven tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p2 + (self.driven - np.roll(self.driven, n, -1))
 
     def _all(self, found: Any) -> Any:
@@ -204,11 +208,11 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def backlash(self) -> Floats:
-        """Return the minimum backlash of each trial [rad of the driven wheel], (trials,)."""
+        """Return the minimum backlash of each trial [rad of the driven wheel], shape (trials,)."""
         return self.tightest()[0]
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Return for each trial the minimum backlash, its front tooth pair, and the distance of its back pair.
+        """Return for each trial the minimum backlash, its front tooth pair, and the distance to its back tooth pair.
 
         The distance is the number of tooth pairs by which the back pair precedes the front pair.
 
@@ -228,8 +232,8 @@ class MeshingCycle:
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
-        """Compute the exact backlash of every tooth pair that may have the minimum, adapting the margin of the
-        estimates.
+        """Compute the exact backlash of every tooth pair that may have the minimum; the margin of the estimates is
+        adapted.
         """
         slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
@@ -249,9 +253,7 @@ class MeshingCycle:
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _candidates(self) -> list[tuple[float, BacklashCandidate]]:
-        """Return the candidates of jamming with a lower bound of their backlash under errors of this size, in ascending
-        order.
-        """
+        """Return the candidates of minimum backlash with a lower bound for errors of this size, in ascending order."""
         found = backlash_candidates(self.sizes, farthest(self.pair))
         nearest = {
             each.n: each.backlash for each in reversed(found)
@@ -265,14 +267,16 @@ class MeshingCycle:
         return sorted(((bounds[each.n], each) for each in near), key=lambda pair: pair[0])
 
     def _pitch_deviation_bound(self, n: int) -> float:
-        """Return an upper bound of the backlash that pitch deviations take from a front and back pair n apart [rad]."""
+        """Return an upper bound of the reduction of backlash by pitch deviations, for front and back pairs n apart
+        [rad].
+        """
         driver = float(np.abs(self.ahead(n) - n * self.sizes.p1).max())
         driven = float(np.abs(self._driven_term(n) - (1 - n) * self.sizes.p2).max())
         # factors 1.2 here and 3 below are margins: a bound too wide only costs time, one too narrow would miss a jam
         return 1.2 * max(steepest(even_tooth_pair(self.sizes)), self.sizes.ratio) * driver + driven
 
     def _other_error_bound(self) -> float:
-        """Return an upper bound of the change of any backlash by heights, half angles and centre distance [rad]."""
+        """Return an upper bound of the change of backlash by errors of height, half angle and centre distance [rad]."""
         one, two, sizes = self.pair.first, self.pair.second, self.sizes
         tips = float(np.abs(one.tip).max() + np.abs(two.tip).max() + np.abs(self.pair.shift).max()) / sizes.R2
         flanks = max(float(np.abs(each).max()) for wheel in (one, two) for each in (wheel.leading, wheel.trailing))
@@ -282,8 +286,8 @@ class MeshingCycle:
         return float(3 * np.tan(steep) * tips + 3 * length * flanks)
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Estimate the backlash of every tooth pair at the position of the minimum for perfect wheels, which is an
-        upper bound.
+        """Return an upper bound of the backlash of every tooth pair: its value at the position of the nominal minimum
+        [rad].
         """
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
@@ -293,13 +297,13 @@ class MeshingCycle:
             return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
     def _driven_term(self, n: int) -> Any:
-        """Return the contribution of the driven teeth to the backlash of a front pair and the back pair n before it
-        [rad].
-        """
+        """Return the term of the driven teeth in the backlash of a front pair and the back pair n before it [rad]."""
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Compute the backlash of one front tooth pair in each of some trials against the back pair n before it."""
+        """Return the backlash of one front tooth pair in each selected trial against the back pair n before it
+        [rad].
+        """
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each
@@ -312,15 +316,15 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return the maximum number of tooth pairs that can be in reach at once, plus one."""
+        """Return the maximum number of tooth pairs that can touch at once, plus one."""
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
             return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask (trials,) of dwells: where some tooth pair leaves, no later pair touches its driven
-        tooth yet.
+        """Return a mask of dwells, shape (trials,): a tooth pair leaves before a later pair touches its driven
+        tooth.
         """
         front = self.front
         stands: Any = np.array(self._all(self.front.reach > -inf))
@@ -336,7 +340,7 @@ class MeshingCycle:
         return found
 
     def clashes(self) -> Bools:
-        """Return a mask (trials,) of clashes: where some tooth pair enters, its driven tooth is held behind the tip."""
+        """Return a mask of clashes, shape (trials,): a tooth pair enters while its driven tooth is behind the tip."""
         tip = self._all(-self.front.exit_angle) + ROUNDING * self.sizes.p2
         y = np.where(self._all(self.front.reach > -inf), inf, -inf)
         for n in range(1, self._pairs_in_reach() + 2):
@@ -347,7 +351,7 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash at the entries of tooth pairs that stop the driven wheel, where it may dwell,
+        """Return the minimum backlash where back tooth pairs enter, at which the driven wheel may dwell [rad], shape
         (trials,).
         """
         y = np.full((self.trials, self.pair.count), inf)
@@ -358,8 +362,8 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return alpha_2 of each driven tooth as held by the pair n before, with its driving tooth at `reach`; inf if
-        none.
+        """Return alpha_2 of each driven tooth determined by the pair n before, with its driving tooth at `reach`; inf
+        without it.
         """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
@@ -368,13 +372,15 @@ class MeshingCycle:
 
     @staticmethod
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
-        """Return alpha_2 of the driven tooth in contact, or where the tooth pair has left it."""
+        """Return alpha_2 of the driven tooth in contact, or at the exit of its pair after that has left it [rad]."""
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask (trials,): True if at some position no pushing or no stopping tooth pair is in reach."""
+        """Return a mask of losses of contact, shape (trials,): at some position no front or no back tooth pair can
+        touch.
+        """
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -397,14 +403,16 @@ class MeshingCycle:
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """Return the events of each trial with pitch deviations only; doubtful trials are computed pair by pair."""
+    """Return the events of each trial with pitch deviations only; doubtful trials are computed tooth pair by tooth
+    pair.
+    """
     parts = [_verdicts(part, chunk) for part in chunks(pair, chunk // (pair.sizes.z1 + pair.sizes.z2))]
     return MeshingVerdicts.joined(parts)
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
-    """Return the minimum backlash over the cycle [rad of the driven wheel], (trials,), exact to a millionth
-    of a pitch.
+    """Return the minimum backlash over the cycle [rad of the driven wheel], shape (trials,), to a millionth of a
+    pitch.
     """
     sizes = _shifted(pair)
     driver, driven = pair.first.place, pair.second.place
@@ -424,9 +432,7 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
 
 
 def _extreme_sum(driver: Any, driven: Any, minimum: Any) -> Any:
-    """Return the minimum (or maximum) sum of a term of a driving and a term of a driven tooth that meet in
-    the cycle.
-    """
+    """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
     rests = gcd(driver.shape[-1], driven.shape[-1])
 
     def by_rest(each: Any) -> Any:
@@ -436,14 +442,14 @@ def _extreme_sum(driver: Any, driven: Any, minimum: Any) -> Any:
 
 
 def _next_power_of_two(spread: float) -> float:
-    """Round the spread up to a power of 2, so that few tables serve many batches."""
+    """Return the spread rounded up to a power of 2, so that few tables serve many batches."""
     # without pitch deviations the table is read at its middle, so any width will do
     return float(2.0 ** np.ceil(np.log2(spread))) if spread > 0 else 1e-9
 
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Tabulate J_n for two driving teeth whose distance differs by up to `spread` [rad] from nominal."""
+    """Return a table of J_n for two driving teeth whose distance deviates by up to `spread` from nominal [rad]."""
     nodes = np.linspace(-spread, spread, _NODES)
     tooth_pair = even_tooth_pair(sizes)
     values = minimum_sum(tooth_pair, tooth_pair, n * sizes.p1 + nodes)
@@ -454,7 +460,7 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
 
 
 def _interpolate(table: Floats, spread: float, apart: Any) -> Any:
-    """Interpolate linearly in a table over -spread..spread with equal steps."""
+    """Return values interpolated linearly in a table with equal steps from -spread to spread."""
     at = (apart + spread) * ((_NODES - 1) / (2 * spread))
     low = np.clip(at.astype(np.int64), 0, _NODES - 2)
     first = table[low]
@@ -462,9 +468,7 @@ def _interpolate(table: Floats, spread: float, apart: Any) -> Any:
 
 
 class _EntriesAndExits:
-    """Entries and exits of teeth with a common contact function: driving teeth give the angle, driven teeth
-    only add.
-    """
+    """Entries and exits of teeth with a common contact function: driven teeth only add their pitch deviations."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, _shifted(pair)
@@ -479,7 +483,7 @@ class _EntriesAndExits:
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its entry, as held by the pair n before, as two terms of either wheel.
+        """Return alpha_2 of a driven tooth at its entry, determined by the pair n before, as a term of each wheel.
 
         The terms are indexed by the tooth n before.
         """
@@ -487,7 +491,7 @@ class _EntriesAndExits:
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return alpha_2 of a driven tooth at its exit, as the pair n later would hold it, as two terms of either
+        """Return alpha_2 of a driven tooth at its exit, as the pair n later would determine it, as a term of each
         wheel.
         """
         driver, driven = self._between(n)
@@ -499,14 +503,16 @@ class _EntriesAndExits:
 
     @property
     def disengaged(self) -> Bools:
-        """Mask (trials,): True if at some position no tooth is in reach."""
+        """Mask of shape (trials,): True if at some position no tooth can touch."""
         gap = self._between(1)[0].max(axis=1) > 2 * self.reach + ROUNDING * self.sizes.p1
         found: Bools = np.broadcast_to(gap, self.pair.trials).copy()
         return found
 
     @property
     def doubtful(self) -> Bools:
-        """Mask (trials,): True if the next tooth pair may be too late somewhere, so that all pairs must be compared."""
+        """Mask of shape (trials,): True if the next tooth pair may be late somewhere, so that all pairs must be
+        compared.
+        """
         # far above rounding errors; closer cases are computed pair by pair
         near = 1e-9 * self.sizes.p2
         clash = _extreme_sum(*self._entering(1), np.maximum) > self.tip - near
@@ -515,8 +521,8 @@ class _EntriesAndExits:
         return found
 
     def events(self) -> tuple[Bools, Bools, Floats]:
-        """Return masks of clashes and dwells and the minimum backlash at entries of trials with a dwell (else inf),
-        (trials,).
+        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (otherwise
+        inf).
         """
         stands = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
         y = self._minimum(self._entering)
@@ -525,7 +531,7 @@ class _EntriesAndExits:
         return clash, stands, np.where(stands, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum over all neighbouring tooth pairs, for every tooth pair of the cycle, (trials, tooth
+        """Return the minimum over neighbouring tooth pairs, for every tooth pair of the cycle, shape (trials, tooth
         pairs).
         """
         k = np.arange(self.pair.count)
@@ -540,7 +546,7 @@ class _EntriesAndExits:
 
 
 def _shifted(pair: CutGearPair) -> TriangularSizes:
-    """Return the sizes of the pair at the actual centre distance."""
+    """Return the sizes of the pair at its actual centre distance."""
     if not pair.shift:
         return pair.sizes
     return pair.sizes.at(pair.sizes.side * ((pair.sizes.D + pair.shift) / pair.sizes.deepest_distance - 1))

@@ -1,4 +1,4 @@
-"""Minimum backlash between a front and a back tooth pair, which together hold the driven wheel.
+"""Minimum backlash between a front and a back tooth pair, which limit the driven wheel from both sides.
 
 With the driver's front tooth at x and its back tooth `delta` before it, the backlash is f(x) + f'(delta - x) plus terms
 of the driven teeth. Here f belongs to the leading flank and f' to the mirrored tooth pair. Both are the minimum of two
@@ -33,28 +33,30 @@ _NEAR = 1e-6  # of the common reach: after such a step the error of the value, q
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Front tooth pair and the back tooth pair n before it, each in one phase, at their minimum backlash in perfect
+    """Front tooth pair and the back tooth pair n before it, each in one phase, at the minimum backlash of perfect
     wheels.
     """
 
     n: int
     phases: tuple[str, str]
     offset: float
-    """Position x of the minimum, relative to half of n pitches [rad]."""
+    """Angle alpha_1 at the minimum minus half of n pitches [rad]."""
     backlash: float
     """Backlash at the minimum [rad of the driven wheel]."""
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
-    """Return the limits of alpha_1 of the front tooth in which both tooth pairs are in reach; empty if low > high."""
+    """Return the limits of alpha_1 of the front tooth within which both tooth pairs can touch [rad]; empty if low >
+    high.
+    """
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
 
 def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
-    """Return the minimum sum of two contacts, each in one phase, within the common reach, and its position; inf if
-    empty.
+    """Return the minimum sum of two contacts, each in one phase, and its position [rad]; inf if both cannot touch at
+    once.
 
     The algorithm is Newton's method safeguarded by bisection, starting at half the reach. The last step improves the
     value only, by a parabola.
@@ -89,7 +91,9 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum of f(x) + f'(delta - x) over the common reach [rad]; inf if the reach is empty."""
+    """Return the minimum of f(x) + f'(delta - x) while both tooth pairs can touch [rad]; inf if they cannot touch at
+    once.
+    """
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
         values = [minimum_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
@@ -104,8 +108,8 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
-    """Return all candidates of jamming of perfect wheels, up to `most` tooth pairs apart, in ascending order of
-    backlash.
+    """Return all candidates of minimum backlash of perfect wheels, up to `most` tooth pairs apart, in ascending
+    order.
     """
     tooth_pair = even_tooth_pair(sizes)
     found = []
@@ -122,14 +126,14 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum distance, in tooth pairs, of two pairs that are both in reach; -1 if none ever is."""
+    """Return the maximum distance of two tooth pairs that can touch at once [tooth pairs]; -1 if no pair can touch."""
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, reached when its tips meet on entry; 0 if they never do."""
+    """Return the maximum speed ratio of a tooth pair, which occurs when tips meet at entry; 0 if they never meet."""
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):
@@ -138,14 +142,14 @@ def steepest(tooth_pair: CutToothPairs) -> float:
 
 
 def nominal_backlash(sizes: TriangularSizes) -> float:
-    """Return the minimum backlash of wheels without errors [pitches of the driven wheel]; negative if they jam."""
+    """Return the minimum backlash of wheels without errors [pitch of the driven wheel]; negative if they jam."""
     from geartrain.teeth.triangular.clearance_window import TriangularContact
 
     return TriangularContact(sizes).backlash / sizes.p2
 
 
 def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
-    """Return an upper bound on the probability of a jam in a cycle: 2 lcm(z1, z2) Q(j / (2 sigma)), at most 1.
+    """Return an upper bound of the probability of a jam in a cycle: 2 lcm(z1, z2) Q(j / (2 sigma)), at most 1.
 
     The teeth of both wheels have independent normal pitch deviations of `sigma` pitches. Q is the normal tail
     probability and j the minimum backlash in pitches. Four teeth take part in a jam, and each moves the driven wheel by
@@ -155,7 +159,7 @@ def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
     if not 0 <= sigma < inf:
         raise RangeError(
             Problem(
-                f"the standard deviation is {sigma:g} pitches",
+                f"a standard deviation of {sigma:g} pitches is out of range",
                 "a standard deviation is finite and not negative",
                 "give 0 or more, such as 0.02",
             )

@@ -1,4 +1,4 @@
-"""Transmission functions of many pairs of one plan at once: each angle belongs to one trial of the wheels."""
+"""Transmission functions of many pairs of cut wheels at once: each angle belongs to one trial."""
 
 from __future__ import annotations
 
@@ -42,11 +42,13 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     @abstractmethod
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
-        """Return errors and speeds of some trials."""
+        """Return transmission errors [rad of the driven wheel] and speed ratios of selected trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the transmission errors [rad of the driven wheel], -inf if no teeth touch, and dq/dS, at angles S
-        (n,).
+        """Return the transmission errors [rad of the driven wheel] and the speed ratios dq/dS at angles S of shape (n,)
+        [rad].
+
+        The error is -inf if no teeth touch.
         """
         S = np.asarray(S, dtype=float)
         error, speed = np.empty_like(S), np.empty_like(S)
@@ -57,21 +59,23 @@ class TrialTransmissionFunction(TransmissionFunction):
         return error, speed
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of some of the trials."""
+        """Return the transmission functions of selected columns."""
         found = copy(self)
         found.rows, found._columns = self.rows[columns], columns
         return found
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission errors [rad of the driven wheel]."""
+        """Return the transmission errors at angles S [rad of the driven wheel]."""
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the derivative dq/dS at each angle."""
+        """Return the speed ratio dq/dS at angles S [rad]."""
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean error of perfect wheels and a ripple of 0, as needed for superposition."""
+        """Return the mean transmission error of perfect wheels [rad] and an rms deviation of 0, as superposition
+        requires.
+        """
         return self.even, 0.0
 
     def error_range(self) -> tuple[float, float]:
@@ -83,24 +87,26 @@ class TrialTransmissionFunction(TransmissionFunction):
         return 0.0, inf
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return NaN at each angle, because trials do not compute efficiency."""
+        """Return NaN at each angle, because efficiency is not computed in trials."""
         return np.full(np.shape(S), np.nan)
 
     def efficiency_mean(self) -> float:
-        """Return NaN, because trials do not compute efficiency."""
+        """Return NaN, because efficiency is not computed in trials."""
         return float("nan")
 
     def efficiency_at_constant_load(self) -> float:
-        """Return NaN, because trials do not compute efficiency."""
+        """Return NaN, because efficiency is not computed in trials."""
         return float("nan")
 
     def efficiency_minimum(self) -> float:
-        """Return NaN, because trials do not compute efficiency."""
+        """Return NaN, because efficiency is not computed in trials."""
         return float("nan")
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth; `pair` has arrays (trials, z), or (z,) if all trials share a wheel."""
+    """Transmission function of triangular teeth; `pair` has arrays (trials, z), or (z,) for a wheel common to all
+    trials.
+    """
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
@@ -125,7 +131,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf out of reach, constant after a pair has
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after a pair has
         left.
         """
         pair, sizes = self.pair, self.pair.sizes
@@ -139,7 +145,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the speed ratio given by tooth pairs k; 0 after they have left."""
+        """Return the speed ratio of tooth pairs k; 0 after they have left contact."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
         x, tooth_pairs = ahead + of_teeth(self.pair.first.place, rows, i), self._tooth_pairs(rows, i, j)
         reach = tooth_pairs.reach

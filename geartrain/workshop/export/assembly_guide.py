@@ -48,7 +48,7 @@ _NEW, _OLD = (series_colour(0), _PAPER.band), (_PAPER.line, "none")  # edge and 
 
 
 def unproved() -> str:
-    """Return the first sentence of a README if nothing can be proved."""
+    """Return the sentence of the README for parts that were not checked, because packages are missing."""
     return (
         "**Not proved**: the parts were not turned, because shapely and manifold3d are not installed: "
         f"`{install_command('proof')}`."
@@ -62,7 +62,7 @@ def readme(
     parts: bool,
     proof: TrainProof | None = None,
 ) -> str:
-    """Build the README: readiness for cutting, list of files, parts and assembly, and what could not be made.
+    """Return the text of the README: readiness for cutting, list of files, parts, assembly, and parts that are missing.
 
     files     paths and descriptions of the files
     missing   problems of what could not be made
@@ -99,13 +99,13 @@ def readme(
 
 
 def _backlashes(work: SolidModel) -> list[str]:
-    """Return the backlash of every pair of cut wheels, as the lines of a list."""
+    """Return the backlash of every pair of cut wheels as the lines of a list."""
     found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.backlashes]
     return ["", "## Backlash of the teeth as cut, along the pitch circles", "", *found] if found else []
 
 
 def _angles(backlash: PairBacklash) -> str:
-    """Format the backlash as angles of both wheels, with a note if the pair jams."""
+    """Return the backlash as angles of both wheels in words, with a note if the pair jams."""
     turned = ", ".join(
         f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(backlash.wheels, backlash.angles, strict=True)
     )
@@ -140,11 +140,11 @@ def _cell(text: str) -> str:
     return printable(markdown_text(text).replace("|", "\\|").replace("\n", " "))
 
 
-# ------------------------------------------------------------------------------------------------- what the proof found
+# ------------------------------------------------------------------------------------------------ findings of the proof
 
 
 def verdict_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
-    """Return the lines of the verdict and of all findings; `cell` makes a text safe in Markdown."""
+    """Return the lines with the verdict and all findings; `cell` escapes a text for Markdown."""
     lines = [f"**{'Ready to cut.' if proof.is_ready else 'Not ready to cut.'}**", ""]
     groups: dict[str, list[BuildFinding]] = {}
     for found in proof.findings:
@@ -164,7 +164,7 @@ def _items(findings: list[BuildFinding], cell: Callable[[str], str]) -> list[str
 
 
 def proof_lines(proof: TrainProof, cell: Callable[[str], str]) -> list[str]:
-    """Return the lines with the measured values of the proof and the method."""
+    """Return the lines with the measured values of the proof, and its method."""
     lines = ["", "## Proof on the written outlines", ""]
     lines += [
         f"The drawings were read back, with arcs as chords within {TOLERANCE:g} mm, and the wheels of every mesh were",
@@ -199,7 +199,7 @@ def _turn(backlash: float | None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class AssemblyStep(Shown):
-    """One step of an assembly.
+    """One step of the assembly of a train.
 
     See Also
     --------
@@ -207,15 +207,15 @@ class AssemblyStep(Shown):
     """
 
     text: str
-    """Instruction as a sentence."""
+    """Instruction in words."""
     parts: tuple[str, ...]
-    """Names of the parts that it adds."""
+    """Names of the parts that are added."""
     shown: bool = True
-    """True if a picture shows the parts. Hanging parts are too tall for one."""
+    """True if the parts are shown in a picture; hanging parts are too tall for it."""
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
-    """List the steps of the assembly of a train, in order of height.
+    """Return the steps of the assembly of a train, in order of height.
 
     The order is: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors, the front
     plate, dials.
@@ -312,11 +312,12 @@ class _Steps:
         return AssemblyStep(text, tuple(name for name in parts if name in self.known))
 
     def _column(self, column: AxisColumn) -> Iterator[AssemblyStep]:
-        """Yield the steps that put wheels on arbors or pipes, and pipes over each other."""
+        """Yield the steps that mount wheels on arbors or pipes, and pipes over each other."""
         for member in column.members:
             every = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low)]
             wheels = [name for name in every if name not in self.plan.cut]
             what = "pipe" if member.inner else "arbor"
+            # an arbor or pipe without wheels is fitted in a later step
             if wheels:
                 order = ", from below in this order" if len(wheels) > 1 else ""
                 spacers, collets = self._sleeves(every)
@@ -327,6 +328,7 @@ class _Steps:
                 yield self._step(text, [rod_name(column, member), *every, *spacers, *collets, *barrel])
                 yield from self._on_eccentrics(every)
                 yield from self._plate_pins(every)
+        # pipes on a stud slide on this stud, which is fitted in a later step
         pipes = [member for member in column.members if member.inner]
         if pipes and not column.is_stud:
             links = ", ".join(member.link for member in pipes)
@@ -340,7 +342,7 @@ class _Steps:
         return [each for each in spacers if each in self.known], [each for each in collets if each in self.known]
 
     def _barrel(self, wheels: Sequence[str]) -> list[str]:
-        """Return the name of the barrel that is fixed to one of some wheels, as a list of at most one item."""
+        """Return the name of the barrel that is fixed to one of the wheels, as a list of at most one item."""
         barrel = self.frame.barrel
         return [] if barrel is None or barrel.wheel not in wheels else [barrel.part.name]
 
@@ -352,7 +354,7 @@ class _Steps:
             yield self._step(f"Press the pin{'s'[: len(pins) - 1]} of '{name}' into {cut.pin.id}", pins)
 
     def _plate_pins(self, plates: Sequence[str]) -> Iterator[AssemblyStep]:
-        """Yield the steps that press pins into some of the turning plates."""
+        """Yield the steps that press pins into turning plates."""
         for each in self.frame.standing:
             if each.seat in plates:
                 pins = [f"{each.name} {at}" for at in range(1, 1 + len(each.spots))]
@@ -362,7 +364,7 @@ class _Steps:
                 yield self._step(text, pins)
 
     def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
-        """Yield the steps that put wheels on eccentrics, once all eccentrics they need are in place."""
+        """Yield the steps that mount wheels on eccentrics, after all eccentrics that they need."""
         every = self.plan.stack.eccentrics
         for each in (each for each in every if each.name in names):
             own = [other.name for other in every if other.wheels == each.wheels]
@@ -374,7 +376,7 @@ class _Steps:
                 yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:
-        """Yield the steps for the studs of carriers with the parts that turn on them, nearest to the carrier first."""
+        """Yield the steps for the studs of carriers with the parts that turn on them, in order from the carrier."""
         for seat in self.plan.choice.seats:
             own = {
                 label: column
@@ -424,7 +426,7 @@ class _Steps:
 
 
 def _sleeve_phrase(wheels: Sequence[str], spacers: Sequence[str], collets: Sequence[str]) -> str:
-    """Return a phrase that names the spacers and collets mounted with the wheels."""
+    """Return a phrase with the spacers and collets that are mounted with the wheels."""
     words = "" if not spacers else ", with the spacer between them" if len(spacers) == 1 else ", with their spacers"
     if collets:
         alone = [name.removeprefix("collet of ") for name in collets]
@@ -436,7 +438,6 @@ def _sleeve_phrase(wheels: Sequence[str], spacers: Sequence[str], collets: Seque
 
 
 # ----------------------------------------------------- pictures: a step from above and from the side, with new parts
-# dark
 
 
 def picture_path(number: int) -> str:
@@ -445,7 +446,7 @@ def picture_path(number: int) -> str:
 
 
 def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
-    """Yield path, title and drawing function of the picture of every step that adds parts."""
+    """Yield path, title and drawing function of the picture of each step that adds parts."""
     steps = assembly_steps(work)
     pictures = AssemblyPictures(work, steps) if steps else None
     before: dict[str, None] = {}
@@ -467,7 +468,7 @@ class AssemblyPictures:
 
     @cached_property
     def boxes(self) -> dict[str, Floats]:
-        """Minimum and maximum x (right), y (up) and height of each part, shape (2, 3)."""
+        """Minimum and maximum of x (right), y (up) and height of each part [mm], shape (2, 3)."""
         found = {}
         for name, part in self.parts.items():
             seen = part.placed.vertices @ self.stack.turn
@@ -476,12 +477,12 @@ class AssemblyPictures:
 
     @cached_property
     def extent(self) -> tuple[Floats, Floats]:
-        """Minimum and maximum coordinates of all parts."""
+        """Minimum and maximum coordinates of all parts [mm]."""
         boxes = np.array(list(self.boxes.values()))
         return boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
 
     def draw(self, step: AssemblyStep, number: int, before: Sequence[str]) -> bytes:
-        """Draw one step as SVG, with the parts of earlier steps."""
+        """Return one step as an SVG file, together with the parts of earlier steps."""
         low, high = self.extent
         wide, deep, tall = (high - low).tolist()
         gap, margin = _GAP * wide, _MARGIN * wide
@@ -497,6 +498,7 @@ class AssemblyPictures:
         corner = np.array([margin, margin + 2 * letter])
         there = (name for name in before if name in self.parts and name not in step.parts)
         shown = [(name, _OLD) for name in there] + [(name, _NEW) for name in step.parts]
+        # lines as thin as about one pixel
         stroke = wide / 700
         for name, (edge, fill) in shown:
             part = self.parts[name]
@@ -513,8 +515,9 @@ class AssemblyPictures:
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
-        """Yield the outlines of a part from above; turned parts and wheels of earlier steps are circles."""
+        """Yield the outlines of a part in the top view; turned parts and wheels of earlier steps are circles."""
         low, high = self.extent
+        # round parts, and wheels of earlier steps, are drawn as circles
         radius = part.turned.diameter / 2 if part.turned is not None else 0.0
         if part.kind == "wheel" and part.contours and not fine:
             radius = float(np.hypot(*part.contours[0].points.T).max())
@@ -534,8 +537,8 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, letter: float, corner: Floats) -> Iterator[str]:
-        """Yield the names of new parts at their centres, below each other if they coincide; nothing if there are too
-        many.
+        """Yield the labels of new parts at their centres, without overlap; nothing for more than `_MOST_NAMED`
+        parts.
         """
         low, high = self.extent
         taken: set[tuple[int, int]] = set()

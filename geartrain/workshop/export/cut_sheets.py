@@ -1,4 +1,4 @@
-"""Flat drawings of an export, as they are cut: wheels, plates, and sheets of stock with all parts.
+"""Flat drawings of an export for cutting: wheels, plates, and sheets of stock with all parts.
 
 Wheels of equal shape share one drawing. Outlines are offset outwards by half the kerf. On sheets of stock, parts are
 placed in rows, the tallest first.
@@ -30,10 +30,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class FlatPart:
-    """Flat part to be cut."""
+    """Flat part to cut from a sheet."""
 
     name: str
-    """Name of its file and label on sheets of stock."""
+    """Name of its file, and label on sheets of stock."""
     drawing: FlatDrawing
     count: int
     """Number of parts needed."""
@@ -78,7 +78,7 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # file nam
 
 @dataclass(frozen=True, slots=True)
 class WheelSheet:
-    """Drawing of one shape of wheel: file name without suffix, wheels that have this shape, and thickness [mm]."""
+    """Drawing of one shape of wheel: file name without suffix, drawing, names of the wheels, thickness [mm]."""
 
     file: str
     drawing: FlatDrawing
@@ -87,7 +87,7 @@ class WheelSheet:
 
 
 def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
-    """Return one drawing for each shape of wheel; wheels of one shape share it."""
+    """Return one drawing for each shape of wheel, which all wheels of this shape share."""
     alike: dict[object, list[Blank]] = {}
     for blank in blanks.values():
         alike.setdefault(_shape(blank), []).append(blank)
@@ -99,7 +99,7 @@ def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
 
 
 def file_names(names: Iterable[str]) -> list[str]:
-    """Return file names that are valid on every file system and differ also without regard to case."""
+    """Return file names that are valid on every file system and unique without regard to case."""
     used: set[str] = set()
     found = []
     for name in names:
@@ -142,12 +142,13 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
 
 
 def _holes(blank: Blank) -> list[tuple[complex, float]]:
-    """Return circles around the holes of a wheel besides its bore: centres and radii [mm]; empty for a wheel with
+    """Return circles around the holes of a wheel except its bore: centres and radii [mm]; empty for wheels with
     spokes.
     """
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
+        # chords within 0.05 mm are accurate enough for a label
         points = hole.flattened(0.05) @ np.array([1, 1j])
         middle = complex(points.mean())
         if abs(middle) > _CENTRAL:
@@ -158,10 +159,11 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
 def _label_off_holes(
     holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
 ) -> EngravedText:
-    """Move engraved text off the holes of a wheel, and reduce it to the largest size that fits."""
+    """Return engraved text moved off the holes of a wheel, in the largest size that fits."""
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
+        # the corners of the frame of the text, and the middles of its long sides
         corners = [abs(at + along * complex(x, y)) for x in (-half, 0.0, half) for y in (-tall, tall)]
         if max(corners) > outer or min(corners) < inner:
             return False
@@ -170,6 +172,7 @@ def _label_off_holes(
 
     if not holes or free(complex(*mark.at), 1 + 0j, mark.height):
         return mark
+    # the largest free text: try all positions at one height before a smaller height
     for part in _SMALLER:
         height = part * mark.height
         for step in range(_WAYS):
@@ -187,7 +190,7 @@ _LETTER = 1.8  # mm: height of letters next to holes
 
 
 def plate_sheets(work: SolidModel) -> list[Plate]:
-    """Return one drawing for each plate."""
+    """Return one drawing for each plate of the train."""
     frame = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
     base = work.train.declaration.frame
     dials = [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
@@ -213,7 +216,7 @@ _AROUND = 16  # chords per quarter circle around a corner
 
 
 def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
-    """Return a drawing compensated for the kerf: outer edges half a kerf larger, holes half a kerf smaller all around.
+    """Return a drawing compensated for the kerf: outer edges are offset outwards by half a kerf, holes inwards.
 
     Circles remain circles. Other curves are replaced by chords within the tolerance of the drawing, and then offset.
 
@@ -257,7 +260,7 @@ def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) ->
 
 
 def _rings(shape: Polygon) -> Iterator[np.ndarray]:
-    """Yield the outer edges of a shape, counter-clockwise, without the closing point."""
+    """Yield the outer edges of a shape counter-clockwise, without the closing point."""
     for part in getattr(shape, "geoms", [shape]):
         if not part.is_empty:
             ring = np.array(part.exterior.coords)[:-1]
@@ -278,7 +281,7 @@ _CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 @dataclass(frozen=True, slots=True)
 class StockSheet:
-    """Sheet of stock: file name without suffix, drawing, and the names of the parts on it, one for each piece."""
+    """Sheet of stock: file name without suffix, drawing, names of the parts on it with one entry for each piece."""
 
     file: str
     drawing: FlatDrawing
@@ -286,7 +289,7 @@ class StockSheet:
 
 
 def stock_sheets(parts: Iterable[FlatPart], size: tuple[float, float], gap: float) -> tuple[StockSheet, ...]:
-    """Lay out all parts on sheets of one size, with parts of one thickness together.
+    """Return all parts laid out on sheets of one size, with parts of one thickness together.
 
     The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
     the tallest first. A part that does not fit in the row begins the next one, and a row that does not fit begins the
@@ -318,7 +321,9 @@ def stock_sheets(parts: Iterable[FlatPart], size: tuple[float, float], gap: floa
 
 
 def _fitted_to_sheet(part: FlatPart, size: tuple[float, float], gap: float) -> FlatPart:
-    """Return a part turned so that it fits on a sheet, its longer side along the width of the sheet if possible."""
+    """Return a part turned so that it fits on a sheet, with its longer side along the width of the sheet if
+    possible.
+    """
     low, high = _box(part.drawing)
     wide, tall = (high - low).tolist()
     room = [side - 2 * gap for side in size]
@@ -335,7 +340,7 @@ def _fits(sides: tuple[float, float], room: list[float]) -> bool:
 
 
 def _rows(pieces: list[FlatPart], size: tuple[float, float], gap: float) -> Iterator[list[FlatPart]]:
-    """Yield the pieces of each sheet, moved to their positions."""
+    """Yield the pieces of each sheet, shifted to their positions."""
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
     sheet: list[FlatPart] = []
@@ -378,7 +383,6 @@ def _shifted(drawing: FlatDrawing, by: Floats) -> FlatDrawing:
 
 
 def _turned(drawing: FlatDrawing) -> FlatDrawing:
-    """Return the drawing turned by a right angle to the left about the origin."""
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
     cut = tuple(Contour(each.points @ turn, each.bulges) for each in drawing.cut)
     marks = tuple(replace(each, at=(-each.at[1], each.at[0]), angle=each.angle + 90) for each in drawing.marks)

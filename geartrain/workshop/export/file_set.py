@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
-"""Kinds of files that `export_files` can write."""
+"""Kinds of files that `export_files` writes."""
 
 SUFFIXES = {
     ".glb": "glb",
@@ -40,10 +40,10 @@ SUFFIXES = {
     ".rexsj": "rexs",
     ".json": "rexs",
 }
-"""Suffixes of single files that contain a whole train, with their kinds."""
+"""Kind of a file with a whole train, by suffix."""
 
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
-"""Suffixes of single files that contain one wheel."""
+"""Suffixes of files with a single wheel."""
 
 _NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}  # kind -> (library, extra that installs it)
 _TITLES = {
@@ -61,7 +61,7 @@ Rows = Sequence[Sequence[object]]
 
 @dataclass(frozen=True, slots=True)
 class ExportFile(Shown):
-    """File to be written.
+    """File of an export, whose content is computed on request.
 
     See Also
     --------
@@ -69,15 +69,17 @@ class ExportFile(Shown):
     """
 
     path: str
-    """Path relative to the folder, with `/`."""
+    """Path relative to the folder, with `/` as separator."""
     title: str
-    """Description of its content."""
+    """Description of the content of the file."""
     make: Callable[[], bytes]
-    """Function that returns its content as bytes, and raises `GearTrainError` if the content cannot be made."""
+    """Function that returns the content as bytes, or raises `GearTrainError` if it cannot be made."""
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
-    """Return the kinds whose libraries are installed, and problems that name what to install for the others."""
+    """Return the kinds whose libraries are installed, and for each other kind a problem with the command that installs
+    it.
+    """
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))
@@ -180,7 +182,13 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     """
     known = work.train.declaration.wheels
     if wheel not in known:
-        raise QuestionError(Problem(f"the train has no wheel '{wheel}'", "", suggest(wheel, known)))
+        raise QuestionError(
+            Problem(
+                f"'{wheel}' is not a wheel of the train",
+                "only a wheel with its own drawing can be exported",
+                suggest(wheel, known),
+            )
+        )
     blank = work.blanks.wheels.get(wheel)
     if blank is None:
         raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
@@ -195,7 +203,7 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 def export_files(
     work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None, proof: TrainProof | None = None
 ) -> list[ExportFile]:
-    """List all files of some kinds, small ones first, and last a README that lists them.
+    """Return all files of some kinds, small ones first, and last a README that lists them.
 
     Parameters
     ----------
@@ -230,7 +238,12 @@ def export_files(
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         raise QuestionError(
-            Problem(f"'{unknown[0]}' is not a kind of export", "", f"use some of {', '.join(KINDS)}", "--as")
+            Problem(
+                f"'{unknown[0]}' is not a kind of export",
+                "each kind is the name of a format",
+                f"use some of {', '.join(KINDS)}",
+                "--as",
+            )
         )
     files = [*_sheets(work, kinds), *_pictures(work, kinds), *_tables(work, kinds)]
     named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
@@ -238,7 +251,7 @@ def export_files(
     for kind, name in named.items():
         if kind in kinds:
             files.append(ExportFile(name, _TITLES[kind], _whole(work, kind, turns)))
-    if parts_wanted(kinds):
+    if parts_requested(kinds):
         files.append(
             ExportFile("parts.csv", "list of parts: count, material, sizes, mass, fits", lambda: _listed(work))
         )
@@ -250,14 +263,14 @@ def _listed(work: SolidModel) -> bytes:
 
 
 def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str], proof: TrainProof | None) -> bytes:
-    named, parts = [(each.path, each.title) for each in files], parts_wanted(kinds)
+    named, parts = [(each.path, each.title) for each in files], parts_requested(kinds)
     if proof is None and parts and proof_is_installed():
         proof = prove_train(work)
     return readme(work, named, notices(work, kinds), parts, proof).encode("utf-8")
 
 
-def parts_wanted(kinds: Sequence[str]) -> bool:
-    """Return whether some of the kinds of files show parts to make."""
+def parts_requested(kinds: Sequence[str]) -> bool:
+    """Return True if some of the kinds of files show parts to make."""
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
@@ -294,7 +307,7 @@ def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """Return the problems of parts that the files of some kinds cannot show, each once.
+    """Return the problems of parts that files of these kinds cannot show, without repetition.
 
     Parameters
     ----------
@@ -316,17 +329,17 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     []
     """
     found: list[Problem] = list(work.layout.notices)
-    if work.frame is not None and parts_wanted(kinds):
+    if work.frame is not None and parts_requested(kinds):
         found += [*work.frame.plan.notices, *work.frame.problems()]
-        found += (problem for cup in work.frame.plan.stack.cups for problem in cup.told())
+        found += (problem for cup in work.frame.plan.stack.cups for problem in cup.notices())
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
     if {"svg", "dxf"} & set(kinds):
         found += work.couplings.notices
     if "step" in kinds:
-        from geartrain.workshop.export.step_file import left_out
+        from geartrain.workshop.export.step_file import omitted
 
-        found += left_out(work)
+        found += omitted(work)
     # the same problem can come from several sources
     once: dict[str, Problem] = {}
     for problem in found:
@@ -335,19 +348,26 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
 
 def kind_of(name: str) -> str:
-    """Return the kind of a file with the whole train by its name; raise `GearTrainError` for an unknown suffix."""
+    """Return the kind of a file with a whole train from its name. Raises `GearTrainError` for an unknown suffix."""
     suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
     fix = f"use {', '.join(SUFFIXES)} or .fmu; for wheels, plates and tables, give --to FOLDER"
-    raise GearTrainError(Problem(f"a train cannot be written as '{suffix or name}'", "", fix, "-o"))
+    raise GearTrainError(
+        Problem(
+            f"a train cannot be written as '{suffix or name}'",
+            "the format follows from the suffix of the file",
+            fix,
+            "-o",
+        )
+    )
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
 
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
-    """Return the tables of a train as CSV by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
+    """Return the tables of a train as CSV text by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
     made = {
         "wheels": _wheels,
         "links": _links,
@@ -362,7 +382,7 @@ def to_tables(work: SolidModel) -> Mapping[str, str]:
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as exact text and as decimal text."""
+    """Return a number as exact and as decimal text; two empty texts for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 
@@ -370,10 +390,10 @@ def _wheels(work: SolidModel) -> tuple[str, Rows]:
     rows = []
     for name, (link, wheel) in work.train.declaration.wheels.items():
         place = work.layout.wheels[name]
-        doubt = wheel.doubt
+        uncertainty = wheel.uncertainty
         rows.append(
             (
-                *(name, link, wheel.count, " ".join(map(str, doubt.allowed)) if doubt else "", wheel.kind),
+                *(name, link, wheel.count, " ".join(map(str, uncertainty.allowed)) if uncertainty else "", wheel.kind),
                 *("yes" if wheel.internal else "", place.axis, place.layer, f"{place.module / wheel.slant:.9g}"),
                 *(f"{place.radius:.9g}", *(f"{each:.9g}" for each in place.centre), wheel.status, wheel.source),
             )

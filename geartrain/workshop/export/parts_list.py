@@ -24,7 +24,7 @@ _SAME = 4  # decimals of a mm to which sizes are rounded and compared
 
 @dataclass(frozen=True, slots=True)
 class ListedPart(Shown):
-    """Row of the list: parts of one shape.
+    """Row of a parts list: all parts of one shape.
 
     See Also
     --------
@@ -32,19 +32,19 @@ class ListedPart(Shown):
     """
 
     names: tuple[str, ...]
-    """Names of these parts."""
+    """Names of the parts of this shape."""
     kind: str
     """Kind of part: wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock,
     pin, rod, bob or weight.
     """
     material: str
-    """Material used for its mass."""
+    """Name of the material from which the mass is computed."""
     size: str
-    """Diameter and length of turned parts, thickness of flat ones [mm]."""
+    """Diameter and length of turned parts, or thickness of flat parts [mm], as text."""
     mass: float
     """Mass of one part [g]."""
     fits: str
-    """Holes or seats, and the method of joining."""
+    """Holes or seats, and the method of joining, as text."""
 
     @property
     def count(self) -> int:
@@ -53,7 +53,7 @@ class ListedPart(Shown):
 
 
 def parts_list(work: SolidModel) -> list[ListedPart]:
-    """List all parts of a train, with parts of one shape in one row.
+    """Return the list of all parts of a train, with parts of one shape in one row.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def _wheel(work: SolidModel, part: SolidPart) -> Wheel | None:
 
 
 def _density(work: SolidModel, part: SolidPart, material: str) -> float:
-    """Return the density of a part [kg/m3]; 0 if the train declares its own material without a density."""
+    """Return the density of a part [kg/m3]; 0 if its declared material has no density."""
     wheel, declared = _wheel(work, part), work.train.declaration
     own = None if wheel is None else wheel.density or declared.density
     found = own or material_named(declared, material).density
@@ -148,14 +148,14 @@ def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
 
 
 def _eccentric_of(work: SolidModel, wheel: str) -> str:
-    """Return a phrase with the eccentric on which a wheel turns or by which it is bent; empty if there is none."""
+    """Return a phrase on the eccentric on which a wheel turns or by which it is bent; empty without one."""
     own = () if work.frame is None else work.frame.plan.stack.eccentrics
     on = next((each for each in own if wheel in each.wheels), None)
     return "" if on is None else f"{'turns on' if on.wave is None else 'bent by'} {on.name}"
 
 
 def to_csv(rows: Iterable[ListedPart]) -> str:
-    """Format the list as CSV, with one row for each shape."""
+    """Return the parts list as CSV text, with one row for each shape."""
     head = ("part", "count", "kind", "material", "size_mm", "mass_g", "fits")
     return csv_text(
         head,

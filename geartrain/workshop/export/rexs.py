@@ -1,5 +1,4 @@
-"""Gear unit as REXS JSON (FVA's Reusable Engineering Exchange Standard, version 1.4), as far as it can represent a
-train.
+"""Gear unit as REXS JSON (FVA's Reusable Engineering Exchange Standard, version 1.4), as far as REXS can represent it.
 
 Component types, attributes and units are those of the REXS 1.4 database; see www.rexs.info.
 """
@@ -27,7 +26,7 @@ _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # a fixed date, so that the same trai
 
 
 def to_rexs(work: SolidModel, date: datetime = _EPOCH) -> str:
-    """Return the gear unit as REXS JSON text."""
+    """Return the gear unit of a train as REXS JSON text."""
     return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -74,7 +73,7 @@ class _Unit:
         self.relations.append({"id": len(self.relations) + 1, "type": kind, "refs": refs})
 
     def shaft(self, link: str, unit: int) -> None:
-        """Add a shaft for a link that turns or has wheels; its axis is u."""
+        """Add a shaft for a link that turns or has wheels; u is the coordinate along its axis."""
         wheels = self.declared.links[link].wheels
         label = self.work.train.kinematics.tree.axis(link)
         if link == self.declared.frame and not wheels:
@@ -104,14 +103,15 @@ class _Unit:
         self.relate("assembly", assembly=shaft, part=number)
 
     def angle(self, name: str) -> float:
-        """Return the pressure angle [deg] in the first involute pair of a wheel; 20 if there is none."""
+        """Return the pressure angle of the first involute pair of a wheel [deg]; 20 if there is none."""
         forms = (self.declared.form_of(gear) for gear in self.declared.gears if name in gear.pair)
         angles = (form.rack_angle for form in forms if form is not None)
         return next((degrees(angle) for angle in angles if angle is not None), _ANGLE)
 
     def stage(self, gear: GearPair, unit: int) -> None:
-        """Add a pair as a stage of its kind; an internal wheel is its second gear."""
+        """Add a gear pair as a stage; an internal wheel is its second gear."""
         first, second = gear.pair
+        # an internal gear is the second gear of a stage
         if self.declared.wheels[first][1].internal:
             first, second = second, first
         kinds = {self.components[self.numbers["wheel", each] - 1]["type"] for each in (first, second)}
@@ -129,7 +129,7 @@ class _Unit:
         self.relate("stage", stage=number, **roles)
 
     def running(self) -> list[dict[str, Any]]:
-        """Return the speeds of shafts that can be given in revolutions per minute."""
+        """Return the rotational speeds of shafts that can be given in revolutions per minute."""
         found = []
         for (kind, link), number in self.numbers.items():
             speed = as_float(self.speeds[link]) if kind == "link" and link in self.speeds else None
@@ -140,9 +140,7 @@ class _Unit:
 
 
 def _per_minute(work: SolidModel) -> Mapping[str, Fraction]:
-    """Return the speeds in turns per minute; dimensionless speeds and turns per length are taken as turns
-    per minute.
-    """
+    """Return the speeds of links in turns per minute; speeds that are not per time are taken as turns per minute."""
     answer = work.train.solve(work.scene.state, method="exact")
     declared = work.train.declaration
     factor = Fraction(1) if declared.unit_speed is None else 60 * declared.unit_speed
@@ -177,7 +175,7 @@ def _mm(name: str, value: float) -> dict[str, Any]:
 def _frame(
     point: tuple[float, float, float], along: tuple[float, float, float], reference: int
 ) -> Iterator[dict[str, Any]]:
-    """Yield the attributes of the position of a component: u along its axis, w across it."""
+    """Yield the attributes of the position of a component: u along its axis, w perpendicular to it."""
     right, _ = basis(along)
     for name, vector in (("u_axis_vector", along), ("support_vector", point), ("w_axis_vector", right)):
         yield {"id": name, "unit": "mm", "floating_point_array": [float(each) for each in vector]}

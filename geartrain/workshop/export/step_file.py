@@ -31,7 +31,10 @@ _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # replaced, so that th
 
 
 def to_step(work: SolidModel) -> bytes:
-    """Encode the assembly in the zero pose, in mm, without the parts in `left_out`; raises `MissingExtraError`."""
+    """Return the assembly in the zero pose as a STEP file in mm, without the parts in `omitted`.
+
+    Raises `MissingExtraError` if the library that writes STEP is not installed.
+    """
     try:
         import OCP.STEPCAFControl  # noqa: F401
     except ImportError:
@@ -39,8 +42,8 @@ def to_step(work: SolidModel) -> bytes:
     return _write(work.train.name, [part for part in work.parts if _is_exact(part)])
 
 
-def left_out(work: SolidModel) -> tuple[Problem, ...]:
-    """Return a problem for each part without an exact form."""
+def omitted(work: SolidModel) -> tuple[Problem, ...]:
+    """Return a problem for each part that has no exact shape and is therefore omitted."""
     why = "its shape is approximated by triangles, and STEP needs an exact shape"
     return tuple(
         Problem(f"'{part.name}' is not included in the STEP file", why, "use the GLB or STL file")
@@ -134,7 +137,7 @@ def _shape(part: SolidPart) -> Any:
 
 
 def _revolved(part: TurnedPart) -> Any:
-    """Make a solid by revolving half a section about the z axis; several pieces of one part become a compound."""
+    """Return a solid of revolution about the z axis; several pieces of one part become a compound."""
     from OCP.BRep import BRep_Builder
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
@@ -159,12 +162,13 @@ def _revolved(part: TurnedPart) -> Any:
 
 
 def _wire(contour: Contour, height: float) -> Any:
-    """Make a counter-clockwise wire, like all contours; edges share their vertices."""
+    """Return a counter-clockwise wire, like all contours; edges share their vertices."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex, BRepBuilderAPI_MakeWire
     from OCP.GC import GC_MakeArcOfCircle
     from OCP.gp import gp_Pnt
 
     edges = list(_edges(contour))
+    # adjacent edges share their vertices, otherwise the wire is not closed
     corners = [BRepBuilderAPI_MakeVertex(gp_Pnt(*edge[0].tolist(), height)).Vertex() for edge in edges]
     wire = BRepBuilderAPI_MakeWire()
     for at, line in enumerate(edges):
@@ -181,7 +185,7 @@ def _wire(contour: Contour, height: float) -> Any:
 
 
 def _curve(line: Floats, height: float) -> Any:
-    """Fit a B-spline with few poles to the points of a flank."""
+    """Return a B-spline with few poles through the points of a flank."""
     from OCP.GeomAbs import GeomAbs_C1
     from OCP.GeomAPI import GeomAPI_PointsToBSpline
     from OCP.gp import gp_Pnt
@@ -197,7 +201,7 @@ def _curve(line: Floats, height: float) -> Any:
 
 
 class _Arc(NamedTuple):
-    """Start, middle and end point of an arc."""
+    """Circular arc by its start, middle and end point."""
 
     start: Floats
     middle: Floats
@@ -229,7 +233,7 @@ def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
 
 
 def _smooth(line: Floats) -> Iterator[Floats]:
-    """Yield a line split at its corners; parts that would need many chords are kept as smooth runs."""
+    """Yield the parts of a line between its corners; parts that would need many chords remain smooth runs."""
     steps = np.diff(line, axis=0)
     turn = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
     ends = [0, *(np.flatnonzero(abs(turn) > _CORNER) + 1).tolist(), len(line) - 1]

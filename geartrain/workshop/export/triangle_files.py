@@ -30,7 +30,7 @@ _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attrib
 
 
 def to_stl(solid: Solid, name: str) -> bytes:
-    """Encode a solid as binary STL; the header contains its name."""
+    """Return a solid as a binary STL file; its header contains the name."""
     corners = solid.vertices[solid.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -60,7 +60,7 @@ _COLOURS: dict[str, tuple[float, float, float]] = {
 _VERTEX = np.dtype(
     {"names": ["position", "normal"], "formats": [("<i2", 3), ("i1", 3)], "offsets": [0, 8], "itemsize": 12}
 )
-"""Position and normal of a vertex, each at a multiple of four bytes, as glTF requires."""
+"""Data type of a vertex: position and normal, each at a multiple of four bytes, as glTF requires."""
 
 _BYTE, _SHORT, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5120, 5122, 5123, 5125, 5126
 _VERTICES, _INDICES, _KEYS = range(3)  # the buffer views
@@ -83,19 +83,19 @@ class _GlbFile:
     shared: dict[object, int] = field(default_factory=dict)  # numbers of accessors and meshes, by their content
 
     def append(self, view: int, values: np.ndarray[Any, Any]) -> int:
-        """Append an array to a buffer view, padded to a multiple of four bytes, and return its offset."""
+        """Append an array to a buffer view, padded to a multiple of four bytes; return its offset [byte]."""
         start, raw = len(self.views[view]), values.tobytes()
         self.views[view].extend(raw + b"\0" * (-len(raw) % 4))
         return start
 
     def accessor(self, view: int, start: int, count: int, kind: str, component: int, **more: Any) -> int:
-        """Add an accessor over `count` elements of a buffer view and return its number."""
+        """Add an accessor of `count` elements of a buffer view; return its index."""
         own = {"bufferView": view, "byteOffset": start, "componentType": component, "count": count, "type": kind}
         self.accessors.append(own | more)
         return len(self.accessors) - 1
 
     def node(self, **content: Any) -> int:
-        """Add a node and return its number."""
+        """Add a node; return its index."""
         self.nodes.append(content)
         return len(self.nodes) - 1
 
@@ -128,7 +128,9 @@ class _GlbFile:
 
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
-    """Encode the assembly with its motion over some turns of the driving link (by default as in `Keyframes`)."""
+    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (default as in
+    `Keyframes`).
+    """
     file, bodies = _GlbFile(), work.scene.bodies
     points = [np.array(body.point) for body in bodies]
     for body, point in zip(bodies, points, strict=True):
@@ -170,7 +172,7 @@ def _material(part: SolidPart) -> int:
 
 
 def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
-    """Add the node of a part below its body, whose own point is `origin` [mm], and return its number."""
+    """Add the node of a part below the node of its body, whose origin is `origin` [mm]; return its index."""
     solid = part.solid
     low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
     middle, step = (low + high) / 2, float((high - low).max()) / _STEPS
@@ -182,9 +184,7 @@ def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
 
 
 def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the vertices of a mesh and their indices in its triangles; equal positions with equal normals
-    are merged.
-    """
+    """Return the vertices of a mesh and their indices in its triangles; vertices with equal normals are merged."""
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -201,7 +201,7 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Return the number of a mesh of these triangles, which is reused if it exists."""
+    """Return the index of a mesh of these triangles, which is added if it does not exist."""
     shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]
@@ -220,7 +220,7 @@ def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indic
 
 
 def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
-    """Add the rotation of every body relative to its parent."""
+    """Add the animation of the rotation of each body relative to its parent."""
     turning = Keyframes.of(work, turns)
     if turning is None:
         return
@@ -262,24 +262,23 @@ _LONGEST = 120.0  # maximum duration [s]
 
 @dataclass(frozen=True)
 class Keyframes:
-    """Motion of an animation: bodies that turn, and its duration."""
+    """Motion of an animation: speeds of the bodies, and duration."""
 
     work: SolidModel
     turns: Fraction
     """Revolutions of the driving link."""
     seconds: float
-    """Duration [s]."""
+    """Duration of the animation [s]."""
     speeds: tuple[Fraction | None, ...]
-    """Speed of each body relative to its parent about its `direction`, divided by the speed of the driving link; None
-    if undetermined.
-    """
+    """Speed of each body relative to its parent over the speed of the driving link; None if undetermined."""
     ripples: bool
     _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
-        """Return the motion of a train over `turns`, by default one period, or ten turns if that is long; None if
-        nothing turns.
+        """Return the motion of a train over `turns` turns of the driving link; None if nothing turns.
+
+        The default is one period, or ten turns if the period is long.
         """
         scene = work.scene
         if scene.movement.kind == "still" or scene.driving_link is None:
@@ -292,6 +291,7 @@ class Keyframes:
         dense = _RIPPLING if ripples else _A_TURN
         if turns is None:
             period = read_fraction(scene.movement.period) if scene.movement.period else None
+            # a whole period repeats without a jump, but only if it is short enough
             turns = period if period and period * fastest * dense <= _MOST else Fraction(_USUAL)
             turns = min(turns, Fraction(_MOST) / (fastest * dense))
         elif turns <= 0 or turns * fastest * dense > _MOST:
@@ -303,7 +303,9 @@ class Keyframes:
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Return the number of intervals between key frames of a body; 0 if it does not turn relative to its parent."""
+        """Return the number of intervals between the key frames of a body; 0 if it does not turn relative to its
+        parent.
+        """
         speed = self.speeds[body]
         turned = abs(float((speed or 0) * self.turns))
         if self.ripples and self.work.scene.bodies[body].speed is not None:
@@ -311,9 +313,7 @@ class Keyframes:
         return ceil(_A_TURN * turned)
 
     def angle(self, body: int, count: int) -> Floats:
-        """Return the angle of a body relative to its parent [rad] at `count` + 1 equidistant moments, about its
-        direction.
-        """
+        """Return the angles of a body relative to its parent at `count` + 1 equally spaced times [rad]."""
         bodies = self.work.scene.bodies
         found = np.zeros(count + 1)
         for at, sign in ((body, 1), (bodies[body].parent, -1)):
@@ -327,7 +327,9 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the transmission errors of teeth and pins in the angle of each body [rad], (bodies, count + 1)."""
+        """Return the transmission errors of teeth and pins in the angle of each body [rad], shape (bodies, count +
+        1).
+        """
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

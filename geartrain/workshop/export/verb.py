@@ -50,7 +50,7 @@ def run(
         str | None,
         typer.Option(
             "--as",
-            help="Kinds of files to write with --to, separated by commas: svg,dxf,stl,glb,step,graphml,dot,rexs,csv.",
+            help="Kinds of files for --to, separated by commas: svg, dxf, stl, glb, step, graphml, dot, rexs, csv.",
         ),
     ] = None,
     wheel: Annotated[
@@ -73,8 +73,8 @@ def run(
             "--process", help="Manufacturing process: laser, cnc, fdm or hand; it sets kerf, fits and backlash."
         ),
     ] = None,
-    arms: Annotated[
-        int | None, typer.Option("--arms", help="Number of spokes (crossings) of every wheel that is large enough.")
+    spokes: Annotated[
+        int | None, typer.Option("--spokes", help="Number of spokes (crossings) of every wheel that is large enough.")
     ] = None,
     sheet: Annotated[
         str | None,
@@ -98,12 +98,15 @@ def run(
     ] = None,
     step: Annotated[
         Size,
-        typer.Option("--step", help="Time step of an .fmu, such as 0.0001s; default: from the tooth frequency."),
+        typer.Option("--time-step", help="Time step of an .fmu, such as 0.0001s; default: from the tooth frequency."),
     ] = None,
     without: Without = None,
     force: Force = False,
 ) -> None:
-    """Write a train as files: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables."""
+    """Write a train as files: wheels and plates to cut, the assembly as solids, the graph, REXS, an FMU and tables.
+
+    Example: `geartrain export planetary --to parts --module 2mm`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.scene import SolidModel
 
@@ -111,9 +114,9 @@ def run(
         what = "the output is missing" if to is None else "--to and -o are both given"
         why = "an export writes either a folder of files or a single file"
         raise GearTrainError(Problem(what, why, "give --to FOLDER for all files, or -o FILE for one", "export"))
-    of_time = {"--rate": rate, "--restitution": restitution, "--step": step, "--without": without or None}
+    of_time = {"--rate": rate, "--restitution": restitution, "--time-step": step, "--without": without or None}
     of_solids: dict[str, object] = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
-    of_solids |= {"--backlash": backlash, "--process": process, "--arms": arms, "--sheet": sheet, "--turns": turns}
+    of_solids |= {"--backlash": backlash, "--process": process, "--spokes": spokes, "--sheet": sheet, "--turns": turns}
     if out is not None and out.suffix.lower() == ".fmu":
         _refuse(of_solids, "does not apply to an .fmu", "omit it")
         _unit(file, state, of_time, sink(out, force))
@@ -123,7 +126,7 @@ def run(
     if out is not None:
         _refuse({"--sheet": sheet}, "applies only to a folder", "give --to FOLDER instead of -o")
     lengths = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
-    work = SolidModel(train, _sizes(lengths, process, arms, sheet), train.declaration.state_or_first(state))
+    work = SolidModel(train, _sizes(lengths, process, spokes, sheet), train.declaration.state_or_first(state))
     shown = _turns(turns)
     if out is not None:
         _write_one(work, out, wheel, shown, force)
@@ -151,7 +154,7 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
     case = simulation.CoSimulationCase(
         train.declaration.state_or_first(state),
         None if rate is None else input_rate(rate),
-        None if step is None else quantity("--step", step, "time", minimum="above 0"),
+        None if step is None else quantity("--time-step", step, "time", minimum="above 0"),
         None if restitution is None else read_restitution(restitution),
         tuple(without or ()),
     )
@@ -159,11 +162,11 @@ def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) ->
     raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
 
 
-def _sizes(given: Mapping[str, Size], process: str | None, arms: int | None, sheet: str | None) -> ManufacturingSizes:
+def _sizes(given: Mapping[str, Size], process: str | None, spokes: int | None, sheet: str | None) -> ManufacturingSizes:
     from geartrain.scene import ManufacturingSizes
 
     sizes = {name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
-    return ManufacturingSizes(**sizes, process=process, arms=arms, sheet=None if sheet is None else _sheet(sheet))
+    return ManufacturingSizes(**sizes, process=process, arms=spokes, sheet=None if sheet is None else _sheet(sheet))
 
 
 def _sheet(text: str) -> tuple[float, float]:
@@ -201,7 +204,7 @@ def _write_folder(
 ) -> None:
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.workshop.export.assembly_guide import unproved
-    from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_wanted
+    from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
 
     if wheel is not None:
         raise GearTrainError(Problem("--wheel applies only to one file", "", "give -o FILE instead of --to", "--wheel"))
@@ -209,7 +212,7 @@ def _write_folder(
     missing: list[Problem] = []
     if kinds is None:
         wanted, missing = installed(wanted)
-    proof = _proof(work) if parts_wanted(wanted) else None
+    proof = _proof(work) if parts_requested(wanted) else None
     files = export_files(work, wanted, turns, proof)
     check_folder(to, [each.path for each in files], force)
     try:
@@ -219,7 +222,7 @@ def _write_folder(
         raise typer.Exit(INTERRUPTED) from None
     _print_notices([*missing, *notices(work, wanted)])
     tell(f"wrote {plural(count, 'file')} to {to}")
-    if parts_wanted(wanted):
+    if parts_requested(wanted):
         tell(unproved().replace("*", "").replace("`", "") if proof is None else proof.verdict)
 
 

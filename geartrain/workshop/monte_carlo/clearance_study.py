@@ -1,4 +1,4 @@
-"""Probability of jamming with the same wheels at other clearances, and with their errors scaled."""
+"""Probability of jamming with the same wheels at other clearances and with scaled errors."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Event probabilities of the train at one clearance and one scale of the errors.
+    """Probability of each event in the train at one clearance and one scale of the errors.
 
     See Also
     --------
@@ -36,40 +36,43 @@ class ClearanceCase(Result):
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 
     clearance: float | None
-    """Clearance factor, or fraction of the clearance window of each pair; None for the declared clearance."""
+    """Clearance factor (1 or more), or fraction of each pair's clearance window; None for the declared clearance."""
     scale: float
-    """Scale factor of all errors."""
+    """Factor by which all errors are multiplied."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability of jam, clash, stops (jam or clash), dwell and disengaged in any pair."""
+    """Probability of each event in any pair: jam, clash, stops (jam or clash), dwell, disengaged."""
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
-    """Event probabilities of each pair."""
+    """Probability of each event by pair."""
 
     @property
     def rates(self) -> EventRates:
-        """Event probabilities of any pair, by name."""
+        """Probability of each event in any pair, as a typed dictionary."""
         return cast("EventRates", self.events)
 
 
 def read_clearances(text: str) -> list[float]:
-    """Parse a sweep START:END:COUNT: clearance factors (`1.005:1.04:8`) or fractions of windows (`0.1:0.9:9`)."""
-    first, last, many = [*text.split(":"), "", ""][:3]
+    """Parse a sweep `clearance_factor=1.005:1.04:8` or `window=0.1:0.9:9`; windows are below 1, factors are not."""
+    name, _, rest = text.partition("=")
+    bounds = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0)}.get(name.strip())
     try:
-        low, high, count = float(first), float(last or first), int(many or (1 if not last else 9))
+        first, last, many = rest.split(":")
+        low, high, count = float(first), float(last), int(many)
     except ValueError:
-        low, high, count = -1.0, -1.0, 0
-    if text.count(":") > 2 or not 0 <= low <= high < 10 or not 1 <= count <= _MOST or (low < 1 <= high):
+        low, high, count = 0.0, 0.0, 0
+    if bounds is None or not bounds[0] <= low <= high < bounds[1] or not 1 <= count <= _MOST:
         why = (
-            "a sweep is MINIMUM:MAXIMUM:COUNT, both clearance factors (1 to 10) or both fractions of the clearance "
-            f"window (0 to 1), with a count up to {_MOST}"
+            "a sweep is NAME=FIRST:LAST:COUNT of clearance_factor (1 to 10) or window (0 to 1), with a count up to "
+            f"{_MOST}"
         )
-        raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, "give --clearance 1.005:1.04:8"))
+        fix = "give --vary clearance_factor=1.005:1.04:8"
+        raise QuestionError(Problem(f"'{text}' is not a sweep of clearances", why, fix, "--vary"))
     return [float(each) for each in np.linspace(low, high, count)]
 
 
 def run_clearances(
     plan: TrialPlan, clearances: Sequence[float], trials: int, seed: int = 1, means: Execution | None = None
 ) -> list[ClearanceCase]:
-    """Run the trials with the same wheels at each clearance."""
+    """Return the results of trials with the same wheels at each clearance."""
     return jamming_map(plan, clearances, (1.0,), trials, seed, means)
 
 
@@ -81,12 +84,12 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Run Monte Carlo trials with the same wheels at every clearance and every scale of their errors.
+    """Return the probability of events with the same wheels at every clearance and every scale of their errors.
 
     Parameters
     ----------
     plan : TrialPlan
-        The train with its errors.
+        Train with its cutting and fitting errors.
     clearances : sequence of float or None
         From 1 upwards factors of the minimum centre distance, at which teeth bottom; from 0 to 1 fractions of the
         clearance window of each pair; None for the declared clearance. It is the outer loop.
@@ -95,7 +98,7 @@ def jamming_map(
     trials : int
         Number of trials of each case, 1 to 10^9.
     seed : int
-        Seed of the random numbers. The same seed draws the same wheels.
+        Random seed. The same seed gives the same wheels.
     means : Execution, optional
         Executor, journal of finished work and progress report; by default this process without journal and report.
 
@@ -142,8 +145,8 @@ def _judged(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Count the events in some trials of one case: for each pair and then the train, for each event,
-    (count, trials).
+    """Return the counts of events in some trials of one case: by pair, then for the train, (count, trials) for each
+    event.
     """
     clearance, scale, first, trials = task
     changed = plan.scaled(scale)

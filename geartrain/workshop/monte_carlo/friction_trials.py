@@ -41,17 +41,17 @@ if TYPE_CHECKING:
 
 FIGURES = ("mean", "maximum", "starting", "efficiency")
 _TRAIN = "train"
-"""Name of the coefficient that the train itself declares."""
+"""Name of the coefficient of friction that the train itself declares."""
 
 _TASKS = 32  # minimum number of tasks, so that all processes have work until nearly the end
 _MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of its trials
 
 
-# ----------------------------------------------------------------------------------------------------- the coefficients
+# --------------------------------------------------------------------------------------------------------- coefficients
 
 
 class FrictionSpread(NamedTuple):
-    """Coefficient of friction with its standard deviation.
+    """Normal distribution of a coefficient of friction.
 
     See Also
     --------
@@ -66,7 +66,7 @@ class FrictionSpread(NamedTuple):
 
 @dataclass(frozen=True)
 class FrictionPlan(Shown):
-    """Train whose friction has a spread, and the run to follow in each trial.
+    """Train with random friction, and the run that is evaluated in each trial.
 
     See Also
     --------
@@ -76,20 +76,20 @@ class FrictionPlan(Shown):
     declared: Train
     """Train as declared."""
     state: str | None
-    """Name of the state; None if the train declares no states."""
+    """Name of the state; None for a train without states."""
     turns: float
     """Number of turns of the input in the run."""
     samples: int
-    """Number of positions of the run."""
+    """Number of positions in the run."""
     of: str | None = None
-    """Link whose torque is computed; None for the crank."""
+    """Name of the link whose torque is computed; None for the crank."""
 
     def _summary(self) -> str:
         return f"{self.declared.name}: {self.turns:g} turns, {self.samples} positions"
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Coefficients to draw, by the train, pair or coupling that declares them."""
+        """Distributions of the coefficients, by the train, pair or coupling that declares them."""
         return {name: _spread(friction) for name, _, friction in _declarers(self.declared) if _is_random(friction)}
 
     @cached_property
@@ -100,13 +100,13 @@ class FrictionPlan(Shown):
 
     @cached_property
     def study(self) -> FrictionStudy | None:
-        """Computations common to all trials in which the same side drives each pair; None if they share nothing."""
+        """Computation common to all trials in which the same sides drive; None if the trials have nothing in common."""
         from geartrain.dynamics.turn.train_turn import study_friction
 
         return study_friction(self._nominal.mechanics, self.turns, self.samples, self.state, self.of)
 
     def follow(self, drawn: Train) -> CycleFigures:
-        """Compute the figures of the run in one trial.
+        """Return the torques and the efficiency of the run in one trial.
 
         Parameters
         ----------
@@ -142,11 +142,11 @@ class FrictionPlan(Shown):
         return CycleFigures(found.mean, found.maximum_torque, found.starting_torque, found.efficiency)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Exclude the common computations from pickling; each process repeats them."""
+        """Exclude the common computation from pickling, since each process repeats it."""
         return {name: value for name, value in self.__dict__.items() if name not in ("study", "_nominal")}
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
-        """Return the key by which a journal identifies a run: everything on which its results depend.
+        """Return the key by which a journal identifies a run: all data on which its results depend.
 
         Parameters
         ----------
@@ -162,12 +162,12 @@ class FrictionPlan(Shown):
 def find_friction_plan(
     train: GearTrain, turns: float, samples: int = 20_000, state: str | None = None, of: str | None = None
 ) -> FrictionPlan:
-    """Collect the data for trials of friction: a train that declares spreads of it, and the run to follow.
+    """Return the plan of trials for a train whose friction has declared standard deviations.
 
     Parameters
     ----------
     train : GearTrain
-        The train.
+        Train with declared coefficients of friction.
     turns : float
         Number of turns of the input, above 0.
     samples : int
@@ -225,7 +225,7 @@ def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[st
 
 
 def _declarers(declared: Train) -> Iterator[tuple[str, int, Any]]:
-    """Yield the name, index and declared friction of the train and of each pair and coupling."""
+    """Yield name, index and declared friction of the train and of each pair and coupling."""
     parts = [(_TRAIN, declared), *((part.name, part) for part in (*declared.gears, *declared.couplings))]
     for item, (name, part) in enumerate(parts):
         yield name, item, part.friction
@@ -241,7 +241,7 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction:
-    """Return the friction changed by `unit` standard deviations, at least 0."""
+    """Return the friction with its coefficient changed by `unit` standard deviations, at least 0."""
     spread = _spread(friction)
     # a coefficient of friction cannot be negative
     sliding = max(spread.sliding + unit * spread.deviation, 0.0)
@@ -251,12 +251,12 @@ def _with_coefficient(friction: CoulombFriction, unit: float) -> CoulombFriction
     return friction.model_copy(update=update)
 
 
-# ----------------------------------------------------------------------------------------------------------- the trials
+# --------------------------------------------------------------------------------------------------------------- trials
 
 
 @dataclass(frozen=True)
 class TrialFigure(Result):
-    """Distribution of one figure over the trials.
+    """Distribution of one result over the trials.
 
     See Also
     --------
@@ -266,21 +266,23 @@ class TrialFigure(Result):
     KEYS = ("mean", "deviation", "percentiles")
 
     values: Floats
-    """Values of the trials in which the figure exists, in their order."""
+    """Values of the result in the trials in which it exists, in the order of the trials."""
 
     @property
     def mean(self) -> IntervalEstimate:
-        """Mean, with its 95 % interval."""
+        """Mean with its 95 % confidence interval."""
         return mean_of(self.values)
 
     @property
     def deviation(self) -> IntervalEstimate:
-        """Standard deviation, with its 95 % interval."""
+        """Standard deviation with its 95 % confidence interval."""
         return deviation_of(self.values)
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentiles, each with its 95 % interval. 95 % of the trials lie between the outer two."""
+        """Percentiles by percentage, each with its 95 % confidence interval; 95 % of the trials are between the outer
+        two.
+        """
         return percentiles_of(self.values)
 
 
@@ -298,25 +300,25 @@ class FrictionTrials(Result):
     KEYS = ("link", "wanted", "done", "seed", "spreads", *FIGURES, "locks")
 
     link: str
-    """Link whose torque is given."""
+    """Name of the link to which the torque refers."""
     wanted: int
     """Number of trials requested."""
     done: int
     """Number of trials computed."""
     seed: int
-    """Seed of the random numbers."""
+    """Random seed of the trials."""
     spreads: Mapping[str, FrictionSpread]
-    """Coefficients drawn, by `train` or by pair or coupling."""
+    """Distributions of the coefficients, by `train`, pair or coupling."""
     mean: TrialFigure
-    """Mean torque of the trials that do not lock [N m, or the unit of the loads]."""
+    """Mean torque over the run, in trials that do not lock [N m, or the unit of the loads]."""
     maximum: TrialFigure
-    """Maximum torque of the trials that do not lock [N m, or the unit of the loads]."""
+    """Maximum torque over the run, in trials that do not lock [N m, or the unit of the loads]."""
     starting: TrialFigure
-    """Starting torque of the trials that do not lock [N m, or the unit of the loads]."""
+    """Starting torque, in trials that do not lock [N m, or the unit of the loads]."""
     efficiency: TrialFigure
-    """Efficiency of each trial: output energy divided by input energy."""
+    """Efficiency over the run: output energy over input energy."""
     locks: ProbabilityEstimate
-    """Probability that the train locks somewhere in the run."""
+    """Probability that friction locks the train at some position of the run."""
 
     def _summary(self) -> str:
         cut = "" if self.done == self.wanted else f" of {self.wanted}"
@@ -329,7 +331,7 @@ class FrictionTrials(Result):
 
 
 def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Execution | None = None) -> FrictionTrials:
-    """Compute the torque over a run in many trials, each with friction coefficients drawn anew.
+    """Return the torque over a run in many trials, each with new random friction coefficients.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
     (Ctrl-C), the completed trials are returned.
@@ -341,7 +343,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     trials : int
         Number of trials, 1 to 10^9.
     seed : int
-        Seed of the random numbers.
+        Random seed.
     means : Execution, optional
         Executor, journal of finished trials and progress report; by default this process without journal and report.
 
@@ -385,6 +387,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     except KeyboardInterrupt:
         if not found:
             raise
+    # locked trials have no values
     columns = [np.array([value for value in column if value is not None]) for column in zip(*found, strict=True)]
     figures = dict(zip(FIGURES, map(TrialFigure, columns), strict=True))
     locked = sum(row[0] is None for row in found)
@@ -394,12 +397,12 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Compute some trials as plain data: the figures of each, None if the train locks."""
+    """Return the results of some trials as plain data: four values for each trial, None if the train locks."""
     return [list(plan.follow(draw_friction(plan.declared, seed, trial))) for trial in range(*task)]
 
 
 def _link(plan: FrictionPlan) -> str:
-    """Return the link whose torque is reported, without computing the run."""
+    """Return the name of the link whose torque is reported, without computing the run."""
     from geartrain.analysis.gear_train import GearTrain
 
     return plan.of or GearTrain(plan.declared).torques(plan.state).requested[0]
@@ -414,7 +417,7 @@ def trials_document(found: FrictionTrials) -> Document:
 
 
 def trial_sections(found: FrictionTrials) -> Iterator[Section]:
-    """Yield the report section on the torque distribution due to uncertain friction."""
+    """Yield the report sections on the distribution of torques due to uncertain friction."""
     lines = [f"{found.done} trials, seed {found.seed}; estimates with their 95 % confidence intervals."]
     if not found.complete:
         lines.insert(0, f"PARTIAL: stopped after {found.done} of {found.wanted} trials.")

@@ -1,4 +1,4 @@
-"""Plots of Monte Carlo trials: pointer errors, probabilities of a jam, and sensitivities.
+"""Plots of Monte Carlo trials: pointer errors, probabilities of jams, and sensitivities.
 
 `monte_carlo_figure` draws one picture of a result. It uses plots of plain numbers: bands and histograms of errors, a
 map of probabilities over two quantities, a tornado chart of variance shares, and the convergence of an estimate.
@@ -105,7 +105,11 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     'probability of a jam'
     """
     if picture not in PICTURES:
-        raise QuestionError(Problem(f"'{picture}' is not a picture", "", f"use {', '.join(PICTURES)}"))
+        raise QuestionError(
+            Problem(
+                f"'{picture}' is not the name of a figure", "each figure has a fixed name", f"use {', '.join(PICTURES)}"
+            )
+        )
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")
 
@@ -132,7 +136,7 @@ def _require(what: Sequence[object], why: str, fix: str) -> None:
 
 
 def errors_figure(trials: TrialResults) -> Figure:
-    """Draw histograms of every pointer's error at random positions; of all trials if hardly any trial can turn."""
+    """Draw histograms of each pointer's error at random positions; of all trials if at most one trial can turn."""
     found = {each.name: np.degrees(each.kept) for each in trials.pointers}
     jammed = any(len(each.errors) <= 1 for each in trials.pointers)
     note = ", given by the pushing flanks of a train that jams" if jammed else ""
@@ -140,8 +144,8 @@ def errors_figure(trials: TrialResults) -> Figure:
 
 
 def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str) -> Figure:
-    """Draw bands of pointer errors along one turn of each pointer that was followed."""
-    _require(courses, "no pointer was followed along a turn", "name the outputs to follow: --output NAME")
+    """Draw bands of pointer errors along one turn of each evaluated pointer."""
+    _require(courses, "no pointer was followed along a turn", "name the outputs to follow: --of NAME")
     return pointer_error_figure(
         {each.name: ErrorBands.of(each.turns, np.degrees(each.errors)) for each in courses}, driving_link
     )
@@ -153,7 +157,7 @@ def probability_convergence_figure(trials: TrialResults, event: str = "jam") -> 
 
 
 def _trace_of(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> ConvergenceTrace:
-    """Convert the convergence steps of an estimate to arrays."""
+    """Return the convergence steps of an estimate as arrays."""
     ends = np.array([share.interval for _, share in steps]).reshape(-1, 2)
     counts = np.array([float(count) for count, _ in steps])
     return ConvergenceTrace(counts, np.array([share.value for _, share in steps]), ends[:, 0], ends[:, 1])
@@ -171,7 +175,7 @@ def indices_figure(indices: SobolIndices) -> Figure:
 
 
 def pair_shares_figure(trials: TrialResults, output: str) -> Figure:
-    """Draw the variance shares of one output by pair, from superposition. They add up to 1."""
+    """Draw the variance shares of one output by pair, from superposition; their sum is 1."""
     shares = trials.pointer(output).shares
     return tornado_figure(
         {name: VarianceShare(value) for name, value in shares.items()}, f"error of '{output}' by pair"
@@ -199,7 +203,7 @@ def clearances_figure(cleared: Sequence[ClearanceCase], title: str = "", event: 
 
 @dataclass(frozen=True, slots=True)
 class ErrorBands:
-    """Range of the error that contains a given share of the trials, over turns of the input, as arrays (positions,)."""
+    """Ranges of the error that contain given shares of the trials, over turns of the input, as arrays (positions,)."""
 
     turns: Floats
     """Positions of the input [turn]."""
@@ -212,14 +216,13 @@ class ErrorBands:
     trials: int
     """Number of trials that can turn; trials that jam are excluded."""
     example: Floats | None = None
-    """Error of one trial [deg], or None."""
+    """Error of one trial as an example [deg], or None."""
 
     @classmethod
     def of(cls, turns: ArrayLike, errors: ArrayLike) -> ErrorBands:
-        """Compute the bands from the errors [deg] of every trial, shape (trials, positions); trials with NaN are
-        excluded.
+        """Return the bands of the errors of all trials [deg], shape (trials, positions); trials with NaN are excluded.
 
-        Raises `QuestionError` if no trial is left, or if positions and turns differ in number.
+        Raises `QuestionError` if no trial is left, or if the numbers of positions and turns differ.
         """
         places, table = np.asarray(turns, dtype=float), np.atleast_2d(np.asarray(errors, dtype=float))
         table = table[np.isfinite(table).all(axis=1)]
@@ -230,7 +233,7 @@ class ErrorBands:
 
 
 def pointer_error_figure(pointers: Mapping[str, ErrorBands], driving_link: str = "the input") -> Figure:
-    """Draw the median, the middle 50 and 95 %, and the extremes of each pointer's error over turns of the driving link.
+    """Draw median, central 50 and 95 % ranges and extremes of each pointer's error over turns of the driving link.
 
     The thin dashed line is one trial. Raises `QuestionError` without a pointer to draw.
     """
@@ -277,18 +280,18 @@ def histogram_figure(errors: Mapping[str, ArrayLike], note: str = "") -> Figure:
 
 
 def _largest_spreads(what: Mapping[str, _Given], spread: Callable[[_Given], float]) -> tuple[dict[str, _Given], str]:
-    """Select the pointers with the largest spread, in the given order, and return a note on the others."""
+    """Return the pointers with the largest spread, in the given order, and a note on the others."""
     straying = [name for name in what if spread(what[name]) > 0] or list(what)
     names = set(sorted(straying, key=lambda name: -spread(what[name]))[:_POINTERS])
     left, still = len(straying) - len(names), [name for name in what if name not in straying]
-    words = f"\n{left} pointers with smaller errors are not drawn: name them with --output" if left else ""
+    words = f"\n{left} pointers with smaller errors are not drawn: name them with --of" if left else ""
     if still:
         words += f"\nno error: {shorten(', '.join(still), _STILL, placeholder=' ...')}"
     return {name: each for name, each in what.items() if name in names}, words
 
 
 def _spread(given: ArrayLike) -> float:
-    """Return the range of the finite values; 0 if there are none."""
+    """Return the range (maximum minus minimum) of the finite values; 0 without values."""
     values = np.asarray(given, dtype=float)
     values = values[np.isfinite(values)]
     return float(np.ptp(values)) if values.size else 0.0
@@ -328,7 +331,7 @@ def _between(axes: Axes, x: Floats, low: Floats, high: Floats, alpha: float, lab
 
 
 def _bands_key() -> list[Patch]:
-    """Return legend patches in the visible shades: each band is drawn over the wider ones."""
+    """Return legend patches in the visible shades, since each band is drawn over the wider ones."""
     through = np.cumprod([1 - shade for shade in _SHADES])
     return [
         Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
@@ -346,7 +349,7 @@ def _no_errors(why: str) -> QuestionError:
 def jam_map_figure(
     clearances: ArrayLike,
     sizes: ArrayLike,
-    chances: ArrayLike,
+    probabilities: ArrayLike,
     bound: ArrayLike | None = None,
     axis_names: tuple[str, str] = ("clearance factor", "pitch deviation (standard deviation, % of the pitch)"),
     title: str = "",
@@ -354,13 +357,13 @@ def jam_map_figure(
     """Draw the probability of a jam as a shaded map, with contour lines at 1, 10 and 50 %.
 
     clearances  ascending clearances, (n,); `sizes`: ascending sizes of the error, (m,)
-    chances     probabilities of a jam, 0 to 1, (n, m); NaN for missing data
+    probabilities     probabilities of a jam, 0 to 1, (n, m); NaN for missing data
     bound       upper bound on the probability, (n, m); its 1 % contour is drawn
     axis_names  labels of clearances and sizes
 
     Raises `QuestionError` if the arrays do not form a map.
     """
-    x, y, table = (np.asarray(each, dtype=float) for each in (clearances, sizes, chances))
+    x, y, table = (np.asarray(each, dtype=float) for each in (clearances, sizes, probabilities))
     limit = None if bound is None else np.asarray(bound, dtype=float)
     _check(x, y, table, limit)
     figure = Figure(figsize=(WIDTH, 6.4), layout="constrained")
@@ -387,7 +390,7 @@ def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: An
 
 
 def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
-    """Draw the contour below which the bound itself proves that jams are rare."""
+    """Draw the contour of the upper bound at 1 %; below it the bound proves that jams are rare."""
     color = ORANGE
     # a bound of 0 has no logarithm, so it is clipped far below the contour
     rare = np.log10(np.clip(np.ma.masked_invalid(limit.T), 1e-9, 1.0))
@@ -397,8 +400,8 @@ def _bound(axes: Axes, x: Floats, y: Floats, limit: Floats) -> Line2D:
     return Line2D([], [], color=color, linestyle="dashdot", linewidth=2.0, label=f"bound of {_BOUND:.0%}")
 
 
-def _arcsine(chance: Any) -> Any:
-    return np.arcsin(np.sqrt(chance))
+def _arcsine(probability: Any) -> Any:
+    return np.arcsin(np.sqrt(probability))
 
 
 def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
@@ -408,7 +411,7 @@ def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
     if not (rising and shaped and finite.size and finite.min() >= 0 and finite.max() <= 1):
         raise QuestionError(
             Problem(
-                f"the arrays do not form a map: clearances {x.shape}, sizes {y.shape}, chances {table.shape}",
+                f"the arrays do not form a map: clearances {x.shape}, sizes {y.shape}, probabilities {table.shape}",
                 "a map needs at least two ascending values on each axis, and a probability from 0 to 1 for each pair",
                 "give arrays of shapes (n,), (m,) and (n, m)",
             )
@@ -420,18 +423,20 @@ def _check(x: Floats, y: Floats, table: Floats, limit: Floats | None) -> None:
 
 @dataclass(frozen=True, slots=True)
 class VarianceShare:
-    """Share of the variance of a result that is due to one cause."""
+    """Share of the variance of a result that is due to one cause, 0 to 1."""
 
     own: float
-    """First-order share: the cause by itself, with its interval `own_within` or None."""
+    """First-order share, of the cause by itself; `own_within` is its interval, or None."""
     own_within: Interval | None = None
     whole: float | None = None
-    """Total share with all interactions, with its interval `whole_within`; None if causes only add."""
+    """Total share including all interactions, with its interval `whole_within`; None for causes without
+    interactions.
+    """
     whole_within: Interval | None = None
 
     @property
     def rank(self) -> float:
-        """Share by which the bars are sorted."""
+        """Share by which the bars are sorted: total if known, otherwise first order."""
         return self.own if self.whole is None else self.whole
 
 
@@ -454,14 +459,14 @@ def tornado_figure(shares: Mapping[str, VarianceShare], title: str = "", most: i
         axes.barh(at, share.own, color=BLUE, height=0.36, gid="own")
         draw_interval(axes, at - 0.08, share.own_within)
     axes.axvline(0.0, color=GREY, linewidth=0.8)
-    name_axes(axes, f"share of the variance{_left_out(rest)}", title=title, parse_math=False)
+    name_axes(axes, f"share of the variance{_omitted(rest)}", title=title, parse_math=False)
     if any(share.whole is not None for _, share in shown):
         handles = [Patch(color=BLUE, label="first order"), Patch(color=SKY, label="total, with interactions")]
         axes.legend(handles=handles, loc="lower right", fontsize=SMALL, frameon=False)
     return figure
 
 
-def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
+def _omitted(rest: list[tuple[str, VarianceShare]]) -> str:
     if not rest:
         return ""
     return f"; {len(rest)} more causes of at most {max(share.rank for _, share in rest):.2g} are not drawn"
@@ -472,12 +477,12 @@ def _left_out(rest: list[tuple[str, VarianceShare]]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ConvergenceTrace:
-    """Estimate over the number of trials, with its 95 % interval, as arrays (n,)."""
+    """Estimate as a function of the number of trials, with its 95 % confidence interval, as arrays (n,)."""
 
     trials: Floats
-    """Numbers of trials, ascending, above 0."""
+    """Numbers of trials in ascending order, above 0."""
     value: Floats
-    """Estimates, with the interval from `low` to `high`."""
+    """Estimates; `low` and `high` are the limits of the interval."""
     low: Floats
     high: Floats
     truth: float | None = None

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def trials_document(found: TrialResults) -> Document:
-    """Return the report that `geartrain montecarlo` prints for trials."""
+    """Return the report on trials, as `geartrain montecarlo` prints it."""
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
 
     return describe_monte_carlo(MonteCarloResult(found))
@@ -27,7 +27,7 @@ _EVENTS = ("jam", "clash", "dwell", "disengaged")
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
-    """Build the report on trials: events of pairs, pointer errors and all further studies requested.
+    """Return the report on trials: events of pairs, pointer errors and all further studies.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Format a probability in percent with its interval: `1.2 % (0.9..1.6)`."""
+    """Return a probability in percent with its interval as text: `1.2 % (0.9..1.6)`."""
     if not each.of:
         return "-"
     low, high = each.interval
@@ -80,19 +80,19 @@ def share_text(each: ProbabilityEstimate) -> str:
 
 
 def _percent(value: float) -> str:
-    """Format a probability in percent with two digits, or above 10 % with one digit after the point."""
+    """Return a probability in percent as text, with two digits, or above 10 % with one decimal."""
     percent = 100 * value
     return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
 
 
 def angle_text(figure: IntervalEstimate) -> str:
-    """Format an angle in degrees with its interval: `2.04 (1.9..2.2)`."""
+    """Return an angle [rad] in degrees with its interval as text: `2.04 (1.9..2.2)`."""
     value, low, high = (degrees(each) for each in (figure.value, figure.low, figure.high))
     return f"{value:.3g} ({low:.3g}..{high:.3g})"
 
 
 def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Format a number with its interval: `12.4 (11.8..13)`."""
+    """Return a number with its interval as text: `12.4 (11.8..13)`."""
     return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
 
 
@@ -197,7 +197,7 @@ def _cleared(found: MonteCarloResult) -> Section:
 
 
 def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:
-    """Return a table of the probability of each event by clearance; the declared clearance is left out."""
+    """Return a table of the probability of each event by clearance, without the declared clearance."""
     given = (case for case in cases if case.clearance is not None)
     rows = [(f"{case.clearance:.6g}", *(share_text(case.events[event]) for event in events)) for case in given]
     return Table(("clearance", *events), rows)

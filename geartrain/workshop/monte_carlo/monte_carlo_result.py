@@ -1,4 +1,4 @@
-"""Combined result of all studies on the trials of one train, and the assumptions it rests on."""
+"""Combined result of all studies on the trials of one train, with its assumptions."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ ErrorSizes = dict[str, dict[str, dict[str, float]]]
 
 
 class PartialTrials(NamedTuple):
-    """Number of trials completed and requested in an interrupted run."""
+    """Numbers of completed and requested trials of an interrupted run."""
 
     done: int
-    """Number of trials completed."""
+    """Number of completed trials."""
     of: int
-    """Number of trials requested."""
+    """Number of requested trials."""
 
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Tabular, Pictured, Result):
-    """Trials of one train with all further studies requested: the input of reports and plots.
+    """Trials of one train with all further studies, for reports and plots.
 
     See Also
     --------
@@ -89,7 +89,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """Assumptions of the trials, as sentences."""
+        """Assumptions of the trials, in sentences."""
         return tuple(self._assumptions())
 
     def _assumptions(self) -> Iterator[str]:
@@ -131,7 +131,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def block(self) -> int:
-        """Number of trials drawn from one stream of random numbers."""
+        """Number of trials that are drawn from one stream of random numbers."""
         return BLOCK
 
     @property
@@ -146,16 +146,17 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def pair_errors(self) -> ErrorSizes:
-        """Sizes of the fitting errors by pair, kind and distribution."""
+        """Sizes of the mounting errors by pair, kind and distribution, as fractions of tooth depth."""
         return _sizes({pair.name: pair.fitting for pair in self.trials.plan.pairs})
 
     @property
     def partial(self) -> PartialTrials | None:
-        """Number of trials completed in an interrupted run; None in a complete run."""
+        """Numbers of completed and requested trials if the run was interrupted; otherwise None."""
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
     def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
-        """Return rows of number of trials, standard deviation of an output, and its lower and upper limit [deg].
+        """Return rows of number of trials, standard deviation of an output's error, and its lower and upper limit
+        [deg].
 
         Parameters
         ----------
@@ -186,12 +187,12 @@ class TrialStudies:
     clearances: Sequence[float] = ()
     """Clearance factors, or fractions of clearance windows, at which the trials are repeated."""
     courses: bool = False
-    """True if the first outputs are followed along a turn."""
+    """True to evaluate the first outputs along a turn."""
     sobol: bool = False
-    """True if Sobol indices of the first outputs are computed, by wheel and by kind."""
+    """True to compute Sobol indices of the first outputs, by wheel and by kind."""
 
     def of(self, trials: TrialResults, means: Execution) -> MonteCarloResult:
-        """Run the requested studies and return them with the trials."""
+        """Return the trials with the results of the requested studies."""
         plan, seed, count = trials.plan, trials.seed, trials.wanted
         few = range(min(_FEW, len(plan.outputs)))
         by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
@@ -203,7 +204,7 @@ class TrialStudies:
         )
 
     def mapped(self, findings: MonteCarloResult, means: Execution) -> MonteCarloResult:
-        """Add the jamming map to a result: trials over several clearances and scales of the errors."""
+        """Return a result with the jamming map added: trials at several clearances and scales of the errors."""
         of = findings.trials
         clearances = self.clearances or _SHARES
         return replace(findings, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))

@@ -1,4 +1,4 @@
-"""Random errors of wheels from independent streams, each keyed by the seed, the block, the wheel and the kind of error.
+"""Random errors of wheels from independent streams, each keyed by seed, block, wheel and kind of error.
 
 A trial therefore has the same errors in any process, whatever else is computed. Errors scaled by a factor are the same
 random numbers times that factor, and a study of clearances uses the same wheels at every clearance.
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 BLOCK = 256
-"""Number of trials drawn together. Results depend on it, so it must never change."""
+"""Number of trials that are drawn together. Results depend on it, so it must never change."""
 
 PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERROR, BEARING_CLEARANCE, POSITION = range(
     8
@@ -51,16 +51,16 @@ class RandomStreams:
     seed: int
     block: int
     other: Callable[[int, int], bool] = field(default=_first_sample)
-    """Predicate (item, kind): True selects the second, independent sample, as Sobol indices need it."""
+    """Predicate (item, kind): True selects the second, independent sample, which Sobol indices need."""
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
-        """Return the generator for one kind of error of one wheel, pair or position."""
+        """Return the generator for one kind of error of one wheel or pair, or for the position of the input."""
         key = (self.block, item, kind, int(self.other(item, kind)))
         # PCG64 by name: numpy's default generator may change, and results must not
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
-        """Draw errors as fractions, as an array of the given shape: (trials,) or (trials, teeth)."""
+        """Return random errors as fractions, in an array of shape (trials,) or (trials, teeth)."""
         if off.way == "value":
             return np.full(shape, off.size)
         rng = self.rng(item, NUMBER[kind])
@@ -71,7 +71,7 @@ class RandomStreams:
 def draw_wheel(
     wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
-    """Draw one wheel in some trials of a block; return its arrays and a mask of the trials in which it can be cut.
+    """Return one wheel drawn in some trials of a block, and a mask of the trials in which it can be cut.
 
     Drawn arrays have shape (trials, z), the mask (trials,). Triangular wheels have tip radius 1, internal ones -1.
     Wheels that cannot be cut are returned without errors, so that later code never meets teeth without tips.
@@ -119,8 +119,9 @@ def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, ro
 
 
 def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
-    """Scale a wheel of tip radius 1 (internal: -1) to the sizes of its pair, mirrored if it turns against its
-    numbering.
+    """Return a wheel of tip radius 1 (internal: -1) scaled to the sizes of its pair.
+
+    It is mirrored if it turns against the numbering of its teeth.
     """
     found = CutWheel(radius, half_angle, wheel.place, abs(radius) * wheel.tip, wheel.leading, wheel.trailing)
     return found.mirrored() if mirrored else found

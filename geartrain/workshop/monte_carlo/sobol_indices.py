@@ -45,14 +45,14 @@ class SobolIndex(Result):
     name: str
     """Name of the input variable: a wheel, pair or kind of error, or "position"."""
     first: IntervalEstimate
-    """First-order index with its 95 % interval."""
+    """First-order index with its 95 % confidence interval."""
     total: IntervalEstimate
-    """Total index with its 95 % interval."""
+    """Total index with its 95 % confidence interval."""
 
 
 @dataclass(frozen=True, slots=True)
 class SobolIndices(Result):
-    """Sobol indices of one output by wheel or by kind of error.
+    """Sobol indices of the error of one output, by wheel or by kind of error.
 
     See Also
     --------
@@ -62,11 +62,14 @@ class SobolIndices(Result):
     output: str
     """Name of the output."""
     by: By
-    """Grouping of errors into input variables: all errors of one wheel, or one kind of error of all wheels."""
+    """Grouping of errors into input variables: "wheel" for all errors of one wheel, "kind" for one kind of all
+    wheels.
+    """
     trials: int
-    """Number of base samples in which every output is finite."""
+    """Number of base samples with finite errors."""
     indices: tuple[SobolIndex, ...]
-    """Indices of each input variable, in descending order of the total index; "position" is the position of the input.
+    """Indices of each input variable in descending order of the total index; "position" is the position of the
+    input.
     """
 
 
@@ -78,14 +81,14 @@ def find_sobol_indices(
     seed: int = 1,
     means: Execution | None = None,
 ) -> SobolIndices:
-    """Estimate the Sobol indices of an output's error at random positions, by Saltelli's scheme.
+    """Return estimates of the Sobol indices of an output's error at random positions, by Saltelli's scheme.
 
     In a pair that jams, the pushing flanks determine the position of the output.
 
     Parameters
     ----------
     plan : TrialPlan
-        The train with its errors.
+        Train with its cutting and fitting errors.
     output : int
         Index of the output in `plan.outputs`, from 0.
     by : {"wheel", "kind"}
@@ -93,7 +96,7 @@ def find_sobol_indices(
     trials : int
         Number of base samples, 1 to 10^9. Each costs two trials plus one for each input variable.
     seed : int
-        Seed of the random numbers.
+        Random seed.
     means : Execution, optional
         Executor and progress report; by default this process without a report. The journal is not used.
 
@@ -124,7 +127,7 @@ def find_sobol_indices(
     if len(names) < 2:
         what = f"no wheel with errors moves '{plan.outputs[output]}'"
         why = "Sobol indices are shares of a variance, and the variance of this output is 0"
-        raise QuestionError(Problem(what, why, "name another output: --output NAME"))
+        raise QuestionError(Problem(what, why, "name another output: --of NAME"))
     rows: list[Any] = []
     # no journal: its tasks are identified by block and trials, and would be confused with those of the trials
     for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
@@ -138,7 +141,7 @@ def find_sobol_indices(
 
 
 def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
-    """Estimate the first-order and total index of each input, with bootstrap intervals; 0 if the values do not vary.
+    """Return first-order and total index of each input with bootstrap intervals; 0 if the values do not vary.
 
     values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
     seed     seed of the bootstrap resamples
@@ -166,7 +169,7 @@ def _saltelli(values: Floats) -> Floats:
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Callable[[int, int], bool]]]:
-    """Return the input variables that can move an output, each with the predicate of its random streams."""
+    """Return the input variables that can affect an output, each with the predicate of its random streams."""
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]
@@ -213,8 +216,8 @@ def _first_sample(item: int, kind: int) -> bool:
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Task function of some base samples: errors of the output [rad], shape (trials, inputs + 2), columns
-    A, AB(i), B.
+    """Task function of some base samples: errors of the output [rad], shape (trials, inputs + 2), columns A, AB(i),
+    B.
     """
 
     plan: TrialPlan
@@ -223,7 +226,7 @@ class SobolBlock:
     by: By
 
     def __call__(self, task: Sequence[int]) -> list[list[float]]:
-        """Compute the samples of one task as plain data."""
+        """Return the samples of one task as plain data."""
         first, trials = task
         inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
         columns = [self._errors(first, trials, choice) for choice in (_first_sample, *inputs, _second_sample)]

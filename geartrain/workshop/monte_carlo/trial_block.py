@@ -1,6 +1,4 @@
-"""One block of trials: draw the wheels, evaluate every pair and compute the pointer errors, reproducibly in any
-process.
-"""
+"""One block of trials: wheels are drawn, pairs evaluated and pointer errors computed, reproducibly in any process."""
 
 from __future__ import annotations
 
@@ -37,8 +35,8 @@ STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of those that
-    can be cut.
+    """Wheels drawn for some trials: `wheels` by number with tip radius 1, and `good`, masks of wheels that can be
+    cut.
     """
 
     plan: TrialPlan
@@ -53,7 +51,7 @@ class TrialWheels:
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """Return one pair of drawn wheels; `widest` 1 or -1 puts its bearings at their largest or smallest distance."""
+        """Return one pair of drawn wheels; `widest` 1 or -1 selects the maximum or minimum distance of its bearings."""
         pair = self.plan.pairs[at]
         if not pair.stroke:
             return pair.cut(self.wheels, self._shift(pair, at, widest))
@@ -62,14 +60,14 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """Result of filing, by number of the pair, for pairs that are filed to fit; bearings at their smallest
-        distance.
+        """Result of filing by index of the pair, for pairs that are filed to fit, at the minimum distance of their
+        bearings.
         """
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return the number of file strokes and of filed teeth of each pair, shape (trials, 2 pairs)."""
+        """Return the numbers of file strokes and of filed teeth of each pair, shape (trials, 2 pairs)."""
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -88,7 +86,7 @@ class TrialWheels:
 
 
 def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK, start: int = 0) -> TrialWheels:
-    """Draw the wheels of consecutive trials of a block, beginning with its trial number `start`."""
+    """Return the wheels drawn for consecutive trials of a block, beginning with its trial number `start`."""
     rows = slice(start, start + trials)
     found = [draw_wheel(wheel, at, streams, rows) for at, wheel in enumerate(plan.wheels)]
     return TrialWheels(plan, streams, rows, tuple(wheel for wheel, _ in found), tuple(good for _, good in found))
@@ -98,7 +96,7 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 
 
 def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) -> tuple[Marks, Floats]:
-    """Return event flags and minimum backlash [driven pitches] of the pairs in every trial, each of shape (trials,
+    """Return event flags and minimum backlash [pitch of the driven wheel] of the pairs in every trial, shape (trials,
     pairs).
     """
     wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
@@ -131,7 +129,9 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
 
 
 def input_positions(drawn: TrialWheels) -> Floats:
-    """Draw the position of the input in each trial [turn], uniform over the span of the plan, shape (trials,)."""
+    """Return a random position of the input in each trial [turn], uniform over the span of the plan, shape
+    (trials,).
+    """
     # a whole block is drawn and then sliced, as for all errors
     return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
 
@@ -149,14 +149,14 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the same errors to first order: each pair at its mean angle, each pin at its mean ratio."""
+        """Return the same errors to first order [rad]: each pair at its mean angle, each pin at its mean ratio."""
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 
 
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Compose the motion of outputs (by default all) with the drawn wheels; `rows` gives the trial at each position.
+    """Return the composed motion of outputs (default all) with the drawn wheels; `rows` is the trial at each position.
 
     The transmission functions of all pairs and pins are composed exactly, for every trial at its own position.
     """

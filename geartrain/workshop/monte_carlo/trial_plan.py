@@ -61,8 +61,10 @@ _MAXIMUM_SPAN = 10**6  # turns of the input, if the train takes longer to repeat
 
 @dataclass(frozen=True, slots=True)
 class TrialPair(ABC):
-    """Gear pair of a plan: numbers of the driver (`first`) and driven wheel; `mirrored` marks wheels turning against
-    their numbering.
+    """Gear pair of a plan.
+
+    `first` and `second` are the indices of driver and driven wheel; `mirrored` marks wheels that turn against the
+    numbering of their teeth.
     """
 
     name: str
@@ -72,9 +74,9 @@ class TrialPair(ABC):
     even: float
     """Mean transmission error of the pair without cutting errors [rad of the driven wheel]."""
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
-    """Errors of its axes, as fractions of the smaller tooth depth of the two wheels."""
+    """Errors of the axes by kind, as fractions of the smaller tooth depth of the two wheels."""
     stroke: float = field(default=0.0, kw_only=True)
-    """Depth removed by one stroke of the file, as a fraction of the same tooth depth; 0 if the pair is not filed."""
+    """Depth of one stroke of the file over the same tooth depth; 0 if the pair is not filed."""
 
     @property
     @abstractmethod
@@ -89,36 +91,38 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def backlash(self) -> float:
-        """Nominal backlash [pitches of the driven wheel]."""
+        """Nominal backlash [pitch of the driven wheel]."""
 
     @property
     @abstractmethod
     def question(self) -> tuple[float, ...]:
-        """Sizes on which results depend, for the key of a journal."""
+        """Sizes on which results depend, as part of the key of a journal."""
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """Return the pair of drawn wheels on its axes, with the centre distance increased by `shift`."""
+        """Return the pair of drawn wheels with the centre distance increased by `shift`."""
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial: jam, clash, dwell, disengagement, and the minimum backlash."""
+        """Return the events of a cut pair in each trial: jam, clash, dwell, loss of contact, and the minimum
+        backlash.
+        """
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair; `rows` gives the trial at each angle."""
+        """Return the transmission functions of a cut pair; `rows` is the trial at each angle."""
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed to fit, with the number of strokes and teeth."""
+        """Return a cut pair after filing to fit, with the numbers of strokes and of filed teeth."""
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
         """Return the pair at another clearance."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound on the probability of a jam for normal pitch deviations [pitches]; NaN if none is
-        known.
+        """Return an upper bound of the probability of a jam for normal pitch deviations `sigma` [pitch]; NaN without a
+        bound.
         """
         del sigma
         return nan
@@ -152,17 +156,17 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def backlash(self) -> float:
-        """Nominal backlash [pitches of the driven wheel]."""
+        """Nominal backlash [pitch of the driven wheel]."""
         return nominal_backlash(self.sizes)
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Radii, half angles and excess of the centre distance, for the key of a journal."""
+        """Radii, half angles and excess of the centre distance, as part of the key of a journal."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Scale drawn wheels of tip radius 1 to the sizes of the pair and return the pair."""
+        """Return the pair of drawn wheels of tip radius 1, scaled to the sizes of the pair."""
         sizes = self.sizes
         R1, R2 = sizes.signed_radii
         first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
@@ -170,16 +174,16 @@ class TriangularTrialPair(TrialPair):
         return CutGearPair(sizes, first, second, shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial; one trial if both wheels are the same in all trials."""
+        """Return the events of a cut pair in each trial; of one trial if both wheels are the same in all trials."""
         first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
         return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, found tooth by tooth."""
+        """Return the transmission functions of a cut pair, computed tooth by tooth."""
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Apply the file to the pairs that jam; pairs of the other trials are returned unchanged."""
+        """Return the pairs with those that jam filed to fit; pairs of the other trials are unchanged."""
         count = pair.trials[0] if pair.trials else 1
         # only jamming pairs are filed, because finding the tightest position is expensive
         jams = np.flatnonzero(self.verdicts(pair).jams)
@@ -196,15 +200,14 @@ class TriangularTrialPair(TrialPair):
         return FilingWork(pair, strokes, teeth, (low[0], low[1]))
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return the bound 2 lcm(z1, z2) Q(j / 2 sigma), with the nominal backlash j and the deviation sigma in
-        pitches.
+        """Return the upper bound 2 lcm(z1, z2) Q(j / 2 sigma) of the probability of a jam.
+
+        j is the nominal backlash and sigma the standard deviation [pitch].
         """
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair at a clearance: a clearance factor from 1 upwards, or below 1 a fraction of its clearance
-        window.
-        """
+        """Return the pair at a clearance factor (1 or more), or at a fraction of its clearance window (below 1)."""
         return replace(self, sizes=self._cleared(clearance))
 
     def _cleared(self, clearance: float) -> TriangularSizes:
@@ -216,13 +219,13 @@ class TriangularTrialPair(TrialPair):
         if not window:
             what = f"pair '{self.name}' has no clearance window"
             why = "its perfect teeth jam or lose contact at every clearance"
-            raise RangeError(Problem(what, why, "give clearance factors above 1: --clearance 1.005:1.04:8"))
+            raise RangeError(Problem(what, why, "give clearance factors above 1: --vary clearance_factor=1.005:1.04:8"))
         return self.sizes.at(window.at(clearance))
 
 
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Gear pair of any other tooth form: flanks displaced along the path of contact, valid to first order in the
+    """Gear pair of any other tooth form: flanks displaced along the path of contact, accurate to first order in the
     errors.
     """
 
@@ -241,17 +244,17 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def backlash(self) -> float:
-        """Nominal backlash [pitches of the driven wheel]."""
+        """Nominal backlash [pitch of the driven wheel]."""
         return even_backlash(self.contact) / self.pitches[1]
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Some numbers that identify the contact, for the key of a journal."""
+        """Numbers that identify the contact, as part of the key of a journal."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Return the pair of drawn wheels, mirrored where they turn against their numbering."""
+        """Return the pair of drawn wheels, mirrored if they turn against the numbering of their teeth."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
         # filing and verdicts need an axis of trials, even if all trials are the same
@@ -265,38 +268,38 @@ class DisplacedTrialPair(TrialPair):
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, given by the foremost tooth pair at each angle."""
+        """Return the transmission functions of a cut pair, from the foremost tooth pair at each angle."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Apply strokes of the file of the declared depth to a cut pair until it does not jam."""
+        """Return a cut pair after filing by strokes of the declared depth until it does not jam."""
         return file_to_fit(pair, self.stroke * self.depth, _MAXIMUM_FILING * self.contact.wheels[0].pitch)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
-        """Return the pair at a clearance factor of the centre distance (1 or more)."""
+        """Return the pair at a clearance factor of the centre distance, 1 or more."""
         if clearance < 1 or not self.contact.distance < inf:
             what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
             why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"
             raise RangeError(
-                Problem(what, why, "omit --clearance, or give clearance factors above 1 if all axes are parallel")
+                Problem(what, why, "omit --vary, or give clearance factors above 1 if all axes are parallel")
             )
         return replace(self, contact=self.contact.apart_by((clearance - 1) * self.contact.distance))
 
 
 def _with_trial_axis(pair: CutGearPair, count: int) -> CutGearPair:
-    """Expand both wheels of a pair to arrays with an axis of trials."""
+    """Return the pair with both wheels expanded to arrays with an axis of trials."""
     wheels = [
         replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
     ]
     return CutGearPair(pair.sizes, wheels[0], wheels[1], pair.shift)
 
 
-# ------------------------------------------------------------------------------------------------------------ the train
+# ---------------------------------------------------------------------------------------------------------------- train
 
 
 @dataclass(frozen=True)
 class TrialPlan(Shown):
-    """Input data of the trials of a train in one state, sufficient for a block of trials.
+    """Input data of the trials of a train in one state.
 
     See Also
     --------
@@ -310,13 +313,13 @@ class TrialPlan(Shown):
     pairs: tuple[TrialPair, ...]
     """Gear pairs of these wheels, with their sizes and the errors of their axes."""
     composition: ErrorComposition
-    """Composed motion with perfect teeth, whose transmission functions the trials replace."""
+    """Composed motion with perfect teeth, whose transmission functions are replaced in the trials."""
     outputs: tuple[str, ...]
     """Names of the outputs."""
     speeds: tuple[Fraction, ...]
     """Speeds of the outputs relative to the input."""
     reach: tuple[tuple[int, ...], ...]
-    """Numbers of the pairs that can move each output."""
+    """Indices of the pairs that can move each output."""
     span: float
     """Range of the random positions of the input [turn]."""
     driving_link: str
@@ -327,16 +330,19 @@ class TrialPlan(Shown):
 
     @property
     def position(self) -> int:
-        """Number of the random stream of positions. Wheels come first, then pairs, then this stream."""
+        """Number of the random stream that draws the positions of the input.
+
+        Wheels have the first streams, pairs the next ones, and the positions the last one.
+        """
         return len(self.wheels) + len(self.pairs)
 
     @property
     def files(self) -> bool:
-        """True if some pair is filed to fit."""
+        """True if at least one pair is filed to fit."""
         return any(pair.stroke for pair in self.pairs)
 
     def scaled(self, factor: float) -> TrialPlan:
-        """Return the plan with all errors multiplied by a factor.
+        """Return the plan with all cutting and fitting errors multiplied by a factor.
 
         Parameters
         ----------
@@ -352,7 +358,7 @@ class TrialPlan(Shown):
         return replace(self, wheels=wheels, pairs=pairs)
 
     def cleared(self, clearance: float) -> TrialPlan:
-        """Return the plan with every pair at another clearance.
+        """Return the plan with every pair at another centre distance.
 
         Parameters
         ----------
@@ -363,7 +369,7 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def question(self) -> dict[str, Any]:
-        """Return everything that results depend on, as plain data; a journal identifies its train by it."""
+        """Return all data on which the results depend, as plain data; a journal identifies its run by them."""
         return {
             "train": self.name,
             "wheels": [
@@ -390,7 +396,7 @@ def find_trial_plan(
     state: str | None = None,
     without: Sequence[str] = (),
 ) -> TrialPlan:
-    """Collect the data for Monte Carlo trials of a train with cutting errors, in one state.
+    """Collect the input data for Monte Carlo trials of a train with cutting errors, in one state.
 
     Parameters
     ----------
@@ -443,7 +449,7 @@ def find_trial_plan(
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
         why = "perfect wheels are the same in every trial"
-        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --set pitch_deviation='2 %'"
+        fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting pitch_deviation='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())
     reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
@@ -461,7 +467,13 @@ def find_trial_plan(
 
 
 def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
-    """Return the pairs whose teeth can have cutting errors; raise `QuestionError` if there are none."""
+    """Return the pairs whose teeth can have cutting errors.
+
+    Raises
+    ------
+    QuestionError
+      If no pair has a tooth form for which cutting errors can be computed.
+    """
     found = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not found:
         what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
@@ -472,7 +484,7 @@ def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
 
 
 def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:
-    """Return the driver and the driven wheel of a pair without errors, with the teeth that this pair gives them."""
+    """Return the driver and the driven wheel of a pair without cutting errors, with the tooth form of this pair."""
     counts = [train.declaration.wheels[name][1].count or 0 for name in (mesh.driver, mesh.driven)]
     contact = mesh.displaced_contact
     if contact is None:
@@ -487,7 +499,7 @@ def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelEr
 
 
 def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
-    """Return the turns of the input after which the same teeth meet in every pair, at most one million."""
+    """Return the number of turns of the input [turn] after which the same teeth meet in every pair, at most 10^6."""
     counts = {pair.name: pair.count for pair in pairs}
     cycles = [source.cycles / counts.get(source.id, 1) for source in composition.used if source.cycles]
     if not cycles:
@@ -504,8 +516,9 @@ def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> 
 
 
 class _RotationSenses:
-    """Sense of rotation of each wheel in each of its pairs; teeth are numbered in the order they pass in the first
-    pair.
+    """Sense of rotation of each wheel in each of its pairs.
+
+    Teeth are numbered in the order in which they pass the mesh of the first pair of the wheel.
     """
 
     def __init__(self, motion: Motion) -> None:
@@ -514,7 +527,7 @@ class _RotationSenses:
         self.first: dict[str, int] = {}
 
     def mirrored(self, pair: str, wheel: str) -> bool:
-        """Return whether the wheel turns the other way in this pair than in its first pair."""
+        """Return True if a wheel turns in this pair in the opposite sense to that in its first pair."""
         circuit = self.circuits[pair]
         link = circuit.i if wheel == circuit.wheels[0] else circuit.j
         sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1
@@ -541,6 +554,6 @@ def _pair(
 
 
 def _less_deep(mesh: GearMesh, wheels: tuple[WheelErrors, WheelErrors]) -> WheelErrors:
-    """Return the wheel with the smaller depth of triangular teeth; the driver if both are equal."""
+    """Return the wheel with the smaller tooth depth of a triangular pair; the driver if both depths are equal."""
     depths = mesh.cut_sizes.depths
     return wheels[0] if depths[0] <= depths[1] else wheels[1]

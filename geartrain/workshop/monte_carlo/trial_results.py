@@ -1,4 +1,4 @@
-"""Results of trials: event rates of pairs and errors of pointers, at random positions and along a turn."""
+"""Results of Monte Carlo trials: event probabilities of pairs; pointer errors at random positions and along a turn."""
 
 from __future__ import annotations
 
@@ -56,9 +56,9 @@ class TrialResults(Tabular):
     plan: TrialPlan
     """Input data of the trials."""
     seed: int
-    """Seed of the random numbers."""
+    """Random seed of the trials."""
     wanted: int
-    """Number of trials requested. It is larger than `done` in an interrupted run."""
+    """Number of trials requested; larger than `done` if the run was interrupted."""
     marks: Marks
     """Event flags of each pair, shape (trials, pairs): a bit mask of 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not
     cuttable.
@@ -66,21 +66,26 @@ class TrialResults(Tabular):
     turns: Floats
     """Position of the input in each trial, shape (trials,) [turn]."""
     errors: Floats
-    """Error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
+    """Pointer error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
     first: Sequence[tuple[float, float, int]]
-    """Sums by output: squared error of superposition, squared pointer error, and number of trials compared."""
+    """Sums by output: squared error of first-order superposition [rad^2], squared pointer error [rad^2], number of
+    trials.
+    """
     sums: Sequence[Mapping[str, tuple[float, ...]]]
-    """Sums over trials by output and pair, from which the variance shares are computed."""
+    """Sums over the trials by output and pair: count, part, total, product; the variance shares are computed from
+    them.
+    """
     bounds: Mapping[str, float] = field(default_factory=dict)
-    """Upper bound on the probability of a jam, for each pair where one is known."""
+    """Upper bound of the jam probability, 0 to 1, of each pair for which one is known."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Errors along a turn, where requested."""
+    """Pointer errors along one turn, for the outputs for which they were requested."""
     filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     """Numbers of file strokes and of filed teeth by pair, shape (trials, 2 pairs); empty if no pair is filed to fit."""
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each trial: turns of the input, errors of outputs [deg], and event flags of each pair.
+        """Table with one row for each trial: position of the input [turn], pointer errors [deg] and event flags of each
+        pair.
 
         The flags are a bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.
         """
@@ -101,7 +106,7 @@ class TrialResults(Tabular):
 
     @property
     def done(self) -> int:
-        """Number of trials completed. It is smaller than `wanted` in an interrupted run."""
+        """Number of completed trials; smaller than `wanted` if the run was interrupted."""
         return len(self.turns)
 
     @property
@@ -111,7 +116,7 @@ class TrialResults(Tabular):
 
     @cached_property
     def pairs(self) -> tuple[PairEventRates, ...]:
-        """Event rates of each pair."""
+        """Event probabilities of each pair."""
         return tuple(
             _tally(pair.name, self.marks[:, at], pair.backlash, self.bounds.get(pair.name, nan))
             for at, pair in enumerate(self.plan.pairs)
@@ -119,14 +124,14 @@ class TrialResults(Tabular):
 
     @cached_property
     def train(self) -> PairEventRates:
-        """Event rates of the train: an event counts if any pair shows it."""
+        """Event probabilities of the train: an event occurs in a trial if it occurs in at least one pair."""
         # the probability of any jam is at most the sum of the probabilities (Boole's inequality)
         bound = min(1.0, sum(self.bounds.values())) if len(self.bounds) == len(self.plan.pairs) else nan
         return _tally("the train", np.bitwise_or.reduce(self.marks, axis=1), nan, bound)
 
     @cached_property
     def filings(self) -> tuple[FilingStatistics, ...]:
-        """Filing statistics of each pair that is filed to fit, and of the train; empty if no pair is filed."""
+        """Filing statistics of each pair that is filed to fit, and of the train; empty if no pair is filed to fit."""
         if not self.plan.files:
             return ()
         found = [
@@ -145,11 +150,11 @@ class TrialResults(Tabular):
 
     @cached_property
     def pointers(self) -> tuple[PointerErrorStatistics, ...]:
-        """Error statistics of each output."""
+        """Statistics of the pointer error of each output."""
         return tuple(self._pointer(at) for at in range(len(self.plan.outputs)))
 
     def pointer(self, name: str) -> PointerErrorStatistics:
-        """Return the error statistics of one output.
+        """Return the statistics of the pointer error of one output.
 
         Parameters
         ----------
@@ -174,16 +179,17 @@ class TrialResults(Tabular):
 
     @property
     def jams(self) -> list[ConvergenceStep]:
-        """Probability that any pair jams, for increasing numbers of trials."""
+        """Probability that at least one pair jams, estimated from increasing numbers of trials."""
         return [ConvergenceStep(*each) for each in self.convergence("jam")]
 
     @property
     def stops(self) -> list[ConvergenceStep]:
-        """Probability that any pair jams or clashes, for increasing numbers of trials."""
+        """Probability that at least one pair jams or clashes, estimated from increasing numbers of trials."""
         return [ConvergenceStep(*each) for each in self.convergence("stops")]
 
     def convergence(self, event: str = "jam") -> list[tuple[int, ProbabilityEstimate]]:
-        """Return the probability of an event in any pair after 1/16, 1/8, ... and all of the trials.
+        """Return the probability of an event in at least one pair, estimated from 1/16, 1/8, 1/4, 1/2 and all of the
+        trials.
 
         Parameters
         ----------
@@ -196,8 +202,8 @@ class TrialResults(Tabular):
         return [(count, _share(whole[:count], mark)) for count in counts]
 
     def pointer_convergence(self, at: int) -> list[tuple[int, IntervalEstimate]]:
-        """Return the standard deviation of an output [rad] after 1/16, 1/8, ... and all of the trials that count for
-        it.
+        """Return the standard deviation of a pointer error [rad], estimated from 1/16, 1/8, 1/4, 1/2 and all of its
+        trials.
 
         Parameters
         ----------
@@ -210,8 +216,9 @@ class TrialResults(Tabular):
 
 
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
-    """Return a mask (trials,) of the trials in which no given pair jams, disengages or is uncuttable; clashes are
-    allowed.
+    """Return a mask, shape (trials,), of the trials in which the given pairs transmit motion.
+
+    In these trials no given pair jams, disengages or has a wheel that cannot be cut; clashes are allowed.
     """
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
@@ -228,7 +235,7 @@ def _tally(name: str, marks: Marks, backlash: float, bound: float) -> PairEventR
 
 
 def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
-    """Return the covariance of each pair's part with the total, divided by the variance of the total."""
+    """Return the variance share of each pair: covariance of its part with the total, divided by the total variance."""
     found = {}
     for name, (count, part, whole, product) in sums.items():
         # sum of products about the means; the common factor cancels in the ratio
@@ -241,7 +248,7 @@ def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
 
 
 class EventRates(TypedDict):
-    """Probability of each event."""
+    """Probability of each event during a full meshing cycle."""
 
     jam: ProbabilityEstimate
     clash: ProbabilityEstimate
@@ -252,7 +259,7 @@ class EventRates(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class PairEventRates(Result):
-    """Event probabilities over the full meshing cycle, of one pair or of any pair of the train.
+    """Event probabilities during a full meshing cycle, of one pair or of the whole train.
 
     See Also
     --------
@@ -264,23 +271,25 @@ class PairEventRates(Result):
     name: str
     """Name of the pair, or "the train"."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, over the trials with cuttable wheels."""
+    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, over the trials with wheels that can be
+    cut.
+    """
     uncut: int
     """Number of trials with a wheel that cannot be cut."""
     backlash: float = nan
-    """Nominal backlash of perfect wheels [pitch of the driven wheel]; NaN for the train."""
+    """Nominal backlash of wheels without errors [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
-    """Upper bound on the probability of a jam by pitch deviations; NaN if there are other errors."""
+    """Upper bound of the jam probability due to pitch deviations, 0 to 1; NaN if there are other errors."""
 
     @property
     def rates(self) -> EventRates:
-        """Event probabilities by name."""
+        """Event probabilities by the name of the event."""
         return cast("EventRates", self.events)
 
 
 @dataclass(frozen=True, slots=True)
 class FilingStatistics(Result):
-    """Amount of filing after which one pair, or the whole train, passes.
+    """Amount of filing after which one pair, or the whole train, turns without a jam.
 
     See Also
     --------
@@ -298,19 +307,19 @@ class FilingStatistics(Result):
     teeth: IntervalEstimate
     """Mean number of teeth filed over all trials."""
     most: int
-    """Maximum number of strokes in a trial."""
+    """Maximum number of strokes in one trial."""
     jams: ProbabilityEstimate
-    """Probability of a jam after filing. A pair still jams if a flank reached its limit."""
+    """Probability of a jam after filing. A pair still jams if a flank was filed to its limit."""
 
 
 @dataclass(frozen=True)
 class ConvergenceStep:
-    """Probability estimated from the first trials of a run."""
+    """Probability estimated from the first trials of a run, to show the convergence."""
 
     KEYS = ("trials", Key("", "share"))
 
     trials: int
-    """Number of trials counted, from the first on."""
+    """Number of trials used, from the first one."""
     share: ProbabilityEstimate
     """Probability estimated from these trials."""
 
@@ -319,18 +328,19 @@ class ConvergenceStep:
 
 
 class FirstOrderError(NamedTuple):
-    """Error of first-order superposition compared with the pointer error, as root mean squares [rad]."""
+    """Error of first-order superposition, compared with the exact pointer error, as root mean squares [rad]."""
 
     off: float
     """Root mean square of the error of first-order superposition [rad]."""
     rms: float
-    """Root mean square of the pointer error itself [rad]."""
+    """Root mean square of the exact pointer error [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorStatistics(Result):
-    """Error statistics of one output at random positions of the input, relative to its mean position with perfect
-    teeth.
+    """Statistics of the pointer error of one output at random positions of the input.
+
+    The error is measured from the mean position with perfect teeth.
 
     See Also
     --------
@@ -354,15 +364,17 @@ class PointerErrorStatistics(Result):
     name: str
     """Name of the output."""
     errors: Floats
-    """Errors of the trials in which no pair that moves the output jams or disengages, in their order [rad]."""
+    """Pointer errors of the trials in which no pair that moves the output jams or disengages, in the order of trials
+    [rad].
+    """
     all: Floats
-    """Errors of all trials in which teeth touch, as given by the pushing flanks even if a pair jams [rad]."""
+    """Pointer errors of all trials in which teeth touch [rad]; if a pair jams, of the flanks that push."""
     stopped: int
     """Number of trials excluded from `errors`."""
     first: FirstOrderError
-    """Error of first-order superposition and pointer error, as root mean squares [rad]."""
+    """Root mean squares of the error of first-order superposition and of the pointer error [rad]."""
     shares: Mapping[str, float]
-    """Share of the variance due to each pair, from superposition. The shares add up to 1."""
+    """Share of the variance due to each pair, from first-order superposition. The shares add up to 1."""
 
     @property
     def runs(self) -> int:
@@ -376,36 +388,36 @@ class PointerErrorStatistics(Result):
 
     @property
     def of_all(self) -> bool:
-        """True if too few trials can turn, so that the statistics use all trials."""
+        """True if fewer than 30 trials can turn, so that the statistics are computed from all trials."""
         return len(self.errors) < FEWEST
 
     @property
     def mean(self) -> IntervalEstimate:
-        """Mean error [rad]."""
+        """Mean pointer error with its confidence interval [rad]."""
         return mean_of(self.kept)
 
     @property
     def deviation(self) -> IntervalEstimate:
-        """Standard deviation of the error [rad]."""
+        """Standard deviation of the pointer error with its confidence interval [rad]."""
         return deviation_of(self.kept)
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the error in all trials, as given by the pushing flanks [rad]."""
+        """Standard deviation of the pointer error over all trials in which teeth touch [rad]."""
         return deviation_of(self.all)
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentiles of the error [rad]."""
+        """Percentiles of the pointer error [rad], by percentage."""
         return percentiles_of(self.kept)
 
     @property
     def maximum(self) -> float:
-        """Maximum absolute error observed [rad]."""
+        """Maximum absolute pointer error in the trials [rad]."""
         return float(np.abs(self.kept).max(initial=0.0))
 
     def beyond(self, angle: float) -> ProbabilityEstimate:
-        """Return the probability that the absolute error exceeds an angle.
+        """Return the probability that the absolute pointer error exceeds an angle.
 
         Parameters
         ----------
@@ -417,7 +429,7 @@ class PointerErrorStatistics(Result):
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Errors of one output along one turn of it, trial by trial.
+    """Pointer errors of one output along one turn of it, for each trial.
 
     See Also
     --------
@@ -437,33 +449,39 @@ class PointerErrorCourse(Result):
     turns: Floats
     """Positions of the input, shape (n,) [turn]."""
     errors: Floats
-    """Errors by trial, shape (trials, n) [rad]."""
+    """Pointer errors by trial and position, shape (trials, n) [rad]."""
 
     @property
     def maximum(self) -> Floats:
-        """Maximum absolute error of each trial along the turn [rad]."""
+        """Maximum absolute pointer error of each trial along the turn [rad]."""
         found: Floats = np.abs(self.errors).max(axis=1)
         return found
 
     @property
     def count(self) -> int:
-        """Number of trials."""
+        """Number of trials with errors along the turn."""
         return len(self.errors)
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Percentiles of the maximum absolute errors [rad]."""
+        """Percentiles over the trials of the maximum absolute pointer error [rad], by percentage."""
         return percentiles_of(self.maximum)
 
     @property
     def bands_deg(self) -> Floats:
-        """Minimum, percentiles and maximum at each position, as in `bands`, shape (7, n) [deg]."""
+        """Minimum, five quantiles and maximum of the pointer errors at each position, as in `bands`, shape (7, n)
+        [deg].
+        """
         found: Floats = np.degrees(self.bands())
         return found
 
     def bands(self) -> Floats:
-        """Return the minimum, the 2.5, 25, 50, 75 and 97.5 % quantiles and the maximum at each position, shape (7, n)
-        [rad].
+        """Return quantiles of the pointer errors over the trials at each position of the input.
+
+        Returns
+        -------
+        numpy.ndarray
+          Minimum, 2.5, 25, 50, 75 and 97.5 % quantiles and maximum, shape (7, n) [rad].
         """
         found: Floats = np.quantile(self.errors, (0, 0.025, 0.25, 0.5, 0.75, 0.975, 1), axis=0)
         return found

@@ -1,4 +1,6 @@
-"""Execution of trials in tasks, in this or other processes, with a journal; all trials as one result and as a table."""
+"""Execution of trials as tasks in one or several processes, with a journal; all trials as one result or as a table
+file.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +49,11 @@ _MOST = 10**9  # trials: more would not fit into memory
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """Trials of one task: number of the first one, and arrays as in `TrialResults`; `backlash` in driven pitches."""
+    """Results of the trials of one task.
+
+    `first` is the number of its first trial; the arrays are those of `TrialResults`; `backlash` is in pitches of the
+    driven wheel.
+    """
 
     first: int
     turns: Floats
@@ -61,23 +67,30 @@ class TrialRecord:
 
 
 def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
-    """Return the key by which a journal identifies a run: everything on which its results depend."""
+    """Return the data that identify a run in a journal: all data on which its results depend."""
     made = {"geartrain": version("geartrain"), "numpy": version("numpy"), "errors": VERSION}
     return {**made, "seed": seed, "trials": trials, "block": BLOCK, **plan.question(), **more}
 
 
 def check_trials(trials: int) -> None:
-    """Raise `QuestionError` unless the number of trials is from 1 to 10^9."""
+    """Check that the number of trials is from 1 to 10^9.
+
+    Raises
+    ------
+    QuestionError
+      If the number of trials is out of range.
+    """
     if not 1 <= trials <= _MOST:
-        what = f"the number of trials is {trials if trials < 1 else f'{trials:.3g}'}"
+        what = f"{trials if trials < 1 else f'{trials:.3g}'} is not a valid number of trials"
         raise QuestionError(Problem(what, f"it must be from 1 to {_MOST:.0e}", "give for example --trials 1000"))
 
 
 def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
-    """Split the trials into tasks, each given by its first trial and its number of trials.
+    """Split the trials into tasks; each task is given by its first trial and its number of trials.
 
-    A task is a block, or a half or quarter of a block if there are few. Sums are rounded task by task, so the tasks
-    depend only on the number of trials and of cases for which they are repeated, not on the number of workers.
+    A task is one block, or a half or a quarter of a block if there are few blocks. Sums are rounded task by task.
+    Therefore the tasks depend only on the number of trials and of `cases` (repetitions with other sizes), not on the
+    number of workers.
     """
     blocks = [range(start, min(start + BLOCK, trials)) for start in range(0, trials, BLOCK)]
     parts = min(4, -(-_TASKS // (len(blocks) * cases)))
@@ -95,7 +108,11 @@ def run_trials(
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
 ) -> TrialResults:
-    """Run Monte Carlo trials: each cuts all wheels anew and examines every pair over its full meshing cycle.
+    """Run Monte Carlo trials of a train: in each trial, all wheels are cut anew and each pair turns through a full
+    cycle.
+
+    The result does not depend on the number of workers, nor on whether the run was interrupted and resumed. If the
+    run is interrupted (Ctrl-C), the results of the completed trials are returned.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
     (Ctrl-C), the completed trials are returned.
@@ -103,11 +120,11 @@ def run_trials(
     Parameters
     ----------
     plan : TrialPlan
-        The train with its errors.
+        Train with its cutting and fitting errors.
     trials : int
         Number of trials, 1 to 10^9.
     seed : int
-        Seed of the random numbers. The same seed draws the same wheels, whatever else is computed.
+        Random seed. The same seed gives the same wheels in every computation.
     means : Execution, optional
         Executor, journal of finished blocks and progress report; by default this process without journal and report.
     take : callable, optional
@@ -162,7 +179,13 @@ def run_trials(
 
 
 def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
-    """Raise `RangeError` if wheels cannot be cut in more than half of the trials."""
+    """Check that the wheels can be cut in at least half of the trials.
+
+    Raises
+    ------
+    RangeError
+      If wheels cannot be cut in more than half of the trials.
+    """
     uncut = (rows.marks & UNCUT) > 0
     if uncut.any(axis=1).mean() <= 0.5:
         return
@@ -172,16 +195,16 @@ def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
         Problem(
             f"in {uncut.any(axis=1).mean():.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'",
             f"errors must be smaller than a tooth: the angular pitch of '{wheel.name}' is {360 / wheel.z:.3g} deg",
-            "give smaller errors: --set pitch_deviation='2 %'",
+            "give smaller errors: --cutting pitch_deviation='2 %'",
         )
     )
 
 
-# ------------------------------------------------------------------------------------------------------- in the workers
+# -------------------------------------------------------------------------------------------------------------- workers
 
 
 def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any]:
-    """Compute the trials of one task as plain data."""
+    """Return the results of the trials of one task as plain data."""
     number, trials = task
     drawn = draw_trial_wheels(plan, RandomStreams(seed, number // BLOCK), trials, number % BLOCK)
     marks, backlash = judge_trial_pairs(drawn)
@@ -213,7 +236,9 @@ def _off(first: Floats, exact: Floats) -> tuple[float, float, int]:
 def _sums(
     plan: TrialPlan, found: TrialPointers, runs: Sequence[NDArray[np.bool_]]
 ) -> list[dict[str, tuple[float, ...]]]:
-    """Return the sums for variance shares by output and pair: trials, pair's part, total, and their product."""
+    """Return the sums for the variance shares, by output and pair: count of trials, part of the pair, total, and
+    product.
+    """
     superposition = Superposition(found.cut)
     even = {pair.name: pair.even for pair in plan.pairs}
     sums: list[dict[str, tuple[float, ...]]] = []
@@ -238,7 +263,9 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecord:
-    """Decode the trials of a task, beginning with trial `first`, from the plain data of a worker or a journal."""
+    """Return the trials of one task, decoded from the plain data of a worker or a journal; `first` is its first
+    trial.
+    """
 
     def array(name: str, width: int = 0) -> Any:
         found = np.frombuffer(b64decode(packed[name]), np.uint8 if name == "marks" else np.float64)
@@ -257,11 +284,11 @@ def unpack(plan: TrialPlan, first: int, packed: Mapping[str, Any]) -> TrialRecor
     )
 
 
-# ---------------------------------------------------------------------------------------------------------- all of them
+# ----------------------------------------------------------------------------------------------------------- all trials
 
 
 def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecord]) -> TrialResults:
-    """Combine the records of all tasks into one result."""
+    """Return the records of all tasks, combined in one result."""
     outputs = range(len(plan.outputs))
     checked = [rows.off for rows in found if rows.off]
     first = [tuple(map(sum, zip(*(off[at] for off in checked), strict=True))) or (0.0, 0.0, 0) for at in outputs]
@@ -286,7 +313,7 @@ def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecor
 
 
 def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
-    """Return the jamming bound of each pair whose wheels have only normal pitch deviations."""
+    """Return the upper bound of the jam probability of each pair whose wheels have only normal pitch deviations."""
     found = {}
     for pair in plan.pairs:
         wheels = plan.wheels[pair.first], plan.wheels[pair.second]
@@ -301,18 +328,18 @@ def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
 
 
 def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, trials: int = BLOCK) -> PointerErrorCourse:
-    """Compute the errors of one output along one turn of it (of the input if it is fixed), trial by trial.
+    """Compute the pointer errors of one output along one turn of it, or of the input if the output is fixed.
 
     Parameters
     ----------
     plan : TrialPlan
-        The train with its errors.
+        Train with its cutting and fitting errors.
     output : int
         Index of the output in `plan.outputs`, from 0.
     positions : int
         Number of positions along the turn, both ends included.
     seed : int
-        Seed of the random numbers. They are independent of those of `run_trials`.
+        Random seed. The numbers are independent of those of `run_trials`.
     trials : int
         Number of trials, at most 256.
 
@@ -344,7 +371,7 @@ def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, tria
     return PointerErrorCourse(plan.outputs[output], turns, np.concatenate(parts).reshape(trials, positions))
 
 
-# ---------------------------------------------------------------------------------------------------------------- table
+# ----------------------------------------------------------------------------------------------------------- table file
 
 
 SUFFIXES = (".parquet", ".csv")
@@ -353,19 +380,19 @@ _EVENTS = "bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 wheels cannot be 
 
 @dataclass(frozen=True)
 class TrialTable:
-    """Table file with one row for each trial, written task by task."""
+    """Table file with one row for each trial, to which the records of tasks are appended."""
 
     plan: TrialPlan
     path: Path
     """Path of the .parquet or .csv file."""
     force: bool = False
-    """True if an existing file is overwritten."""
+    """True if an existing file may be overwritten."""
     replay: bool = False
-    """True if an interrupted run is resumed: its file is rewritten from the journal."""
+    """True if an interrupted run is resumed; its file is then written again from the journal."""
 
     @contextmanager
     def open(self) -> Iterator[Callable[[TrialRecord], None]]:
-        """Yield a function that writes one record to the table."""
+        """Yield a function that appends one record to the table file."""
         plan = self.plan
         if self.path.suffix.lower() == ".parquet":
             about = {"train": plan.name, "events": _EVENTS}
@@ -389,7 +416,7 @@ def _names(plan: TrialPlan) -> list[str]:
 
 
 def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
-    """Return the columns of one record, in the order of `_names`."""
+    """Return the columns of one record, in the order of their `_names`."""
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
     for at in range(len(plan.pairs)):
         values += [rows.backlash[:, at], rows.marks[:, at]]

@@ -24,12 +24,14 @@ from geartrain.cli.common import (
     check_distinct_outputs,
     draw,
     give,
+    option_error,
     picture_sink,
     sink,
     tell,
 )
-from geartrain.cli.long_runs import Dask, Resume, RunOptions, Workers, close_journal, long_run
+from geartrain.cli.long_runs import Resume, RunOptions, Workers, close_journal, long_run
 from geartrain.cli.option_values import Theme
+from geartrain.errors import suggest
 
 if TYPE_CHECKING:
     from geartrain.numerics.work import Execution
@@ -50,22 +52,28 @@ def run(
     trials: Annotated[int, typer.Option("--trials", help="Number of Monte Carlo trials.")] = 1000,
     seed: Seed = 1,
     set_: Annotated[
-        Names, typer.Option("--set", help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'.")
+        Names,
+        typer.Option(
+            "--cutting",
+            metavar="KIND=SIZE",
+            help="Replace a declared error: KIND=SIZE or NAME.KIND=SIZE, such as 'tip=3 %'.",
+        ),
     ] = None,
-    output: Annotated[Names, typer.Option("--output", help="Output or link to report; can be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--of", help="Output or link to report; may be repeated.")] = None,
     state: StateName = None,
     without: Without = None,
-    clearance: Annotated[
+    vary: Annotated[
         str | None,
         typer.Option(
-            "--clearance", help="Sweep of clearance factors (1.005:1.04:8) or fractions of windows (0.1:0.9:9)."
+            "--vary",
+            metavar="NAME=FIRST:LAST:COUNT",
+            help="Repeat the trials over clearance_factor=1.005:1.04:8 or window=0.1:0.9:9.",
         ),
     ] = None,
     sobol: Annotated[
         bool, typer.Option("--sobol", help="Compute Sobol indices by wheel and by kind of error.")
     ] = False,
     workers: Workers = None,
-    dask: Dask = None,
     resume: Resume = False,
     plot: Plot = None,
     picture: Picture = "errors",
@@ -77,6 +85,8 @@ def run(
     """Estimate how often a train with cutting errors jams, and how far its pointers deviate, by Monte Carlo trials.
 
     With -o FILE.parquet or FILE.csv, write a table of all trials.
+
+    Example: `geartrain montecarlo moon-triangular --cutting 'pitch_deviation=2 %'`.
     """
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.cutting.declared_errors import read_error_overrides
@@ -89,10 +99,12 @@ def run(
     check_trials(trials)
     drawing = _check_plot(plot, force, theme, picture)
     check_distinct_outputs(to, drawing)
-    sweep = read_clearances(clearance) if clearance else []
+    sweep = read_clearances(vary) if vary else []
     studies = TrialStudies(sweep, bool(output), sobol)
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
-    options = RunOptions(workers, dask, resume)
+    options = RunOptions(workers, resume)
+    if to.path is None and to.suffix in SUFFIXES:
+        raise option_error("-o", "a table of trials cannot be written to standard output", f"give -o x{to.suffix}")
     table = TrialTable(plan, to.path, force, resume) if to.path is not None and to.suffix in SUFFIXES else None
     findings = drawn = None
     with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:
@@ -143,7 +155,7 @@ def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str =
         from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
 
         if picture not in ALL:
-            raise typer.BadParameter(f"'{picture}' is not a picture; use {', '.join(ALL)}", param_hint="--picture")
+            raise option_error("--picture", f"'{picture}' is not a picture", suggest(picture, ALL))
     return picture_sink(plot, force, theme)
 
 

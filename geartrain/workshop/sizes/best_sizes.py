@@ -1,7 +1,7 @@
-"""Best sizes of a pair with triangular teeth, compared with rule-based radii, and verified by the contact of its
+"""Best sizes of a pair with triangular teeth, compared with rule-based radii and verified by the contact of its
 outlines.
 
-The outlines are drawn from the sizes, independently of the transmission function of such teeth.
+The outlines are drawn from the sizes alone, so they verify the transmission function independently.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from geartrain.workshop.sizes.size_design import (
     impact_of,
     size_columns,
 )
-from geartrain.workshop.sizes.size_search import ChanceLimit, Range, SizeSearch, best_within, checked_ranges
+from geartrain.workshop.sizes.size_search import ProbabilityLimit, Range, SizeSearch, best_within, checked_ranges
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -75,13 +75,15 @@ class BestToothSizes(Tabular, Pictured, Result):
     pitch_true: ToothSizes | None
     """Pair with pitch-true radii, and the window and half angles of `start`; None if it does not turn."""
     front: tuple[ToothSizes, ...]
-    """Pareto front of two objectives, from the best design in the first to the best in the second; else empty."""
+    """Pareto front of two objectives, from the best design in the first to the best in the second; empty for one
+    objective.
+    """
     evaluations: int
     """Number of designs evaluated."""
     stops: float | None
-    """Probability that the best design stops, if it was limited."""
+    """Probability that the best design stops, 0 to 1; None if it was not limited."""
     tried: tuple[ToothSizes, ...]
-    """Evaluated designs that turn and satisfy the limits."""
+    """Evaluated designs that turn and satisfy all limits."""
 
     def _summary(self) -> str:
         aim = self.aims[0]
@@ -91,7 +93,9 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for the best design, the rule-based designs that turn, and the front; angles in rad."""
+        """Table with rows for the best design, the rule-based designs that turn, and the Pareto front; angles in
+        rad.
+        """
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -109,7 +113,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction."""
+        """Coefficient of friction of the flanks [1]."""
         return self.best.friction
 
 
@@ -118,7 +122,7 @@ def find_tooth_sizes(
     aims: Sequence[str] = ("loss",),
     free: Mapping[str, Range | None] | None = None,
     limits: Sequence[SizeLimit] = (),
-    chance: ChanceLimit | None = None,
+    probability: ProbabilityLimit | None = None,
     on_design: Callable[[], None] = lambda: None,
 ) -> BestToothSizes:
     """Find the radii, clearance and half angle that optimise a pair with triangular teeth.
@@ -134,7 +138,7 @@ def find_tooth_sizes(
         default only the radii are free.
     limits : sequence of SizeLimit
         Limits on the design.
-    chance : ChanceLimit, optional
+    probability : ProbabilityLimit, optional
         Limit on the probability that the pair with cutting errors stops; only with one objective.
     on_design : callable
         Callback after each design that is evaluated.
@@ -167,10 +171,10 @@ def find_tooth_sizes(
     equal, true = (each if each.runs else None for each in rules)
     # the rule-based designs are starts, so that the result is never worse than they are
     best = search.minimum(aims[0], [start, *(each for each in rules if each.runs and "radii" in ranges)])
-    if chance is not None and len(aims) == 2:
+    if probability is not None and len(aims) == 2:
         what = "a Pareto front cannot have a limit on the probability of stopping"
         raise QuestionError(Problem(what, "trials of all its designs would take too long", "give one objective"))
-    best, stops = (best, None) if chance is None else best_within(search, aims[0], chance)
+    best, stops = (best, None) if probability is None else best_within(search, aims[0], probability)
     front = search.front(*aims) if len(aims) == 2 else ()
     tried = tuple(each for each in search.designs.values() if search.keeps(each))
     return BestToothSizes(
@@ -189,10 +193,22 @@ def find_tooth_sizes(
 
 
 def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Return the bounds of the free parameters; raise `QuestionError` for invalid objectives or bounds."""
+    """Return the bounds of the free parameters, after a check of the objectives.
+
+    Raises
+    ------
+    QuestionError
+      If objectives or bounds are invalid.
+    """
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
         what = f"'{', '.join(aims)}' is not an objective or two different objectives"
-        raise QuestionError(Problem(what, "", f"give one or two of {', '.join(AIMS)}"))
+        raise QuestionError(
+            Problem(
+                what,
+                "one objective gives a best design, two give a Pareto front",
+                f"give one or two of {', '.join(AIMS)}",
+            )
+        )
     if "loss" in aims and not start.friction:
         what = "the loss cannot be minimised without friction"
         raise QuestionError(
@@ -206,7 +222,8 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Figures of a design from its transmission function, compared with those from the contact of its drawn outlines.
+    """Properties of a design from its transmission function, compared with those from the contact of its drawn
+    outlines.
 
     See Also
     --------
@@ -216,30 +233,32 @@ class OutlineAgreement(Result):
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")
 
     loss: tuple[float, float]
-    """Loss from the transmission function and from the outlines."""
+    """Loss from the transmission function and from the outlines [1]."""
     error: tuple[float, float]
-    """Error from the transmission function and from the outlines, in the unit of `ToothSizes`."""
+    """Transmission error, peak to peak, from the transmission function and from the outlines [rad of the driven
+    wheel].
+    """
     impact: tuple[float, float]
-    """Impact from the transmission function and from the outlines."""
+    """Impact loss from the transmission function and from the outlines [1], as in `ToothSizes`."""
     backlash: tuple[float, float]
-    """Backlash from the transmission function and from the outlines, in the unit of `ToothSizes`."""
+    """Backlash from the transmission function and from the outlines [rad of the driven wheel]."""
     turns: bool
-    """True if the outlines turn without a jam and without losing contact."""
+    """True if the outlines turn without a jam and without loss of contact."""
 
     @property
     def difference(self) -> float:
-        """Maximum of the `differences`."""
+        """Maximum of the relative `differences` [1]."""
         return max(self.differences.values())
 
     @property
     def differences(self) -> Mapping[str, float]:
-        """Relative difference of the two values of each figure."""
+        """Relative difference of the two values of each property [1]."""
         pairs = {"loss": self.loss, "error": self.error, "impact": self.impact, "backlash": self.backlash}
         return {name: abs(a - b) / max(abs(a), abs(b), _NOTHING) for name, (a, b) in pairs.items()}
 
 
 def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
-    """Return the transmission function of the drawn outlines of a pair, its first wheel driving."""
+    """Return the transmission function of the drawn outlines of a pair; the first wheel drives."""
     first = _outline(sizes.z1, sizes.R1, sizes.beta1, sizes.flanks[0], sizes.ring == 1)
     second = _outline(sizes.z2, sizes.R2, sizes.beta2, sizes.flanks[1], sizes.ring == 2)
     # teeth are drawn about their centre lines, so neither the angle nor the backlash has an offset
@@ -247,7 +266,7 @@ def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTran
 
 
 def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
-    """Compare the figures of a design that turns with those from the contact of its outlines."""
+    """Compare the properties of a design with those from the contact of its outlines; the design must turn."""
     transmission = outline_transmission(design.sizes, design.friction)
     low, high = transmission.error_range()
     return OutlineAgreement(
@@ -260,7 +279,9 @@ def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
 
 
 def _mean_efficiency(transmission: OutlineTransmission) -> float:
-    """Return the mean efficiency over the driver's angle, by Gauss quadrature in cells."""
+    """Return the mean efficiency [1] over the angle of the driver, by Gauss quadrature in cells of each smooth
+    interval.
+    """
     import numpy as np
 
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
@@ -273,8 +294,9 @@ def _mean_efficiency(transmission: OutlineTransmission) -> float:
 
 
 def _outline(z: int, R: float, beta: float, length: float, ring: bool) -> GearOutline:
-    """Return the outline of a wheel with straight flanks from tips at R, inwards or, for an internal wheel,
-    outwards.
+    """Return the outline of a wheel with straight flanks.
+
+    The flanks extend from the tips at radius `R` inwards or, for an internal wheel, outwards.
     """
     import numpy as np
 

@@ -1,4 +1,4 @@
-"""Design of a pair with triangular teeth, and its figures: loss, error, impact, margin before a jam."""
+"""Design of a pair with triangular teeth, and its properties: loss, error, impact, and margin before a jam."""
 
 from __future__ import annotations
 
@@ -21,29 +21,29 @@ if TYPE_CHECKING:
 PARAMETERS = ("radii", "window", "half_angle")
 """Parameters of a design that can be free; `half_angle` applies to both wheels."""
 AIMS = ("loss", "error", "impact", "jam")
-"""Objectives. The margin `jam` is maximised, the others are minimised."""
+"""Objectives of the search. The margin `jam` is maximised, all others are minimised."""
 DIGITS = 6
-"""Decimals of radii and windows in a declaration. Reported figures are computed from the rounded sizes."""
+"""Number of decimals of radii and windows in a declaration. Reported values are computed from the rounded sizes."""
 
 
 def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> float:
-    """Return R2/R1 divided by z2/z1 for teeth of equal depth, equation (3) of Sorge."""
+    """Return R2/R1 divided by z2/z1 [1] for teeth of equal depth, from equation (3) of Sorge."""
     R1, R2 = equal_depth(z1, z2, *half_angles)
     return R2 / R1 * z1 / z2
 
 
 def impact_of(transmission: TransmissionFunction) -> float:
-    """Return the sum of (tau+ - tau-)^2 over the impacts in a pitch, divided by the square of the mean of tau.
+    """Return the sum of (tau+ - tau-)^2 over the impacts in a pitch, divided by the square of the mean of tau [1].
 
-    This is the energy that inelastic impacts dissipate in a pitch, docs/motion.md (7), divided by the kinetic energy of
-    the driven side.
+    This ratio is the energy that inelastic impacts dissipate in a pitch, docs/motion.md (7), divided by the kinetic
+    energy of the driven side.
     """
     return float(sum(leap.size**2 for leap in transmission.speed_leaps() or ())) / float(transmission.ratio) ** 2
 
 
 @dataclass(frozen=True)
 class ToothSizes(Result):
-    """Design of a pair with triangular teeth: radii, clearance and half angles, and its figures.
+    """Design of a pair with triangular teeth: radii, clearance and half angles, with its computed properties.
 
     See Also
     --------
@@ -71,7 +71,7 @@ class ToothSizes(Result):
     half_angles: tuple[float, float]
     """Half angles of both wheels [rad]."""
     friction: float
-    """Coefficient of friction."""
+    """Coefficient of friction of the flanks [1]."""
     driver: int = 1
     """Number of the driving wheel, 1 or 2."""
     ring: Literal[0, 1, 2] = 0
@@ -87,7 +87,7 @@ class ToothSizes(Result):
             object.__setattr__(self, name, float(getattr(self, name)))
 
     def at(self, parameters: Mapping[str, float]) -> ToothSizes:
-        """Return the design with some of `PARAMETERS` replaced.
+        """Return the design with new values of some `PARAMETERS`.
 
         Parameters
         ----------
@@ -103,7 +103,7 @@ class ToothSizes(Result):
         )
 
     def parameter(self, name: str) -> float:
-        """Return the value of one of `PARAMETERS`; for `half_angle` the half angle of the first wheel.
+        """Return the value of one of the `PARAMETERS`; for `half_angle`, the half angle of the first wheel [rad].
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class ToothSizes(Result):
 
     @cached_property
     def limits(self) -> ClearanceWindow | None:
-        """Clearance window; None if such teeth do not exist."""
+        """Clearance window; None if teeth with these sizes do not exist."""
         try:
             return find_window(self._unplaced) if self._unplaced.has_valleys else None
         except GearTrainError:
@@ -144,7 +144,7 @@ class ToothSizes(Result):
 
     @property
     def sizes(self) -> TriangularSizes:
-        """Radii and centre distance of a pair that turns, the driver first."""
+        """Radii and centre distance of a pair that turns; the driver is first."""
         assert self.transmission is not None
         return self.transmission.sizes
 
@@ -180,7 +180,7 @@ class ToothSizes(Result):
 
     @cached_property
     def jam(self) -> float:
-        """Margin before a jam or a loss of contact: permissible change of the centre distance [module]."""
+        """Margin before a jam or a loss of contact: maximum permissible change of the centre distance [module]."""
         assert self.limits is not None
         # distance to the nearer end of the window: a jam on one side, loss of contact on the other
         sizes, nearest = self.sizes, min(self.window, 1 - self.window)
@@ -201,12 +201,12 @@ class ToothSizes(Result):
 
     @property
     def phases(self) -> str:
-        """Phases of the path of contact."""
+        """Phases of the path of contact, in their order."""
         assert self.transmission is not None
         return phases_of(self.transmission)
 
     def merit(self, aim: str) -> float:
-        """Return the value of an objective, to be minimised; infinite for a pair that does not turn.
+        """Return the value of an objective, to be minimised; infinite if the pair does not turn.
 
         Parameters
         ----------
@@ -225,7 +225,9 @@ _FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash
 
 
 def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
-    """Return columns with a row for each design that turns: sizes and figures by name; angles and errors in rad."""
+    """Return table columns with a row for each design that turns: sizes and properties by name; angles and errors in
+    rad.
+    """
     names = ("radii", "window", "clearance_factor", *_FIGURES)
     angles = {f"half_angle_{at + 1}": [each.half_angles[at] for each in designs] for at in (0, 1)}
     return angles | {name: [getattr(each, name) for each in designs] for name in names}
@@ -241,9 +243,9 @@ class SizeLimit(Result):
     """
 
     figure: str
-    """Name of the limited figure of `ToothSizes`."""
+    """Name of the limited property of `ToothSizes`."""
     bound: float
-    """Value of the limit, in the unit of the figure."""
+    """Value of the limit, in the unit of the property."""
 
     MINIMUM = ("jam", "window_width", "backlash")
     FIGURES = ("loss", "error", "impact", *MINIMUM)
@@ -252,24 +254,24 @@ class SizeLimit(Result):
         check_choice("limit", self.figure, self.FIGURES)
 
     def excess(self, sizes: ToothSizes) -> float:
-        """Return the violation of the limit by a design that turns; 0 or less if the limit is satisfied.
+        """Return the excess over the limit of a design that turns; 0 or less if the limit is satisfied.
 
         Parameters
         ----------
         sizes : ToothSizes
-            The design.
+            Design that turns.
         """
         found = float(getattr(sizes, self.figure))
         return self.bound - found if self.figure in self.MINIMUM else found - self.bound
 
 
 def keeps(design: ToothSizes, limits: Iterable[SizeLimit]) -> bool:
-    """Return whether a design turns and satisfies all limits."""
+    """Return True if a design turns and satisfies all limits."""
     return design.runs and all(limit.excess(design) <= 0 for limit in limits)
 
 
 def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
-    """Return the sizes as data of a declaration; `exact` keeps all digits of a float."""
+    """Return the sizes as the data of a declaration; `exact` writes all digits of each float."""
     angles, lengths = ("", "") if exact else (".10g", f".{DIGITS}f")
     first, second = (f"{degrees(angle):{angles}} deg" for angle in sizes.half_angles)
     return {
@@ -281,5 +283,5 @@ def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
 
 
 def rounded(sizes: ToothSizes) -> ToothSizes:
-    """Return the sizes rounded to the digits of a declaration."""
+    """Return the design with its sizes rounded to the digits of a declaration."""
     return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})

@@ -1,9 +1,9 @@
 """Search for the best sizes of a pair with triangular teeth: minimum loss, error or impact, or maximum margin.
 
-The figures are continuous in the sizes, but they have kinks where the structure of the path of contact changes, and
-several local minima. DIRECT finds the lowest minimum (`minimise`). The Pareto front of two objectives is found by the
-epsilon-constraint method: the first objective is minimised under bounds on the second, and all designs computed on the
-way are included.
+The objectives are continuous functions of the sizes, but they have kinks where the phases of the path of contact
+change, and several local minima. DIRECT finds the lowest minimum (`minimise`). The Pareto front of two objectives is
+found by the epsilon-constraint method: the first objective is minimised under bounds on the second, and all designs
+computed on the way are included.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _HALVINGS = 5  # bisections between the best accepted design and a rejected one
 
 
 class SizeSearch:
-    """Designs of one pair as points of the free parameters. Each design is computed once and reused."""
+    """Designs of one pair as points in the space of the free parameters. Each design is computed once and reused."""
 
     def __init__(
         self,
@@ -57,14 +57,14 @@ class SizeSearch:
         self.designs: dict[Point, ToothSizes] = {}
 
     def design(self, at: Point) -> ToothSizes:
-        """Return the design at one point."""
+        """Return the design at one point of the free parameters."""
         if at not in self.designs:
             self.designs[at] = self.start.at(dict(zip(self.free, at, strict=True)))
             self._on_design()
         return self.designs[at]
 
     def place(self, design: ToothSizes) -> Point:
-        """Return the point of a design, which may be outside the bounds."""
+        """Return the point of a design in the free parameters, which may be outside the bounds."""
         return tuple(map(design.parameter, self.free))
 
     @property
@@ -73,11 +73,13 @@ class SizeSearch:
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Return whether a design turns and satisfies all limits."""
+        """Return True if a design turns and satisfies all limits, including those in `more`."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective function; designs that do not turn or violate a limit have values above all others."""
+        """Return the objective function of a point; designs that do not turn or violate a limit have values above all
+        others.
+        """
 
         def figure(at: Point) -> float:
             design = self.design(at)
@@ -90,7 +92,13 @@ class SizeSearch:
         return figure
 
     def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
-        """Return the best design for one objective; raise `QuestionError` if none turns and satisfies the limits."""
+        """Return the best design for one objective.
+
+        Raises
+        ------
+        QuestionError
+          If no design turns and satisfies the limits.
+        """
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
         if self.keeps(best):
@@ -104,7 +112,7 @@ class SizeSearch:
         raise QuestionError(Problem(what, why, fix))
 
     def front(self, first: str, second: str) -> tuple[ToothSizes, ...]:
-        """Return the Pareto front of two objectives, beginning with the best design in the first."""
+        """Return the Pareto front of two objectives, from the best design in the first to the best in the second."""
         ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):
@@ -117,7 +125,9 @@ class SizeSearch:
 
 
 def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
-    """Return the Pareto front of designs in two objectives, from the best in the first to the best in the second."""
+    """Return the Pareto front of given designs in two objectives, from the best in the first to the best in the
+    second.
+    """
     found: list[ToothSizes] = []
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
         if not found or each.merit(second) < found[-1].merit(second):
@@ -126,7 +136,7 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
 
 
 def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
-    """Remove designs of a front that differ negligibly from the one before; both ends are kept."""
+    """Return a front without designs that differ negligibly from the one before; both ends remain."""
     worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
     found = [front[0]]
     for each in front[1:-1]:
@@ -140,30 +150,48 @@ def _limit(aim: str, merit: float) -> SizeLimit:
 
 
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Return the bounds of the free parameters, by default the usual ones; raise `QuestionError` for invalid ones."""
+    """Return the bounds of the free parameters; `USUAL_RANGES` replaces None.
+
+    Raises
+    ------
+    QuestionError
+      If a parameter or its bounds are invalid, or if no parameter is free.
+    """
     found = {}
     for name, given in free.items():
         if name not in PARAMETERS:
             what = f"'{name}' is not a free parameter of triangular teeth"
             why = "the clearance is optimised by its position in the clearance window, which depends on the radii"
             fix = f"use some of {', '.join(PARAMETERS)}"
-            raise QuestionError(Problem(what, why if name in _CLEARANCES else "", fix))
+            raise QuestionError(
+                Problem(
+                    what, why if name in _CLEARANCES else "other sizes follow from these parameters or are fixed", fix
+                )
+            )
         low, high = USUAL_RANGES[name] if given is None else given
         minimum, most = _WIDEST[name]
         if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
             what = f"the bounds {low:g} and {high:g} of '{name}' are not valid"
-            raise QuestionError(Problem(what, "", f"give two bounds from {minimum:g} to {most:g}, the lower one first"))
+            raise QuestionError(
+                Problem(what, "the lower bound comes first", f"give two bounds from {minimum:g} to {most:g}")
+            )
         found[name] = (float(low), float(high))
     if not found:
-        raise QuestionError(Problem("no parameter is free", "", f"free some of {', '.join(PARAMETERS)}"))
+        raise QuestionError(
+            Problem(
+                "no parameter is free",
+                "a search needs at least one free parameter",
+                f"free some of {', '.join(PARAMETERS)}",
+            )
+        )
     return found
 
 
-# ---------------------------------------------------------------------------------------- a limit on the chance to stop
+# ----------------------------------------------------------------------------------- limit on the probability of a stop
 
 
 @dataclass(frozen=True)
-class ChanceLimit:
+class ProbabilityLimit:
     """Limit on the probability that a pair with cutting errors stops. It is too expensive to evaluate for every design.
 
     See Also
@@ -173,7 +201,7 @@ class ChanceLimit:
 
     bound: float
     """Maximum probability, 0 to 1."""
-    chance: Callable[[ToothSizes], float]
+    probability: Callable[[ToothSizes], float]
     """Function that returns the probability for a design, such as `PairTrials.stops`."""
 
 
@@ -196,19 +224,19 @@ class PairTrials:
     """
 
     errors: Sequence[ErrorOverride]
-    """Errors of cutting and fitting; `read_error_overrides` reads them from text."""
+    """Errors of cutting and fitting; `read_error_overrides` parses them from text."""
     trials: int = 256
     """Number of trials of each pair."""
     seed: int = 1
-    """Seed of the random numbers. It is the same for all pairs, so that results differ only by the sizes."""
+    """Random seed of the trials. It is the same for all pairs, so that their results differ only by the sizes."""
 
     def stops(self, sizes: ToothSizes) -> float:
-        """Return the proportion of trials in which the pair jams or clashes.
+        """Return the fraction of trials in which the pair jams or clashes, 0 to 1.
 
         Parameters
         ----------
         sizes : ToothSizes
-            The pair as designed.
+            Design of the pair.
         """
         from geartrain.analysis.gear_train import GearTrain
         from geartrain.workshop.monte_carlo.trial_plan import find_trial_plan
@@ -227,10 +255,10 @@ class PairTrials:
         return run_trials(find_trial_plan(train, self.errors), self.trials, self.seed).train.events["stops"].value
 
 
-def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[ToothSizes, float]:
+def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[ToothSizes, float]:
     """Return the best design within a probability limit, and its probability.
 
-    Designs are evaluated in order of the objective, except near a rejected design.
+    Designs are evaluated in the order of their objective; those near a rejected design are omitted.
     """
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
@@ -239,27 +267,27 @@ def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[Tooth
             break
         if any(distance(at, other, search.bounds) < _NEAR for other in refused):
             continue
-        if (chance := limit.chance(search.design(at))) <= limit.bound:
-            return _bisect_to_limit(search, aim, limit, at, chance, refused)
+        if (probability := limit.probability(search.design(at))) <= limit.bound:
+            return _bisect_to_limit(search, aim, limit, at, probability, refused)
         refused.append(at)
     what = f"all of the {len(refused)} best designs stop with a probability above {limit.bound:g}"
     why = "the cutting errors are too large for such teeth"
-    raise QuestionError(Problem(what, why, "raise the limit (--within stops=), or give smaller errors (--set)"))
+    raise QuestionError(Problem(what, why, "raise the limit (--within stops=), or give smaller errors (--cutting)"))
 
 
 def _bisect_to_limit(
-    search: SizeSearch, aim: str, limit: ChanceLimit, at: Point, chance: float, refused: Sequence[Point]
+    search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """Bisect between an accepted design and the nearest rejected one, to approach the limit."""
+    """Bisect between an accepted design and the nearest rejected one, to approach the probability limit."""
     if not refused:
-        return search.design(at), chance
+        return search.design(at), probability
     value = search.value(aim)
     beyond = min(refused, key=lambda other: distance(at, other, search.bounds))
     for _ in range(_HALVINGS):
         middle = tuple((a + b) / 2 for a, b in zip(at, beyond, strict=True))
-        better = value(middle) < value(at) and (found := limit.chance(search.design(middle))) <= limit.bound
-        at, beyond, chance = (middle, beyond, found) if better else (at, middle, chance)
-    return search.design(at), chance
+        better = value(middle) < value(at) and (found := limit.probability(search.design(middle))) <= limit.bound
+        at, beyond, probability = (middle, beyond, found) if better else (at, middle, probability)
+    return search.design(at), probability
 
 
 # ------------------------------------------------------------------------------------------------------- global minimum
@@ -278,7 +306,7 @@ _STEP = 0.05  # size of the first simplex, as a fraction of each range
 
 @dataclass
 class SampledFunction:
-    """Function of points in a box, evaluated once at each of them; `seen` contains all values."""
+    """Function of points in a box, evaluated once at each point; `seen` contains all computed values."""
 
     value: Function
     bounds: Sequence[tuple[float, float]]
@@ -291,25 +319,25 @@ class SampledFunction:
         return self.seen[at]
 
     def inside(self, x: Sequence[float] | Floats) -> Point:
-        """Clip a point to the box."""
+        """Return the point clipped to the box."""
         return tuple(min(max(float(each), low), high) for each, (low, high) in zip(x, self.bounds, strict=True))
 
     @property
     def best(self) -> Point:
-        """Sample with the minimum value."""
+        """Sampled point with the minimum value."""
         return min(self.seen, key=lambda at: self.seen[at])
 
 
 def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) -> float:
-    """Return the maximum difference of the coordinates of two points of a box, as a fraction of each range."""
+    """Return the maximum difference of the coordinates of two points in a box, as a fraction of each range [1]."""
     return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, bounds, strict=True))
 
 
 def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
-    """Minimise `value` in a box and return all samples; the best of them is the minimum found.
+    """Minimise `value` in a box and return all samples; the best sample is the minimum found.
 
-    bounds   limits of each variable, low < high
-    starts   further points to evaluate; the result is never worse than these
+    bounds   bounds of each variable, low < high
+    starts   further points to evaluate; the result is never worse than the best of these
     """
     sampled = SampledFunction(value, bounds)
     for start in starts:
@@ -331,7 +359,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
 
 
 def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> None:
-    """Minimise locally from one point; all evaluated points are added to the samples."""
+    """Minimise the function locally from one point; all evaluated points are added to the samples."""
     if len(start) == 1:
         ((low, high),) = sampled.bounds
         _search_between(sampled, start[0] - _STEP * (high - low), start[0] + _STEP * (high - low))
@@ -344,6 +372,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
             here,
             *(_moved_point(sampled, here, which, step if turn % 2 else -step) for which in range(len(here))),
         ]
+        # sizes are declared with 6 decimals
         options = {"initial_simplex": np.array(corners), "maxfev": 50 * len(here), "xatol": 1e-6, "fatol": 1e-10}
         found = minimize(_for_scipy(sampled), np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
         here = min((here, sampled.inside(found.x)), key=sampled)
@@ -353,7 +382,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
 
 
 def _for_scipy(sampled: SampledFunction) -> Callable[[Floats], float]:
-    """Wrap the function in the form that scipy requires."""
+    """Return the function in the form that scipy requires."""
 
     def value(x: Floats) -> float:
         return sampled(x)
@@ -362,7 +391,7 @@ def _for_scipy(sampled: SampledFunction) -> Callable[[Floats], float]:
 
 
 def _separate_basins(sampled: SampledFunction) -> list[Point]:
-    """Return the lowest samples, of which no two are close to each other."""
+    """Return the lowest samples such that no two are close to each other."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
         if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):
@@ -373,7 +402,7 @@ def _separate_basins(sampled: SampledFunction) -> list[Point]:
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
-    """Return the neighbours of the lowest local minima among the samples of one variable."""
+    """Return the sampled neighbours on both sides of the lowest local minima, for one variable."""
     places = sorted(at[0] for at in sampled.seen)
     values = [sampled.seen[at,] for at in places]
     around = [inf, *values, inf]
@@ -392,7 +421,9 @@ def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
 
 
 def _moved_point(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
-    """Return a point moved along one variable by a fraction of its range, in the direction that stays in the box."""
+    """Return a point moved along one variable by a fraction of its range, in the direction in which it remains in the
+    box.
+    """
     low, high = sampled.bounds[which]
     by = step * (high - low)
     place = at[which] + by if low <= at[which] + by <= high else at[which] - by

@@ -95,18 +95,19 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train by the best sizes of its teeth, the worst declared pair at the top.
+    """Draw the improvement of each pair of a train by the best sizes of its teeth; the worst declared pair is at the
+    top.
 
     Parameters
     ----------
     found : BestTrainSizes
-        Result of `geartrain.workshop.find_train_sizes`.
+      Result of `geartrain.workshop.find_train_sizes`.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Figure with a line for each pair from its declared value to the value that is best for the train; the title
-        gives the figure of the train before and after.
+      Figure with a line for each pair from its declared value to the value that is best for the train; the title has
+      the objective of the train before and after.
 
     Examples
     --------
@@ -134,8 +135,8 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """Format the figure of the train before and after: `pennestri-2002-teeth to 19: loss (%) 46.9 as declared, 15.7 at
-    best`.
+    """Return the objective of the train before and after as text: `pennestri-2002-teeth to 19: loss (%) 46.9 as
+    declared, 15.7 optimised`.
     """
     before, after = (
         "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)
@@ -144,7 +145,7 @@ def _gain(found: BestTrainSizes) -> str:
 
 
 def _front_figure(found: BestToothSizes) -> Figure:
-    """Draw the front by itself, and among all designs."""
+    """Draw the Pareto front in one panel, and the front among all designs in the other."""
     first, second = found.aims
     figure = Figure(figsize=(WIDTH, 0.5 * WIDTH), layout="constrained")
     near, far = figure.subplots(1, 2)
@@ -169,7 +170,7 @@ def _key(figure: Figure, axes: Axes) -> None:
 
 
 def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
-    """Draw designs as points, and mark the best and the rule-based ones."""
+    """Draw the designs as points, with marks for the best and the rule-based designs."""
     plain(axes)
     order = sorted(found.tried, key=lambda each: _shown(each, across))
     x, y = ([_shown(each, name) for each in order] for name in (across, up))
@@ -187,8 +188,9 @@ def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
 
 
 def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
-    """Return the axis limits of an objective, from its minimum to the largest relevant value, with the rule-based
-    designs.
+    """Return the axis limits of an objective.
+
+    They extend from its minimum to its largest relevant value, and include the rule-based designs.
     """
     values = sorted(_shown(each, name) for each in found.tried)
     marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
@@ -198,7 +200,7 @@ def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
 
 
 def _shown(design: ToothSizes, name: str) -> float:
-    """Return a size or a figure in the unit of its axis."""
+    """Return a size or an objective in the unit of its axis."""
     value = design.parameter(name) if name in ("radii", "window", "half_angle") else float(getattr(design, name))
     return _in_units(value, name)
 

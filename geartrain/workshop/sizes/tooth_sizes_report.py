@@ -29,7 +29,7 @@ _WORDS = (
 
 
 def describe_tooth_sizes(found: BestToothSizes) -> Document:
-    """Build the report on the best sizes of a pair with triangular teeth.
+    """Return the report on the best sizes of a pair with triangular teeth.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
 
 
 def describe_train_sizes(found: BestTrainSizes) -> Document:
-    """Build the report on the best sizes of the triangular teeth of a train.
+    """Return the report on the best sizes of the triangular teeth of a train.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def _efficiency(aim: str, loss: float | None) -> tuple[str, ...]:
 
 
 def _pairs_section(found: BestTrainSizes) -> Section:
-    """Return the section with each pair before and after; windows and half angles only if they are free."""
+    """Return the section with each pair before and after; it contains windows and half angles only if they are free."""
     sizes = [("radii", "radii"), *((name, name.replace("_", " ")) for name in found.free if name != "radii")]
     header = ["pair", "drives", "teeth"]
     for _, words in sizes:
@@ -160,7 +160,7 @@ def _size(name: str, value: float) -> str:
 
 
 def figure_text(figure: str, value: float) -> str:
-    """Format a figure of a design with its unit."""
+    """Return a property of a design as text with its unit."""
     if figure == "loss":
         return f"{100 * value:.4f} %"
     if figure in ("error", "backlash", "half_angle"):
@@ -169,7 +169,7 @@ def figure_text(figure: str, value: float) -> str:
 
 
 def sizes_text(sizes: ToothSizes) -> str:
-    """Format the sizes as in a declaration."""
+    """Return the sizes as text, as in a declaration."""
     angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(sizes.half_angles))
     angle = angles if "," not in angles else f"[{angles}]"
     return (
@@ -178,7 +178,7 @@ def sizes_text(sizes: ToothSizes) -> str:
 
 
 def free_text(free: Mapping[str, tuple[float, float]]) -> str:
-    """Format the free parameters with their bounds."""
+    """Return the free parameters with their bounds as text."""
     parts = []
     for name, (low, high) in free.items():
         unit = (degrees(low), degrees(high), " deg") if name == "half_angle" else (low, high, "")
@@ -229,7 +229,7 @@ def _agreement(found: OutlineAgreement) -> Section:
 
 
 def _front(found: BestToothSizes) -> Section:
-    """Return the section with about ten designs distributed over the front."""
+    """Return the section with up to twelve designs distributed over the Pareto front."""
     most, front = 12, found.front
     chosen = front if len(front) <= most else [front[round(k * (len(front) - 1) / (most - 1))] for k in range(most)]
     rows = [_row(str(at + 1), each) for at, each in enumerate(chosen)]

@@ -1,9 +1,10 @@
-"""Optimisation of the triangular teeth of a whole train: pair by pair, then together if pairs interact.
+"""Optimisation of the triangular teeth of a whole train: pair by pair, then together if the pairs interact.
 
-Power flows to an output through some pairs only, and the same is true of errors. These pairs first get the sizes that
-are best for each separately. The objective is a figure of the train: its loss from input to output, or the error of a
-pointer. Coordinate descent starts from the better of the declared sizes and the separate optima. It changes one size of
-one pair after the other until the improvement is negligible, so the result is never worse than the separate optima.
+Only some pairs transmit power to an output, and only some influence its error. These pairs first get the sizes that
+are best for each pair separately. The objective is a property of the train: its loss from input to output, or the error
+of a pointer. Coordinate descent starts from the better of the declared sizes and the separate optima. It changes one
+size of one pair after the other until the improvement is negligible, so the result is never worse than the separate
+optima.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from geartrain.workshop.sizes.size_search import Range, SizeSearch, checked_rang
 
 OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
-"""Turns of the input and positions for the error of a pointer. Its extremes do not depend on the positions."""
+"""Turns of the input and number of positions for the error of a pointer. The positions do not affect its extremes."""
 
 _REACH = 0.03  # half width of one step of the descent, as a fraction of the range
 _TRIES = 8  # maximum evaluations of the train in one step of the descent
@@ -49,7 +50,8 @@ def find_train_sizes(
     state: str | None = None,
     on_step: OnStep = lambda: None,
 ) -> BestTrainSizes:
-    """Find the sizes of triangular teeth that minimise the loss of a train up to an output, or the error there.
+    """Find the sizes of triangular teeth that minimise the loss of a train up to an output, or the error of this
+    output.
 
     Parameters
     ----------
@@ -92,12 +94,18 @@ def find_train_sizes(
     (True, [0.5, 0.5, 0.5, 0.5])
     """
     if aim not in AIMS:
-        raise QuestionError(Problem(f"'{aim}' is not an objective", "", f"use one of {', '.join(AIMS)}"))
+        raise QuestionError(
+            Problem(
+                f"'{aim}' is not an objective",
+                "the sizes minimise one property of the train",
+                f"use one of {', '.join(AIMS)}",
+            )
+        )
     return TrainSizeSearch(train, output, aim, free, limits, state, on_step).found()
 
 
 class TrainSizeSearch:
-    """Search for the sizes of the pairs of one train that act on one output."""
+    """Search for the sizes of the pairs that act on one output of a train."""
 
     def __init__(
         self,
@@ -121,14 +129,14 @@ class TrainSizeSearch:
 
     @property
     def _is_joint(self) -> bool:
-        """True if the objective depends on the pairs jointly, because each pair passes on what it receives."""
+        """True if the objective depends on all pairs jointly: power and errors pass from pair to pair."""
         return self.aim in ("loss", "error")
 
-    # -------------------------------------------------------------------------------------------------- which pairs
+    # -------------------------------------------------------------------------------------------------------- pairs
 
     @cached_property
     def _drivers(self) -> Mapping[str, str]:
-        """Pairs that act on the output, with the wheel that drives each of them."""
+        """Driving wheel of each pair that acts on the output, by the name of the pair."""
         meshes = {mesh.name: mesh for mesh in self._all_meshes}
         if self.aim == "loss":
             # ideal teeth are used, because declared teeth that do not turn would give no power flow
@@ -139,7 +147,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train with every pair in the middle of its clearance window, if it has one."""
+        """Train in which every pair with a clearance window is in the middle of this window."""
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
@@ -156,12 +164,12 @@ class TrainSizeSearch:
 
     @cached_property
     def _requested(self) -> tuple[str, ...]:
-        """Pairs whose sizes are optimised."""
+        """Names of the pairs whose sizes are optimised."""
         found = tuple(name for name in self._meshes if name in self._drivers)
         if not found:
             what = f"no pair with triangular teeth acts on '{self.output}'"
             why = "only pairs between the input and the output influence it, and only triangular teeth have free sizes"
-            fix = "give another --output, or declare `tooth_form: {form: triangular}`"
+            fix = "give another --of, or declare `tooth_form: {form: triangular}`"
             raise QuestionError(Problem(what, why, fix))
         return found
 
@@ -176,24 +184,28 @@ class TrainSizeSearch:
 
     @cached_property
     def _common_angle_groups(self) -> tuple[tuple[str, ...], ...]:
-        """Groups of pairs with common wheels, hence one half angle, if it is free and all of them are sized."""
+        """Groups of pairs with common wheels, which have one common half angle, if it is free and all of them are
+        sized.
+        """
         if "half_angle" not in self.free:
             return ()
         wheels = {mesh.name: tuple(mesh.gear.pair) for mesh in self._all_meshes}
         return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """Return the free parameters of one pair; the half angle is not free if a wheel has a second mate."""
+        """Return the free parameters of one pair with their bounds; the half angle is not free if a wheel has a second
+        mate.
+        """
         return {
             size: each
             for size, each in self.free.items()
             if size != "half_angle" or (name,) in self._common_angle_groups
         }
 
-    # ----------------------------------------------------------------------------------------------- what is compared
+    # ----------------------------------------------------------------------------------------------------- comparison
 
     def _resized(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
-        """Return the train with other sizes of some pairs."""
+        """Return the train with new sizes of some pairs."""
         declared = self.train.declaration
         gears = tuple(
             gear.model_copy(update={"tooth_form": as_form(sizes[gear.name])}) if gear.name in sizes else gear
@@ -202,7 +214,7 @@ class TrainSizeSearch:
         return GearTrain(declared.model_copy(update={"gears": gears}))
 
     def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
-        """Return the objective of the train, to be minimised; infinite if it does not run."""
+        """Return the objective of the train, to be minimised; infinite if the train does not run."""
         self._on_step()
         if not self._is_joint:
             each = [sizes[name].merit(self.aim) for name in self._requested]
@@ -222,10 +234,10 @@ class TrainSizeSearch:
         run.run()
         return run.statistics[0].peak_to_peak
 
-    # ------------------------------------------------------------------------------------------------------ the search
+    # ---------------------------------------------------------------------------------------------------------- search
 
     def found(self) -> BestTrainSizes:
-        """Optimise the pairs separately, then together."""
+        """Optimise the sizes of the pairs, first separately and then together."""
         before = {name: self._starts[name] for name in self._requested}
         runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._requested}
         first = self.figure({}) if all(runs.values()) and self._is_joint else self.figure(before)
@@ -261,7 +273,9 @@ class TrainSizeSearch:
         )
 
     def _separate_optima(self) -> dict[str, ToothSizes]:
-        """Return the best sizes of every pair separately; pairs with common wheels at their best common half angle."""
+        """Return the best sizes of every pair separately; pairs with common wheels have their best common half
+        angle.
+        """
         found = {name: self._separate_optimum(name) for name in self._requested}
         for group in self._common_angle_groups:
             if len(group) > 1:
@@ -302,7 +316,9 @@ class TrainSizeSearch:
     def _step(
         self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
     ) -> tuple[float, dict[str, ToothSizes]]:
-        """Optimise one size of one pair, or of pairs with a common size, near its value by Brent's bounded method."""
+        """Optimise one size near its present value by Brent's bounded method, for one pair or for pairs with a common
+        size.
+        """
         lowest, highest = self.free[size]
         here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
         found: tuple[float, dict[str, ToothSizes]] = best, {}
@@ -318,13 +334,14 @@ class TrainSizeSearch:
 
         low, high = max(lowest, here - width), min(highest, here + width)
         if high > low:
+            # a tolerance of 1e-6, because sizes are declared with 6 decimals
             minimize_scalar(value, bounds=(low, high), method="bounded", options={"maxiter": _TRIES, "xatol": 1e-6})
         return found
 
-    # -------------------------------------------------------------------------------------------------- the declaration
+    # ------------------------------------------------------------------------------------------------------ declaration
 
     def _declaration(self, sizes: Mapping[str, ToothSizes]) -> dict[str, Any]:
-        """Return a declaration that extends the train with these sizes."""
+        """Return the declaration of the train with these sizes; it extends the given train."""
         gears = []
         for gear in self.train.declaration.gears:
             if gear.name in sizes:
@@ -338,7 +355,7 @@ class TrainSizeSearch:
         }
 
 
-# ----------------------------------------------------------------------------------------------------------- the result
+# --------------------------------------------------------------------------------------------------------------- result
 
 
 @dataclass(frozen=True)
@@ -359,9 +376,9 @@ class PairSizes(Result):
     before: ToothSizes
     """Sizes as declared."""
     apart: ToothSizes
-    """Best sizes for the pair separately."""
+    """Best sizes for the pair optimised separately."""
     together: ToothSizes
-    """Best sizes for the train."""
+    """Best sizes of the pair for the whole train."""
     runs: bool
     """True if the pair turns as declared."""
     outlines: OutlineAgreement
@@ -380,7 +397,7 @@ class PairSizes(Result):
 
 @dataclass(frozen=True)
 class BestTrainSizes(Tabular, Pictured, Result):
-    """Best sizes of the triangular teeth of a train, and the improvement.
+    """Best sizes of the triangular teeth of a train, and their improvement of the objective.
 
     See Also
     --------
@@ -410,25 +427,26 @@ class BestTrainSizes(Tabular, Pictured, Result):
     aim: str
     """Objective: loss, error, impact or jam."""
     output: str
-    """Link or output at which the train is evaluated."""
+    """Name of the link or output at which the train is evaluated."""
     source: str
-    """Link at which power enters."""
+    """Name of the link at which power enters."""
     free: Mapping[str, Range]
     """Bounds of the free parameters; angles in rad."""
     limits: tuple[SizeLimit, ...]
     """Limits for each pair."""
     before: float | None
-    """Objective of the train as declared; None if it does not run. It is a loss, a peak-to-peak error [rad], the sum of
-    impacts, or the minimum margin [module].
+    """Objective of the train as declared; None if the train does not run.
+
+    It is the loss [1], the peak-to-peak error [rad], the sum of impacts [1], or the minimum margin [module].
     """
     apart: float
-    """Objective of the train, as in `before`, with each pair optimised separately."""
+    """Objective of the train, in the unit of `before`, with each pair optimised separately."""
     together: float
-    """Objective of the train, as in `before`, with all pairs optimised together."""
+    """Objective of the train, in the unit of `before`, with all pairs optimised together."""
     pairs: tuple[PairSizes, ...]
     """Sizes of the pairs that act on the output."""
     untouched: Mapping[str, str]
-    """Reason why each other pair with a tooth form is unchanged."""
+    """Reason why a pair with a tooth form is unchanged, by the name of the pair."""
     declaration: Mapping[str, Any]
     """Declaration that extends the given train with the best sizes."""
 
@@ -438,7 +456,9 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with rows for each pair: sizes as declared (if it turns), best separately, and best for the train."""
+        """Table with rows for each pair: sizes as declared (if the pair turns), best separately, and best for the
+        train.
+        """
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs
@@ -450,19 +470,20 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
 
 def sizeable_meshes(meshes: Iterable[GearMesh]) -> dict[str, TriangularMesh]:
-    """Return the pairs with triangular teeth whose sizes are not declared as lengths, by name."""
+    """Return the pairs with triangular teeth that are not declared by lengths, by name."""
     found = (mesh for mesh in meshes if isinstance(mesh, TriangularMesh))
     return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
 
 
 def as_form(sizes: ToothSizes) -> Triangular:
-    """Convert a design to the tooth form of a pair."""
+    """Convert a design to the triangular tooth form of a declaration."""
     return Triangular.declared(form_data(sizes))
 
 
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
-    """Return the sizes of a pair as declared, first wheel of the pair first; in the middle of the window if it does not
-    turn.
+    """Return the sizes of a pair as declared, with the first wheel of the pair first.
+
+    If the pair does not turn, the clearance is in the middle of the window.
     """
     sizes, window = mesh.transmission.sizes, mesh.window
     driver = 1 + mesh.gear.pair.index(mesh.driver)
@@ -477,13 +498,13 @@ def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
     return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver, sizes.ring)
 
 
-# ---------------------------------------------------------------------------------------------- pairs that share wheels
+# --------------------------------------------------------------------------------------------- pairs with common wheels
 
 
 def pairs_by_shared_wheels(wheels: Mapping[str, tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
     """Group the pairs of a train that are connected by common wheels.
 
-    wheels   wheels of each pair, by its name
+    wheels   names of the wheels of each pair, by the name of the pair
 
     >>> pairs_by_shared_wheels({"ab": ("a", "b"), "cd": ("c", "d"), "bd": ("b", "e")})
     (('ab', 'bd'), ('cd',))
@@ -505,11 +526,13 @@ def best_shared_angle(
     aim: str,
     limits: Sequence[SizeLimit],
 ) -> dict[str, ToothSizes]:
-    """Return pairs at the common half angle that minimises their joint objective, never worse than at the start.
+    """Return the designs of several pairs at the common half angle that minimises their joint objective.
 
-    start    pairs with their present half angles
-    sized    function that returns the best sizes of a pair at a half angle; raises `QuestionError` if none turns
-    limits   limits for each pair
+    The result is never worse than the start.
+
+    start    designs of the pairs with their present half angles
+    sized    function that returns the best sizes of a pair at a half angle [rad]; raises `QuestionError` if none turns
+    limits   limits on each pair
     """
 
     def figure(designs: Mapping[str, ToothSizes]) -> float:

@@ -1,4 +1,4 @@
-"""Commands `geartrain optimise` and `geartrain mesh triangular --best`: optimum sizes of triangular teeth."""
+"""Commands `geartrain optimise` and `geartrain mesh --objective`: optimum sizes of triangular teeth."""
 
 from __future__ import annotations
 
@@ -23,47 +23,47 @@ from geartrain.cli.common import (
     draw,
     emit,
     give,
+    option_error,
     picture_sink,
     sink,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.mesh.form_options import FormOptions, read_form
 from geartrain.cli.option_values import Theme, at_option, decimal, quantity
+from geartrain.cli.pair_options import COUNTS, PairRequest, read_form, read_pair_friction
 from geartrain.errors import GearTrainError, Problem
-from geartrain.teeth.triangular.triangular_form import Triangular
+from geartrain.teeth.triangular.triangular_form import CLEARANCES, Triangular
 
 if TYPE_CHECKING:
     from geartrain.workshop.sizes.size_design import SizeLimit, ToothSizes
-    from geartrain.workshop.sizes.size_search import ChanceLimit
+    from geartrain.workshop.sizes.size_search import ProbabilityLimit
 
 
 _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
 """Approximate number of designs evaluated per objective, by the number of free parameters."""
 
-_OTHER = ("clearance_factor", "excess", "backlash", "centre_distance")
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
 """Dimensions of limits; other limits are dimensionless."""
 
 
 def run(
     file: File,
-    output: Annotated[str, typer.Option("--output", help="Output or link whose loss or error is optimised.")],
+    output: Annotated[str, typer.Option("--of", help="Output or link whose loss or error is optimised.")],
     best: Annotated[
-        str, typer.Option("--best", help="Objective: minimise loss, error or impact, or maximise the jam margin.")
+        str, typer.Option("--objective", help="Minimise loss, error or impact, or maximise the jam margin.")
     ] = "loss",
     free: Annotated[
         list[str] | None,
         typer.Option(
             "--free",
-            help="Free parameter NAME or NAME=LOW:HIGH: radii, window or half_angle; can be repeated. Default: radii.",
+            help="Free parameter NAME or NAME=LOW:HIGH: radii, window or half_angle; may be repeated. Default: radii.",
         ),
     ] = None,
     within: Annotated[
         list[str] | None,
         typer.Option(
             "--within",
-            help="Limit NAME=LIMIT for each pair: loss, error, impact, jam, window_width or backlash; can be repeated.",
+            help="Limit NAME=LIMIT for each pair: loss, error, impact, jam, window_width or backlash; may be repeated.",
         ),
     ] = None,
     state: FirstState = None,
@@ -75,7 +75,10 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Optimise the triangular teeth of a train, pair by pair and together; -o FILE.yaml writes a declaration."""
+    """Optimise the triangular teeth of a train, pair by pair and together; -o FILE.yaml writes a declaration.
+
+    Example: `geartrain optimise moon-triangular --of moon --objective jam --free window`.
+    """
     from geartrain.analysis.gear_train import load
     from geartrain.workshop.sizes.tooth_sizes_report import describe_train_sizes
     from geartrain.workshop.sizes.train_size_search import find_train_sizes
@@ -108,12 +111,12 @@ def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
     emit(as_yaml({**declaration, "extends": parent}), to)
 
 
-# ----------------------------------------------------------------------------------------------- mesh triangular --best
+# ----------------------------------------------------------------------------------------------- mesh --objective
 
 
 @dataclass(frozen=True)
 class SizeQuestion:
-    """Options of `--best`: one objective or two separated by a comma, free parameters, limits, and errors of the
+    """Options of `--objective`: one objective or two separated by a comma, free parameters, limits, and errors of the
     wheels.
     """
 
@@ -123,27 +126,27 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Reject options that need `--best`, and options that cannot be combined with it."""
+        """Reject options that need `--objective`, and options that cannot be combined with it."""
         if self.best is None:
-            for option, given in (("--free", self.free), ("--within", self.within), ("--set", self.errors)):
+            for option, given in (("--free", self.free), ("--within", self.within), ("--cutting", self.errors)):
                 if given:
-                    raise typer.BadParameter("it needs an objective: give --best", param_hint=option)
+                    raise option_error(option, "the objective is missing", "give --objective too")
             return
         for option, other in others.items():
             if other:
-                raise typer.BadParameter("it cannot be combined with --best: omit one of them", param_hint=option)
+                raise option_error(option, "it cannot be combined with --objective", "omit one of them")
 
-    def answer(self, start: ToothSizes, to: Sink, picture: Sink, json: bool) -> NoReturn:
+    def answer(self, pair: PairRequest, to: Sink, picture: Sink, json: bool) -> NoReturn:
         """Write the best sizes as report, data and plot, and exit."""
         from geartrain.workshop.sizes.best_sizes import find_tooth_sizes
         from geartrain.workshop.sizes.tooth_sizes_report import describe_tooth_sizes
 
         aims = tuple(part.strip() for part in (self.best or "").split(","))
-        free, limits = read_free(self.free), read_limits([text for text in self.within if not _is_chance(text)])
-        chance = self._chance()
+        free, limits = read_free(self.free), read_limits([text for text in self.within if not _is_probability(text)])
+        probability = self._probability()
         work = _DESIGNS.get(len(free), 900) * len(aims)
         with progress("best sizes", work, patience=2) as bar:
-            found = find_tooth_sizes(start, aims, free, limits, chance, bar.advance)
+            found = find_tooth_sizes(_start(pair), aims, free, limits, probability, bar.advance)
         give(to, json, lambda: found, lambda: [describe_tooth_sizes(found)])
         if picture.path is not None:
             from geartrain.workshop.sizes.tooth_sizes_plot import tooth_sizes_figure
@@ -151,52 +154,54 @@ class SizeQuestion:
             draw(tooth_sizes_figure(found), picture)
         raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
 
-    def _chance(self) -> ChanceLimit | None:
+    def _probability(self) -> ProbabilityLimit | None:
         """Return the limit on the probability that a pair with cutting errors stops, if it is given."""
-        from geartrain.workshop.sizes.size_search import ChanceLimit
+        from geartrain.workshop.sizes.size_search import ProbabilityLimit
 
-        given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
+        given = [text.partition("=")[2] for text in self.within if _is_probability(text)]
         if bool(given) != bool(self.errors):
-            what = "a limit --within stops=5% needs errors, such as --set 'pitch_deviation=1 %', and vice versa"
-            raise typer.BadParameter(what, param_hint="--within" if given else "--set")
+            if given:
+                raise option_error("--within", "stops needs cutting errors", "give --cutting 'pitch_deviation=1 %' too")
+            raise option_error("--cutting", "no limit depends on cutting errors", "give --within stops=5% too")
         if not given:
             return None
         from geartrain.workshop.cutting.declared_errors import read_error_overrides
         from geartrain.workshop.sizes.size_search import PairTrials
 
         bound = min(quantity("--within", text, "fraction", plain=True, minimum="0") for text in given)
-        return ChanceLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
+        return ProbabilityLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
 
 
-def _is_chance(text: str) -> bool:
+def _is_probability(text: str) -> bool:
     """Return whether the limit requires trials."""
     return text.partition("=")[0].strip() == "stops"
 
 
-def read_start(
-    teeth: tuple[int, int], own: FormOptions, friction: float, driver: int, internal: bool = False
-) -> ToothSizes:
+def _start(pair: PairRequest) -> ToothSizes:
     """Return the pair given by options, with the clearance by default in the middle of the window."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
-    for name in _OTHER:
-        if own[name] is not None:
-            option = f"--{name.replace('_', '-')}"
+    friction = read_pair_friction(pair.friction).number("--objective")
+    for name in pair.own:
+        if name in CLEARANCES and name != "window":
             why = "the clearance window depends on the radii, so a fixed clearance would leave it"
-            raise GearTrainError(Problem(f"{option} cannot be combined with --best", why, "give --window", option))
-    window = own["window"] or "0.5"
+            what = f"{name} cannot be combined with --objective"
+            raise GearTrainError(Problem(what, why, "give -p window=0.5", f"-p {name}"))
+    shape = {name: text for name, text in pair.own.items() if name != "window"}
     # the radii do not depend on the clearance, so any excess will do, even if the pair has no clearance window
-    shape = read_form(Triangular, {"half_angle": own["half_angle"], "radii": own["radii"], "excess": "1e-6"}, "--radii")
-    placed = read_form(Triangular, {"half_angle": own["half_angle"], "window": window}, "--window")
-    assert isinstance(shape, Triangular)
+    unplaced, placed = read_form(Triangular, {**shape, "excess": "1e-6"}), read_form(Triangular, pair.own)
+    assert isinstance(unplaced, Triangular)
     assert isinstance(placed, Triangular)
     assert placed.window is not None
+    z1, z2 = pair.teeth
     try:
-        sizes = shape.sizes(*teeth, ring=2 if internal else 0)
+        sizes = unplaced.sizes(z1, z2, ring=2 if pair.internal else 0)
     except GearTrainError as error:
-        raise at_option(error, "--teeth") from None
-    radii = sizes.R2 / sizes.R1 * teeth[0] / teeth[1]
-    return ToothSizes(teeth, radii, float(placed.window.value), sizes.half_angles, friction, driver, sizes.ring)
+        raise at_option(error, COUNTS) from None
+    radii = sizes.R2 / sizes.R1 * z1 / z2
+    return ToothSizes(
+        pair.teeth, radii, float(placed.window.value), sizes.half_angles, friction, pair.driver, sizes.ring
+    )
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
@@ -206,8 +211,8 @@ def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
         name, equals, rest = text.partition("=")
         low, colon, high = rest.partition(":")
         if bool(equals) != bool(colon):
-            raise typer.BadParameter(f"'{text}' is not NAME or NAME=LOW:HIGH", param_hint="--free")
-        name = name.strip().replace("-", "_")
+            raise option_error("--free", f"'{text}' is not a free parameter", "write it as NAME or NAME=LOW:HIGH")
+        name = name.strip()
         found[name] = (_bound(name, low), _bound(name, high)) if equals else None
     return found
 
@@ -225,10 +230,10 @@ def read_limits(given: Sequence[str]) -> list[SizeLimit]:
     found = []
     for text in given:
         name, equals, rest = text.partition("=")
-        name = name.strip().replace("-", "_")
+        name = name.strip()
         if not equals or name not in SizeLimit.FIGURES:
-            what = f"'{text}' is not NAME=LIMIT, NAME one of {', '.join(SizeLimit.FIGURES)}"
-            raise typer.BadParameter(what, param_hint="--within")
+            fix = f"write it as NAME=LIMIT, with one of {', '.join(SizeLimit.FIGURES)}"
+            raise option_error("--within", f"'{text}' is not a limit", fix)
         found.append(SizeLimit(name, _limit(_DIMENSIONS.get(name), rest.strip())))
     return found
 

@@ -1,4 +1,4 @@
-"""Freedom of each link: the range of angles that the teeth allow, as cut and assembled, found without using speeds.
+"""Freedom of each link: the range of angles that the teeth allow, as cut and assembled, computed without speeds.
 
 For every mesh at a pose, the outlines give the limits of the lag of its second wheel. A lag is a linear combination of
 angles of links. Linear programmes over all meshes therefore give the range of each link while the input is held, and
@@ -36,18 +36,17 @@ _PARALLEL = 1e-9  # deviation of a cosine from 1 that counts as rounding
 
 @dataclass(frozen=True, slots=True)
 class LinkFreedom(Result):
-    """Angle through which a link can be turned by hand while the input is held."""
+    """Range of angles through which a link can be turned by hand while the input is fixed."""
 
     link: str
     """Name of the link."""
     backlash: float | None
-    """Range from end to end, the total backlash of all meshes up to the link [rad]; None for a link that is not held.
-    """
+    """Total range of the angle, the backlash of all meshes up to the link [rad]; None if the teeth do not limit it."""
 
 
 @dataclass(frozen=True, slots=True)
 class FreedomProof:
-    """Freedom of all links except the frame, and findings where it contradicts `solve`."""
+    """Freedom of all links except the frame, and findings where it contradicts the result of `solve`."""
 
     links: tuple[LinkFreedom, ...]
     findings: tuple[BuildFinding, ...] = ()
@@ -56,7 +55,7 @@ class FreedomProof:
 def prove_freedom(
     work: SolidModel, pairs: Mapping[str, TurnedPair], names: Mapping[str, tuple[str, str]]
 ) -> FreedomProof:
-    """Compute the freedom of all links from the teeth.
+    """Return the freedom of all links, computed from the teeth.
 
     pairs   meshes that were proved to turn individually; `names`, wheels 1 and 2 of each
     """
@@ -68,7 +67,7 @@ def prove_freedom(
 
 @dataclass(frozen=True, slots=True)
 class _Constraint:
-    """Constraint of a mesh on angles of links: low <= weights . deviations <= high."""
+    """Constraint of a mesh on the angles of the links: low <= weights . deviations <= high [rad]."""
 
     pair: str
     weights: Floats
@@ -84,7 +83,7 @@ class _Motion:
         self.case = work.sized.declaration.case(work.sized.declaration.state_or_first(work.state))
 
     def prove(self) -> FreedomProof:
-        """Compute the freedom at several poses; each contradiction is reported once."""
+        """Return the freedom of all links, checked at several poses; each contradiction is reported once."""
         findings: dict[str, BuildFinding] = {}
         links: tuple[LinkFreedom, ...] = ()
         speeds = {body.id: body.speed for body in self.scene.bodies}
@@ -103,8 +102,8 @@ class _Motion:
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes at a pose, and the distance [mm] of wheels outside their backlash, by
-        pair.
+        """Return the constraints of all meshes at a pose, and by pair the distance of wheels outside their backlash
+        [mm].
         """
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
@@ -121,7 +120,7 @@ class _Motion:
         return rows, off
 
     def _ratio_constraint(self, circuit: Circuit) -> Floats:
-        """Return the constraint of a circuit that is not turned here, such as a pin and slot or a bevel pair, by its
+        """Return the constraint of a circuit without turned outlines, such as a pin and slot or a bevel pair, from its
         ratio.
         """
         weights = np.zeros(len(self.scene.bodies))
@@ -131,7 +130,7 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses of both wheels and their carrier about the first axis; None if the axes are not
+        """Return the directions (1 or -1) of both wheels and their carrier about the first axis; None if not
         parallel.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
@@ -148,13 +147,14 @@ class _Motion:
         return senses[0], senses[1], senses[2]
 
     def _mesh_constraint(self, circuit: Circuit, turned: TurnedPair, angles: Floats) -> tuple[_Constraint, float]:
-        """Return the constraint of a mesh at a pose, and the angle [rad] of its second wheel beyond its backlash."""
+        """Return the constraint of a mesh at a pose, and the angle of its second wheel beyond its backlash [rad]."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
         senses = self._axis_senses(circuit)
         assert senses is not None
         s1, s2, sk = senses
         ratio = turned.counts[0] / turned.counts[1] * (1 if turned.ring else -1)
+        # a tooth of the first wheel faces a space of the second one on the line of centres
         stands = pi / turned.counts[1] + (0.0 if turned.ring else pi)
         begin, end = self._tooth_angle(one, one, other, turned), self._tooth_angle(other, one, other, turned)
         t = begin + s1 * angles[first] - sk * angles[held]
@@ -162,6 +162,7 @@ class _Motion:
         near, lag = _wrapped(t, turned.pitches[0]), _wrapped(lag, turned.pitches[1])
         free = turned.free(np.array([near]), np.array([lag]))
         low, high = float(free.low[0]) - lag, float(free.high[0]) - lag
+        # the lag is linear in the angles of the two wheels and of their carrier
         weights = np.zeros(len(self.scene.bodies))
         weights[second] += s2
         weights[first] -= ratio * s1
@@ -169,8 +170,8 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle [rad] of a wheel's first tooth in the zero pose, from the point of contact, about the first
-        axis.
+        """Return the angle of a wheel's first tooth in the zero pose, from the point of contact about the first axis
+        [rad].
         """
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
@@ -184,7 +185,7 @@ class _Motion:
 
     @cached_property
     def _fixed_equations(self) -> Floats:
-        """Equations of the case, as rows of coefficients: fixed links and links locked together, without the inputs."""
+        """Rows of coefficients of equations of the case: fixed links and links locked together, without the inputs."""
         count = len(self.scene.bodies)
         rows = []
         frame = self.work.sized.declaration.frame
@@ -198,12 +199,12 @@ class _Motion:
         return np.array(rows)
 
     def _input_equations(self) -> Floats:
-        """Return the equations that hold each input."""
+        """Return the rows of coefficients of equations that fix each input."""
         count = len(self.scene.bodies)
         return np.array([np.eye(count)[self.bodies[link]] for link in self.case.inputs]).reshape(-1, count)
 
     def _links(self, rows: Sequence[_Constraint]) -> Iterator[LinkFreedom]:
-        """Yield the freedom of each link while the inputs are held."""
+        """Yield the freedom of each link while the inputs are fixed."""
         fixed = np.concatenate([self._fixed_equations, self._input_equations()])
         still = {self.work.sized.declaration.frame}
         for body in self.scene.bodies:
@@ -215,7 +216,7 @@ class _Motion:
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
     def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
-        """Return the maximum angle [rad] of a link in one direction by linear programming; infinite if it is not
+        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite if it is not
         limited.
         """
         from scipy.optimize import linprog
@@ -246,19 +247,20 @@ class _Motion:
     def _contradictions(
         self, links: Sequence[LinkFreedom], rows: Sequence[_Constraint], turns: bool
     ) -> Iterator[BuildFinding]:
-        """Yield findings where the teeth contradict `solve`."""
+        """Yield findings where the teeth contradict the result of `solve`."""
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:
-                what = f"link '{link.link}' turns freely while the input is held"
-                why = "its speed is determined, but the teeth as cut do not hold it"
+                what = f"link '{link.link}' can turn while the input is fixed"
+                why = "its speed is determined, but the cut teeth do not prevent this motion"
                 yield _finding("error", what, why, "declare a tooth form for its meshes, or give taller teeth")
             elif link.backlash is not None and speeds[link.link] is None:
-                what = f"link '{link.link}' is held by its teeth, but `solve` does not determine its speed"
+                what = f"link '{link.link}' is fixed by its teeth, but `solve` does not determine its speed"
                 yield _finding("note", what, "the proof and the solution contradict each other", "")
         driving_link = self.scene.driving_link
         if driving_link is None or not self.case.inputs:
             return
+        # a train that can turn through any angle has no finite ends
         ends = [self._maximum_angle(rows, self._fixed_equations, driving_link, way) for way in (-1, 1)]
         if turns and np.isfinite(ends).any():
             what = f"'{self.scene.bodies[driving_link].id}' jams after {np.degrees(ends[1] - ends[0]):.3g} degrees"

@@ -1,5 +1,5 @@
-"""Proof of every mesh of a train on the written outlines: overlap, backlash, clearance and tips, each
-against its rule.
+"""Proof of every mesh of a train on the written outlines: overlap, backlash, clearance and tips, each checked against a
+rule.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 ALLOWED = 1e-3
-"""Tolerance [mm] by which the measured backlash may be below the declared one: the accuracy of the outlines."""
+"""Maximum difference by which the measured backlash may be below the declared one [mm]: the accuracy of the
+outlines.
+"""
 _CLEARANCE, _TIP = 0.1, 0.2  # modules: minimum clearance under a tip, and minimum tip width
 _AROUND = 32  # chords per quarter circle of the middle line of a cut around a corner
 _BUFFER = 0.01  # of a kerf: error of lines that shapely offsets
@@ -56,33 +58,33 @@ class MeshProof(Result):
     declared: float
     """Declared backlash along the pitch circle of the second wheel, or of the internal wheel [mm]."""
     minimum: float
-    """Minimum backlash measured [mm]."""
+    """Minimum measured backlash [mm]."""
     most: float
-    """Maximum backlash measured [mm]."""
+    """Maximum measured backlash [mm]."""
     overlap: float
-    """Maximum common area in any position [mm2]."""
+    """Maximum common area of both wheels in any position [mm2]."""
     contact_ratio: float | None
-    """Contact ratio of conjugate teeth at the design distance; None for other teeth."""
+    """Contact ratio of conjugate teeth at the design distance; None for other tooth forms."""
     clearance: float
-    """Minimum distance from a tip to the root of the other wheel on the line of centres [mm]."""
+    """Minimum bottom clearance on the line of centres, from a tip to the root of the other wheel [mm]."""
     tip_width: float
     """Smaller tip width of the two wheels [mm]."""
     module: float
     """Module of the second wheel [mm]."""
     findings: tuple[BuildFinding, ...] = ()
-    """Findings: rules that the mesh violates."""
+    """Findings on rules that the mesh violates."""
 
 
 @dataclass(frozen=True)
 class CutTrain:
-    """Material of every wheel, read back from its written drawing, and findings for drawings that cannot be cut."""
+    """Material of each wheel, read from its written drawing, and findings on drawings that cannot be cut."""
 
     materials: dict[str, Any]
     findings: tuple[BuildFinding, ...]
 
 
 def read_wheels(work: SolidModel) -> CutTrain:
-    """Read the material of every cut wheel from its written drawing, with half the kerf removed all around."""
+    """Return the material of each cut wheel, read from its written drawing, with half the kerf removed all around."""
     kerf = work.process.kerf
     materials: dict[str, Any] = {}
     findings = []
@@ -95,6 +97,7 @@ def read_wheels(work: SolidModel) -> CutTrain:
                 what = f"wheel {' and '.join(map(repr, sheet.parts))}: {problem.what}"
                 findings.append(BuildFinding("T0", "error", Problem(what, problem.why, problem.fix)))
             continue
+        # the cut removes half a kerf on each side of its line
         left = _offset(material, kerf / (2 if pins else -2)) if kerf else material
         left = _with_pins(left, work.blanks.wheels[sheet.parts[0]])
         materials |= dict.fromkeys(sheet.parts, left)
@@ -102,7 +105,7 @@ def read_wheels(work: SolidModel) -> CutTrain:
 
 
 def _with_pins(ring: Any, blank: Blank) -> Any:
-    """Return an internal wheel with the turned pins placed in it; any other wheel unchanged."""
+    """Return the material of an internal wheel united with its separate pins; any other wheel unchanged."""
     if blank.pins is None:
         return ring
     shapely = plane_geometry()
@@ -119,7 +122,9 @@ def _offset(material: Any, by: float) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return every mesh of two cut wheels: its backlash, its wheels (an internal one second), and their turned pair."""
+    """Return every mesh of two cut wheels by pair: its backlash, its blanks (an internal one second), its turned
+    outlines.
+    """
     found = {}
     for backlash in work.blanks.backlashes:
         bent = any(work.train.declaration.wheels[name][1].flexible for name in backlash.wheels)
@@ -137,7 +142,7 @@ def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBackla
 
 
 def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
-    """Return the distance of the axes of two wheels [mm], perpendicular to the axis of the first."""
+    """Return the distance between the axes of two wheels, perpendicular to the first axis [mm]."""
     first, second = (layout.wheels[name] for name in wheels)
     between = np.subtract(second.centre, first.centre)
     along = np.array(layout.axes[first.axis].direction)
@@ -145,7 +150,7 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
 
 
 def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
-    """Turn a mesh and check the measured values against the rules."""
+    """Return the measured values of a mesh that is turned, with findings on the rules."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
     room = (found.high - found.low) * R
@@ -171,7 +176,7 @@ def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: Turn
 
 
 def clearance(turned: TurnedPair) -> float:
-    """Return the minimum distance from a tip to the root of the other wheel on the line of centres [mm]."""
+    """Return the minimum bottom clearance on the line of centres, from a tip to the root of the other wheel [mm]."""
     (tip, root), (other_tip, other_root) = turned.reaches
     a = turned.distance
     if turned.ring:
@@ -180,7 +185,7 @@ def clearance(turned: TurnedPair) -> float:
 
 
 def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
-    """Return the mean width of the tips [mm], slightly below the tip circle; for a lantern the diameter of its pins."""
+    """Return the mean width of the tips slightly below the tip circle [mm]; for a lantern the diameter of its pins."""
     shapely = plane_geometry()
     tip, root = reach
     if material.geom_type != "Polygon":
@@ -208,7 +213,7 @@ def _findings(
         yield _error("T5", f"{pair} slips: one wheel can turn past the other", "the tips do not overlap", _NEARER)
     if proof.clearance < _CLEARANCE * module - TOLERANCE:
         what = f"{pair}: the clearance between tips and roots is {proof.clearance:.3g} mm"
-        why = "with too little clearance, tips touch roots or dirt jams the pair"
+        why = "if the clearance is too small, tips touch roots, or dirt jams the pair"
         fix = f"deepen the roots, to leave {_CLEARANCE * module:.3g} mm"
         yield BuildFinding("T2", "error" if proof.clearance < _TOUCH else "note", Problem(what, why, fix))
     ratio = proof.contact_ratio

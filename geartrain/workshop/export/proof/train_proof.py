@@ -1,4 +1,4 @@
-"""Proof that a train is ready to cut: the written parts can turn, or a list of obstacles.
+"""Proof that a train is ready to cut: the written parts can turn, or a list of errors.
 
 Meshing wheels are proved in the plane on their written outlines (`mesh_proof`). Flexible wheels are proved at several
 positions of their wave generator. Solids of different links are compared in several poses of the train: if bounding
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 SLIVER = 1e-3
-"""Common volume [mm3] that is ignored: the chords of two round surfaces in contact overlap by about this volume."""
+"""Common volume that is ignored [mm3]: the chords of two round surfaces in contact overlap by about this volume."""
 
 _POSITIONS = 7  # of the wave generator in a pitch of the internal wheel
 _PARTS = 4  # subdivision of each chord of the wheel, because bending curves it
@@ -46,7 +46,7 @@ _SHARE = 1e-6  # of the smaller part: a larger common volume is not a sliver
 
 @dataclass(frozen=True, slots=True)
 class TrainProof(Result):
-    """Result of the proof of a train.
+    """Result of the proof of a train: measured values and findings.
 
     See Also
     --------
@@ -60,7 +60,7 @@ class TrainProof(Result):
     links: tuple[LinkFreedom, ...]
     """Freedom of every link that turns."""
     findings: tuple[BuildFinding, ...]
-    """Findings: errors first, then notes on what is unwise or could not be proved."""
+    """Findings: errors first, then notes on parts that are risky or could not be checked."""
 
     @property
     def is_ready(self) -> bool:
@@ -69,7 +69,7 @@ class TrainProof(Result):
 
     @property
     def verdict(self) -> str:
-        """Verdict as one sentence."""
+        """Verdict in one sentence."""
         errors = build_errors(self.findings)
         if not errors:
             return "ready to cut"
@@ -78,7 +78,7 @@ class TrainProof(Result):
 
 
 def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> TrainProof:
-    """Prove that the written parts of a train can turn, mesh by mesh and as a whole.
+    """Return a proof that the written parts of a train can turn, mesh by mesh and as a whole.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
 
 
 def proof_is_installed() -> bool:
-    """Return whether shapely and manifold3d are installed."""
+    """Return True if shapely and manifold3d are installed."""
     try:
         return all(find_spec(name) is not None for name in ("shapely", "manifold3d"))
     except (ImportError, ValueError):
@@ -140,12 +140,12 @@ def proof_is_installed() -> bool:
 
 
 def proof_steps(work: SolidModel) -> int:
-    """Return the number of times that `prove_train` calls `watch`."""
+    """Return the number of calls of `watch` by `prove_train`."""
     return len(work.blanks.backlashes) + 1 + pose_count(work)
 
 
 def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
-    """Yield findings for wheels without a drawing: errors for flat ones, notes for others."""
+    """Yield findings on wheels without a drawing: errors for flat wheels, notes for others."""
     blanks = work.blanks
     for name, problems in blanks.uncut.items():
         flat = name in blanks.flat
@@ -154,13 +154,13 @@ def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
 
 
 def _frame(work: SolidModel) -> Iterator[BuildFinding]:
-    """Yield findings for axes that the plates cannot bear and for obstacles of arbors."""
+    """Yield findings on axes that the plates cannot bear and on obstacles of arbors."""
     if work.frame is None:
         return
     for cup in work.frame.plan.stack.cups:
-        for problem in cup.told():
+        for problem in cup.notices():
             yield BuildFinding("W3", "note", problem)
-    by_hand = set(work.frame.plan.stack.left_out())
+    by_hand = set(work.frame.plan.stack.omitted())
     for problem in dict.fromkeys([*work.frame.plan.notices, *work.frame.problems()]):
         yield BuildFinding("S1", "note" if problem in by_hand else "error", problem)
 
@@ -169,7 +169,7 @@ def _frame(work: SolidModel) -> Iterator[BuildFinding]:
 
 
 def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> tuple[BuildFinding, ...]:
-    """Return findings for parts that overlap in some pose, in descending order of common volume.
+    """Return findings on parts that overlap in some pose, in descending order of their common volume.
 
     watch   callback after each pose. Raises `MissingExtraError` if manifold3d is not installed.
     """
@@ -186,7 +186,7 @@ def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> 
 
 
 def pose_count(work: SolidModel) -> int:
-    """Return the number of times that `prove_solids` calls `watch`."""
+    """Return the number of calls of `watch` by `prove_solids`."""
     return len(_POSES) if work.scene.driving_link is not None else 1
 
 
@@ -205,7 +205,7 @@ class _Solids:
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Yield pairs of parts of different bodies whose bounding boxes overlap, except meshing wheels."""
+        """Yield the indices of two parts of different bodies whose bounding boxes overlap, except meshing wheels."""
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])
@@ -255,7 +255,7 @@ def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
 
 
 def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
-    """Yield findings for flexible wheels that overlap the internal wheel into which they are bent."""
+    """Yield findings on flexible wheels that overlap the internal wheel into which they are bent."""
     waves = () if work.frame is None else (each for each in work.frame.plan.stack.eccentrics if each.wave is not None)
     for each in waves:
         for gear in work.train.declaration.gears:
@@ -272,8 +272,8 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield common areas [mm2] of a bent flexible wheel and its internal wheel, for several wave positions
-    in a pitch.
+    """Yield the common areas of a bent flexible wheel and its internal wheel, at several positions of the wave
+    [mm2].
     """
     assert wave.wave is not None
     shapely = plane_geometry()
@@ -292,7 +292,7 @@ def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]
 
 
 def _divided(line: Floats) -> Floats:
-    """Insert equidistant points between the corners of a line."""
+    """Return a line with equidistant points inserted between its corners."""
     steps = np.arange(_PARTS)[None, :, None] / _PARTS
     after = np.roll(line, -1, axis=0)
     found: Floats = (line[:, None, :] + (after - line)[:, None, :] * steps).reshape(-1, 2)

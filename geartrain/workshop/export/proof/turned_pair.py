@@ -1,4 +1,4 @@
-"""Two written outlines turned against each other: their overlap, and the free angle of the second one.
+"""Two written outlines turned against each other: their overlap, and the range of angles in which the second is free.
 
 Wheel 1 is at the origin. Wheel 2 is at the distance of the axes on the positive x axis, or on the negative one if it is
 internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 TOLERANCE = 2e-4
-"""Maximum deviation [mm] of the chords used in a proof from the arcs of a drawing."""
+"""Maximum deviation of the chords in a proof from the arcs of a drawing [mm]."""
 
 NOTHING = 1e-9  # mm2: a smaller overlap is a rounding error
 SAME = 5e-6  # mm: larger than the rounding of coordinates in a drawing
@@ -47,32 +47,32 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 
 @dataclass(frozen=True, slots=True)
 class FreeTurn:
-    """Free angle of wheel 2 while wheel 1 is turned, as arrays with one item per position."""
+    """Range of angles in which wheel 2 is free while wheel 1 turns; arrays with one item for each position."""
 
     turned: Floats
-    """Angles of wheel 1 [rad], from the position with a tooth on the line of centres."""
+    """Angles of wheel 1 from the position with a tooth on the line of centres [rad]."""
     low: Floats
-    """Lower limit of the lag at which wheel 2 is free [rad]; NaN if it is never free."""
+    """Minimum lag at which wheel 2 is free [rad]; NaN if it is nowhere free."""
     high: Floats
-    """Upper limit of the lag at which wheel 2 is free [rad]; NaN if it is never free."""
+    """Maximum lag at which wheel 2 is free [rad]; NaN if it is nowhere free."""
     overlap: Floats
-    """Minimum common area over all lags [mm2]; 0 if it is free."""
+    """Minimum common area over all lags [mm2]; 0 if wheel 2 is free."""
     place: tuple[float, float] | None
-    """Position of the largest overlap, from the axis of wheel 1 [mm]; None if they do not overlap."""
+    """Position of the largest overlap, relative to the axis of wheel 1 [mm]; None without overlap."""
 
 
 @dataclass(frozen=True)
 class TurnedPair:
-    """Two wheels as materials about their own axes, each with a tooth on its x axis."""
+    """Two wheels as plane shapes about their own axes, each with a tooth on its x axis."""
 
     materials: tuple[Any, Any]
     counts: tuple[int, int]
     """Numbers of teeth of both wheels."""
     distance: float
-    """Distance of the axes [mm]. The field `ring` is True if wheel 2 is internal."""
+    """Centre distance [mm]. The field `ring` is True if wheel 2 is internal."""
     ring: bool = False
     same: float = SAME
-    """Tolerance [mm] below which teeth count as equal."""
+    """Maximum difference between teeth that are treated as equal [mm]."""
 
     @cached_property
     def pitches(self) -> tuple[float, float]:
@@ -81,21 +81,23 @@ class TurnedPair:
 
     @cached_property
     def reaches(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Tip and root radii of both wheels, as cut."""
+        """Tip and root radii of both wheels, as cut [mm]."""
         outer, inner = self.materials
         first = _teeth(outer, False)
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Turn the pair through a pitch of wheel 1; if teeth differ, through all tooth pairs that meet."""
+        """Return the free range of wheel 2 through a pitch of wheel 1; if teeth differ, for all tooth pairs that
+        meet.
+        """
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Teeth of wheel 1 and spaces of wheel 2 that meet on the line of centres; equal combinations are
-        listed once.
+        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet; one entry for each different
+        combination.
         """
         z1, z2 = self.counts
         way = 1 if self.ring else -1
@@ -109,7 +111,7 @@ class TurnedPair:
         return list(found.values())
 
     def free(self, turned: Floats, lags: Floats, tooth_pair: tuple[int, int] = (0, 0)) -> FreeTurn:
-        """Find the free angle of wheel 2 near given lags, at angles of wheel 1 within a pitch about 0."""
+        """Return the free range of wheel 2 near given lags [rad], at angles of wheel 1 within a pitch about 0 [rad]."""
         t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
         first = _moved(self._contact_region(0, tooth_pair[0]), t, 0.0)
         areas = self._areas(first, t, lag, tooth_pair)
@@ -127,7 +129,7 @@ class TurnedPair:
         return FreeTurn(t, low, high, np.where(blocked, areas, 0.0), place)
 
     def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
-        """Measure the backlash of one tooth pair through a pitch, and at further positions where its middle is not
+        """Return the free range of one tooth pair through a pitch, and at further positions where its middle is not
         free.
         """
         t = self._positions(_STEPS)
@@ -150,8 +152,8 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the nearest lag within half a pitch at which wheel 2 is free, else the lag with the
-        minimum overlap.
+        """Return the nearest lag within half a pitch at which wheel 2 is free, or else the lag with the minimum
+        overlap.
         """
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
@@ -165,7 +167,9 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Find the last free lag on one side by bisection; infinite if nothing stops the wheel within a pitch."""
+        """Return the last free lag in one direction by bisection [rad]; infinite if no tooth stops the wheel within a
+        pitch.
+        """
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
         if loose.any():  # free at half a pitch: the tooth that stops it is nearer or farther than that
@@ -191,18 +195,17 @@ class TurnedPair:
     def _overlap_centre(
         self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int], at: int
     ) -> tuple[float, float]:
-        """Return the centroid of the largest part of the overlap."""
+        """Return the centroid of the largest part of the overlap [mm]."""
         shapely = plane_geometry()
         common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], tooth_pair)[0])
         sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
         return float(sliver.centroid.x), float(sliver.centroid.y)
 
-    # ------------------------------------------------------------------------------------- regions that can be in
-    # contact
+    # -------------------------------------------------------------------------------------- possible regions of contact
 
     @cached_property
     def _extents(self) -> tuple[float, float]:
-        """Half angles [rad], seen from both axes, of the region where the tip circles overlap."""
+        """Half angles, seen from both axes, of the region in which the tip circles overlap [rad]."""
         (tip, _), (other, _) = self.reaches
         a = self.distance
         if not a:
@@ -212,7 +215,7 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the part of a wheel that can touch the other while a tooth (or space of wheel 2) passes the line of
+        """Return the part of a wheel that can touch the other while a tooth (wheel 2: a space) passes the line of
         centres.
         """
         return self._contact_regions[which](tooth)
@@ -230,7 +233,9 @@ class TurnedPair:
         return (lambda tooth: piece(0, tooth)), (lambda tooth: piece(1, tooth))
 
     def _crop(self, which: int, tooth: int) -> Any:
-        """Turn a wheel to a tooth (of wheel 2 a space) at the contact, and crop it to the region that can touch."""
+        """Return a wheel rotated to a tooth (wheel 2: a space) at the contact, and cropped to the region that can
+        touch.
+        """
         shapely = plane_geometry()
         pitch = self.pitches[which]
         facing = 0.0 if which == 0 or self.ring else pi
@@ -240,7 +245,7 @@ class TurnedPair:
         return whole if half >= pi / 2 else shapely.intersection(whole, _wedge(facing, half, self.reaches[which]))
 
     def _kinds(self, which: int) -> tuple[int, ...]:
-        """Return for each tooth the number of the first tooth that is equal including its surroundings."""
+        """Return for each tooth the index of the first tooth that is equal, including its neighbours."""
         return self._alike[which]
 
     @cached_property
@@ -248,10 +253,10 @@ class TurnedPair:
         first, second = self.materials
         return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 
-    # ---------------------------------------------------------------------------------------------------------- words
+    # --------------------------------------------------------------------------------------------------- descriptions
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
-        """Describe the position of an overlap: tip, flank or root of either wheel, with the radius [mm]."""
+        """Return a phrase on the position of an overlap: tip, flank or root of both wheels, with the radii [mm]."""
         away = -self.distance if self.ring else self.distance
         radii = hypot(*place), hypot(place[0] - away, place[1])
         parts = [_part(radius, *reach) for radius, reach in zip(radii, self.reaches, strict=True)]
@@ -273,7 +278,7 @@ def _part(radius: float, tip: float, root: float) -> str:
 
 
 def _tooth_lines(material: Any, ring: bool) -> Any:
-    """Return the outer line of a wheel, for an internal wheel its hole, for a lantern all lines of its pins."""
+    """Return the outer line of a wheel; for an internal wheel its hole, for a lantern the lines of its pins."""
     shapely = plane_geometry()
     if ring:
         return max(material.interiors, key=lambda line: float(shapely.Polygon(line).area))
@@ -281,7 +286,7 @@ def _tooth_lines(material: Any, ring: bool) -> Any:
 
 
 def _teeth(material: Any, ring: bool) -> tuple[float, float]:
-    """Return the tip and root radii; for a lantern the outermost and innermost radius of its pins."""
+    """Return tip and root radius [mm]; for a lantern the maximum and minimum radius of its pins."""
     shapely = plane_geometry()
     radii = np.hypot(*shapely.get_coordinates(_tooth_lines(material, ring)).T)
     ends = float(radii.max()), float(radii.min())
@@ -289,7 +294,9 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return for each tooth the first equal one; a wheel invariant under a turn by a pitch has one kind."""
+    """Return for each tooth the index of the first equal tooth: all 0 if a rotation by a pitch does not change the
+    wheel.
+    """
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
     shapely.prepare(lines)
@@ -300,7 +307,7 @@ def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
-    """Return the sector about a direction, from well below the teeth to well above them."""
+    """Return the sector about a direction, with margins above and below the teeth."""
     shapely = plane_geometry()
     height = abs(reach[0] - reach[1])
     steps = np.linspace(-half, half, 9)
@@ -312,7 +319,7 @@ def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
 
 
 def _moved(material: Any, turns: Floats, away: float) -> Any:
-    """Return copies of a material, each turned about its axis and then moved along the x axis."""
+    """Return copies of a shape, each rotated about its axis and then shifted along the x axis."""
     shapely = plane_geometry()
     x, y = shapely.get_coordinates(material).T
     c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]
@@ -325,7 +332,7 @@ def _moved(material: Any, turns: Floats, away: float) -> Any:
 
 
 def plane_geometry() -> Any:
-    """Import and return shapely; raise `MissingExtraError` if it is not installed."""
+    """Return the module shapely. Raises `MissingExtraError` if it is not installed."""
     try:
         import shapely
     except ImportError:
@@ -334,7 +341,7 @@ def plane_geometry() -> Any:
 
 
 def read_material(svg: str, pins: bool = False, tolerance: float = TOLERANCE) -> Geometry:
-    """Read the material that remains when the CUT path of a drawing is cut, in mm, y upwards; for a lantern its pins.
+    """Return the material that remains when the CUT path of a drawing is cut [mm], y upwards; for a lantern its pins.
 
     The largest line is the rim, the others are holes. Raises `GearTrainError` for a drawing that cannot be cut: a line
     that crosses itself, or a hole that leaves the part.
@@ -356,7 +363,7 @@ def read_material(svg: str, pins: bool = False, tolerance: float = TOLERANCE) ->
 
 
 def cut_lines(svg: str, tolerance: float = TOLERANCE) -> list[list[Point]]:
-    """Return the closed lines of the CUT path as points [mm], y upwards, with arcs as chords."""
+    """Return the closed lines of the CUT path as points [mm], with y upwards and arcs as chords."""
     path = next(each for each in ElementTree.fromstring(svg).iter() if each.get("id") == _CUT)
     lines: list[list[Point]] = []
     for word, numbers in _commands(path.get("d", "")):
@@ -383,7 +390,7 @@ def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
 
 
 def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tolerance: float) -> list[Point]:
-    """Return the points of a circular arc after its start; flags: large arc, and left turn.
+    """Return the points of a circular arc after its start; the flags are large arc and left turn.
 
     The centre is computed as in appendix B.2.4 of SVG 2, for circles.
     """

@@ -1,0 +1,350 @@
+"""Values of the options of `geartrain mesh`: parameters of a tooth form, wheels, friction, the outline of a wheel.
+
+The parameters are the keys of `tooth_form` in a declaration, validated by the model of the form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import cos, pi
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args, get_origin
+
+from geartrain.cli.common import Sink, emit, option_error
+from geartrain.cli.option_values import at_option, quantity
+from geartrain.cli.option_values import friction as read_coefficient
+from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
+from geartrain.teeth.triangular.triangular_form import CLEARANCES, FEWEST, Triangular
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
+
+    from geartrain.report.document import Document
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    from geartrain.teeth.friction_law import FrictionLaw
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
+    from geartrain.teeth.tooth_form import ToothForm
+
+    Mesh = TypeVar("Mesh", bound=GearMesh)
+
+
+COUNTS = "Z1 Z2"
+"""Place of errors in the tooth counts."""
+PAIR = ("friction", "z1", "z2")
+"""Numbers that can be varied besides the parameters of the form."""
+
+
+# ------------------------------------------------------------------------------------------------- parameters of a form
+
+
+def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
+    """Return the parameters of a form that describe one pair, by name.
+
+    Forms that keep their design at any centre distance have no parameter for it. Parameters for the time domain are
+    left out.
+    """
+    hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
+    return {name: field for name, field in model.model_fields.items() if name not in hidden}
+
+
+def describe_parameters(form: str, model: type[ToothForm]) -> Document:
+    """Return the parameters of a form as a table: key, default, meaning."""
+    from geartrain.report.document import Document, Section, Table
+
+    required = model.with_defaults({})
+    rows = [
+        (
+            name,
+            str(required.get(name, "" if field.is_required() or field.default is None else field.default)),
+            _meaning(field),
+        )
+        for name, field in parameters_of(model).items()
+    ]
+    table = Table(("key", "default", "meaning"), rows)
+    text = f"Give each as `-p KEY=VALUE`. They are the keys of `tooth_form: {{form: {form}}}` in a declaration."
+    return Document(f"Parameters of {form} teeth", (text,), [Section("Keys", (), [table])])
+
+
+def _meaning(field: FieldInfo) -> str:
+    """Return the description of a parameter, in which a list is written as a pair of values with a comma."""
+    text = (field.description or "").replace("a list of two gives", "a,b gives").replace("a list of two", "two: a,b")
+    words = [word for word in _words(field.annotation) if word not in text]
+    return f"{text}: {', '.join(words)}" if words else text
+
+
+def _words(annotation: Any) -> list[str]:
+    """Return the words among which the value of a field is chosen."""
+    if get_origin(annotation) is Literal:
+        return [each for each in get_args(annotation) if isinstance(each, str)]
+    return [word for each in get_args(annotation) for word in _words(each)]
+
+
+def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fix: str = "") -> dict[str, str]:
+    """Parse KEY=VALUE options to a mapping. Raises `QuestionError` for an unknown key and for a key given twice."""
+    found: dict[str, str] = {}
+    for text in texts:
+        name, equals, value = map(str.strip, text.partition("="))
+        if not equals or not value:
+            raise option_error(option, f"'{text}' is not an assignment", "write it as KEY=VALUE")
+        if name not in known:
+            raise QuestionError(
+                Problem(
+                    f"unknown key '{name}'",
+                    "",
+                    "; ".join(filter(None, (suggest(name, known), fix))),
+                    f"{option} {name}",
+                )
+            )
+        if name in found:
+            raise option_error(f"{option} {name}", "it is given twice", "give it once")
+        found[name] = value
+    return found
+
+
+def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
+    """Create the tooth form from its parameters, with defaults for those that a declaration requires.
+
+    Raises `GearTrainError` with the place `-p KEY`.
+    """
+    fields = model.model_fields
+    try:
+        return model.declared(model.with_defaults({name: _value(fields[name], each) for name, each in given.items()}))
+    except GearTrainError as error:
+        raise at_parameter(error, "-p", f"`geartrain mesh --form {_name(model)} --keys` lists the parameters") from None
+
+
+def _name(model: type[ToothForm]) -> str:
+    (form,) = get_args(model.model_fields["form"].annotation)
+    return str(form)
+
+
+def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
+    """Return the error at `-p KEY` if its place is the key of a parameter; `place` and `fix` are used without one."""
+    return GearTrainError(
+        replace(each, place=f"-p {each.place}" if each.place else place, fix=each.fix or fix) for each in error.problems
+    )
+
+
+def _value(field: FieldInfo, given: str) -> Any:
+    """Convert a value as in a declaration: a list if it has a comma, an integer if one can be chosen."""
+    if given.isdigit() and int(given) in get_args(field.annotation):
+        return int(given)
+    return [part.strip() for part in given.split(",")] if "," in given else given
+
+
+# --------------------------------------------------------------------------------------------------------------- wheels
+
+
+def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
+    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
+    if internal and angle is not None:
+        why, fix = "a ring and its pinion have parallel axes", "give --internal or --shaft-angle"
+        raise GearTrainError(Problem("a ring is not a bevel wheel", why, fix, "--shaft-angle"))
+    return None if angle is None else quantity("--shaft-angle", angle, "angle")
+
+
+def read_helix(helix: str | None, shaft_angle: float | None) -> float:
+    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels. Raises `GearTrainError`."""
+    angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
+    if shaft_angle is not None and angle:
+        why = "helical teeth are implemented for parallel axes only"
+        raise GearTrainError(
+            Problem("bevel wheels have no helix angle", why, "give --shaft-angle or --helix", "--helix")
+        )
+    if not 0 <= angle < pi / 2:
+        what = f"a helix angle of {helix} is outside 0 to 90 deg"
+        raise GearTrainError(Problem(what, "it is measured from the axis", "give for example --helix 20deg", "--helix"))
+    return angle
+
+
+def read_module(module: str | None) -> float | None:
+    """Parse the module [m]; None if not given. Raises `GearTrainError`."""
+    return None if module is None else quantity("--module", module, "length", minimum="above 0")
+
+
+def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
+    """Create two wheels without a size for conjugate teeth. Raises `GearTrainError`."""
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+
+    wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))
+    try:
+        wheels.check()
+    except GearTrainError as error:
+        raise at_option(error, COUNTS) from None
+    return wheels
+
+
+@dataclass(frozen=True)
+class PairRequest:
+    """A pair of wheels as described by options, some of which can be varied."""
+
+    model: type[ToothForm]
+    teeth: tuple[int, int]
+    own: Mapping[str, str]
+    """Parameters of the form by key."""
+    module: float | None = None
+    """Module [m]; None if not given."""
+    friction: str = "0"
+    driver: int = 1
+    rate: str | None = None
+    internal: bool = False
+    shaft_angle: float | None = None
+    """Shaft angle of bevel wheels [rad]."""
+    helix: float = 0.0
+    """Helix angle [rad]."""
+
+    def mesh(self, **varied: str) -> GearMesh:
+        """Create the pair in mesh, with some parameters replaced by varied values.
+
+        Raises `GearTrainError` if the form cannot mesh in this pair.
+        """
+        from geartrain.teeth.meshing_wheels import MeshDriver
+
+        # tooth counts in a sweep are floats
+        z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
+        rub = read_pair_friction(varied.get("friction", self.friction))
+        ring = self.internal or self.model.ringed
+        wheels = two_wheels((z1, z2), rub.coefficient, self.module, ring, self.shaft_angle, self.helix)
+        form = self.form({name: value for name, value in varied.items() if name not in PAIR})
+        try:
+            mesh = form.mesh(wheels, lambda: self.shaft_angle)
+            assert mesh is not None  # ideal teeth are not among the forms of the command
+            return rub.of(mesh.driven_by(MeshDriver(wheels.gear.pair[self.driver - 1], "")), self.rate)
+        except GearTrainError as error:
+            placed = [name for name in CLEARANCES if name in self.own and self.model is Triangular]
+            raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
+
+    def form(self, varied: Mapping[str, str]) -> ToothForm:
+        """Create the tooth form with some parameters replaced; a varied clearance replaces all given clearances."""
+        replaced = {*CLEARANCES} if {*varied} & {*CLEARANCES} else set()
+        return read_form(
+            self.model, {name: text for name, text in self.own.items() if name not in replaced} | dict(varied)
+        )
+
+
+def two_wheels(
+    teeth: tuple[int, int],
+    friction: float,
+    module: float | None,
+    internal: bool = False,
+    shaft_angle: float | None = None,
+    helix: float = 0.0,
+) -> MeshingWheels:
+    """Create the wheels of a pair without a train; normal module in m, helix angle of the first wheel in rad."""
+    from geartrain.teeth.meshing_wheels import MeshingWheels
+    from geartrain.train import GearPair
+
+    kind = "helical" if helix else "spur" if shaft_angle is None else "bevel"
+    # the transverse module is the normal module divided by the cosine of the helix angle
+    distance = None if module is None else module / cos(helix) * sum(teeth) / 2
+    pair = GearPair(pair=("wheel 1", "wheel 2"))
+    # external helical wheels have opposite hands, a ring has the hand of its pinion
+    lean = (helix, helix if internal else -helix)
+    return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance, helix=lean)
+
+
+# --------------------------------------------------------------------------------------------------- outline of a wheel
+
+
+BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
+"""Sizes of a wheel that do not follow from its tooth form; `clearance`, `fillet` and `rim` only for conjugate teeth."""
+
+
+def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
+    """Write the outline of a wheel and return it; empty if no file is named.
+
+    `blank` contains sizes of the wheel by name.
+    """
+    if to.path is None:
+        return []
+    from geartrain.drawing import outline_text
+
+    made = mesh.wheel_outline(wheel, _blank_sizes(mesh.wheels.module, blank))
+    emit(outline_text(made, to.suffix), to)
+    return [made]
+
+
+def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
+    """Parse the sizes of a wheel [mm]; `module` is in m."""
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes
+
+    if module is None:
+        why = "an outline is written to scale"
+        raise GearTrainError(Problem("the module is missing", why, "give for example --module 2mm", "--module"))
+    sizes = {"tolerance": FINE, **sizes}
+    return BlankSizes(
+        1000 * module, **{name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in sizes.items()}
+    )
+
+
+FINE = "0.001mm"
+"""Default chord tolerance of outlines."""
+
+
+# ------------------------------------------------------------------------------------------------------------- friction
+
+
+@dataclass(frozen=True)
+class PairFrictionOption:
+    """Value of `--friction`: a coefficient, or a friction law."""
+
+    coefficient: float
+    """Coefficient of friction; 0 if a law is given."""
+    law: FrictionLaw | None = None
+
+    def number(self, option: str) -> float:
+        """Return the coefficient. Raises `GearTrainError` if a friction law is given with an option that needs a
+        number.
+        """
+        if self.law is not None:
+            what = f"{option} needs a coefficient of friction"
+            raise GearTrainError(
+                Problem(what, "a friction law is given", "give for example --friction 0.1", "--friction")
+            )
+        return self.coefficient
+
+    def of(self, mesh: Mesh, rate: str | None) -> Mesh:
+        """Return the mesh with this friction at the speed of its driver. Raises `GearTrainError` if that is unknown."""
+        if self.law is None:
+            return mesh
+        radius = mesh.pitch_radius
+        if radius is None or rate is None:
+            missing = {"--rate": ("the speed of the driver", rate), "--module": ("the module", radius)}
+            lacking = {option: word for option, (word, value) in missing.items() if value is None}
+            what = f"the friction law '{self.law.law}' depends on the sliding speed"
+            why = f"unknown: {' and '.join(lacking.values())}"
+            raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
+        if mesh.driver != mesh.gear.pair[0]:
+            first, second = mesh.wheels.counts
+            # the pitch radius is that of the first wheel, the speed that of the driver
+            radius *= second / first
+        speed = quantity("--rate", rate, "speed", minimum="above 0") * radius
+        return replace(mesh, wheels=replace(mesh.wheels, friction=None, friction_law=self.law, pitch_line=speed))
+
+
+def read_pair_friction(text: str) -> PairFrictionOption:
+    """Parse a coefficient of friction or the friction law that a text names. Raises `GearTrainError`."""
+    name = text.split(",")[0].strip()
+    if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
+        return PairFrictionOption(read_coefficient(text))
+    from pydantic import TypeAdapter, ValidationError
+
+    from geartrain.teeth.friction_law import FrictionLawOfText
+
+    try:
+        return PairFrictionOption(0.0, TypeAdapter[Any](FrictionLawOfText).validate_python(text))
+    except ValidationError as error:
+        raise GearTrainError(map(_problem, error.errors(include_url=False))) from None
+
+
+def _problem(item: Any) -> Problem:
+    if item["type"] == "union_tag_invalid":
+        from geartrain.train.validation import unknown_tag
+
+        given = item["ctx"]["tag"]
+        return Problem(f"'{given}' is not a friction law", "", suggest(given, unknown_tag(item)[1]), "--friction")
+    key = ".".join(str(step) for step in item["loc"][1:])
+    what = f"{key}: {item['msg']}" if key else item["msg"]
+    return Problem(what, "", str((item.get("ctx") or {}).get("fix", "see docs/shapes.md, section 15")), "--friction")

@@ -1,0 +1,77 @@
+"""Examples of declarations: those of the reference, of the JSON Schema, and of error messages."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import yaml
+
+from geartrain.errors import Loc
+from geartrain.train.yaml_nodes import on_one_line, parse_yaml
+
+
+@cache
+def examples() -> Mapping[str, tuple[str, ...]]:
+    """Return the examples as YAML text, by part or by key with several kinds of parts; the first one is printed."""
+    text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
+    return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
+
+
+def example_data() -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the part and the plain data of each example."""
+    for part, each in examples().items():
+        for text in each:
+            yield part, _plain(parse_yaml(text, part).plain())
+
+
+def _plain(data: Any) -> Any:
+    """Return the data of a declaration, in which all scalars are text, with numbers and booleans."""
+    if isinstance(data, dict):
+        return {key: _plain(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [_plain(value) for value in data]
+    with suppress(ValueError, TypeError):
+        return json.loads(data)
+    return data
+
+
+def one_line(key: str, value: Any) -> str:
+    """Return a key and its value as a line of YAML."""
+    return on_one_line({key: value}).removeprefix("{").removesuffix("}")
+
+
+_OF_NAMES = ("links", "wheels", "axes", "outputs", "states", "dials", "clutches", "sources", "materials")
+"""Keys of mappings whose keys are names that a user chooses."""
+
+
+def example_line(loc: Loc, kind: type) -> str:
+    """Return a line with an example of the value at `loc`, a mapping or a list; empty if there is none.
+
+    A key is found by its name at any level. An example of `links.a` is any link.
+    """
+    keys = [step for step in loc if isinstance(step, str)]
+    if not keys:
+        return ""
+    values: Iterator[Any] = _named(keys[-1])
+    if len(keys) > 1 and keys[-2] in _OF_NAMES and loc[-1] == keys[-1]:
+        values = (each for value in _named(keys[-2]) if isinstance(value, dict) for each in value.values())
+    found = next((value for value in values if value and isinstance(value, kind)), None)
+    return "" if found is None else one_line(keys[-1], found)
+
+
+def _named(key: str) -> Iterator[Any]:
+    """Yield the values of a key in the examples."""
+    stack: list[Any] = [data for _, data in example_data()][::-1]
+    while stack:
+        value = stack.pop()
+        if isinstance(value, dict):
+            if key in value:
+                yield value[key]
+            stack += reversed(list(value.values()))
+        elif isinstance(value, list):
+            stack += reversed(value)

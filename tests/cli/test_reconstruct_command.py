@@ -294,7 +294,7 @@ def test_trains_are_drawn_anew_with_another_seed() -> None:
 def test_trains_that_are_weighed_by_themselves_are_not_drawn() -> None:
     result = call("reconstruct", "back-train-modules", "--sample", 3)
     assert isinstance(result.exception, QuestionError)
-    assert "weighed one by one" in str(result.exception)
+    assert "weighted one by one" in str(result.exception)
 
 
 def test_known_trains_are_ranked() -> None:

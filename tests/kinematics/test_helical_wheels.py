@@ -279,7 +279,7 @@ def test_the_wheel_of_a_worm_lies_along_its_thread(mate: dict[str, Any]) -> None
 def test_friction_of_a_worm_of_unknown_lead_asks_for_its_helix_angle() -> None:
     placed = axes([0, 0, 1], [0, 1, 0], [30, 0, 0])
     given = {"axes": placed, "pair": {"friction": 0.08}, "loads": {"a": "1 N m"}}
-    (left,) = train({"teeth": 5, "kind": "worm"}, {"teeth": 60}, **given).torques().omitted
+    (left,) = train({"teeth": 5, "kind": "worm"}, {"teeth": 60}, **given).torques().neglected
     assert left.what == "friction of teeth"
     assert "declare the `helix_angle` of the worm" in left.why
     assert "tooth_form" not in left.why

@@ -388,7 +388,7 @@ def test_planets_that_mesh_in_a_loop_are_not_judged() -> None:
 
 def test_limits_hold_for_every_free_wheel_alone() -> None:
     rules = rules_of(
-        epicyclic(*SIMPLE), ["s", "p"], coaxial=False, minimum=12, most_teeth=40, largest_radius=length("18")
+        epicyclic(*SIMPLE), ["s", "p"], coaxial=False, minimum=12, maximum_teeth=40, largest_radius=length("18")
     )
     assert all(len(rule.wheels) == 1 for rule in rules)
     for s, p in product(range(8, 45, 4), repeat=2):

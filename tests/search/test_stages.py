@@ -111,7 +111,7 @@ def fits(draw: st.DrawFn, stages: int) -> StageConstraints:
         different=draw(st.sampled_from([False, False, True])),
         internal=draw(st.sampled_from([0, 0, 0, draw(st.integers(0, stages))])),
         minimum_total=low if bounded else None,
-        most_total=high if bounded else None,
+        maximum_total=high if bounded else None,
         largest=draw(st.sampled_from([None, None, 25, 12])),
     )
 
@@ -372,7 +372,7 @@ def test_an_order_that_needs_a_tolerance_says_which_was_used() -> None:
         ({"by": "beauty"}, "beauty"),
         ({"tolerance": Fraction(-1)}, "tolerance"),
         ({"fit": StageConstraints(internal=3)}, "internal"),
-        ({"fit": StageConstraints(minimum_total=9, most_total=8)}, "minimum_total"),
+        ({"fit": StageConstraints(minimum_total=9, maximum_total=8)}, "minimum_total"),
         ({"wheels": ()}, "no tooth counts"),
         ({"wheels": (0, 3)}, "0 teeth"),
     ],

@@ -452,7 +452,7 @@ def test_a_pointer_at_its_zero_mark_reads_the_first_cell(name: str) -> None:
     assert read
     for pointer in read:
         text = next(each for each in shown if each.startswith(f"{pointer.output}: at "))
-        assert scene.dials[pointer.dial or 0].scale.told(Fraction(0)) in text
+        assert scene.dials[pointer.dial or 0].scale.reading_text(Fraction(0)) in text
 
 
 def test_a_kind_that_is_none_is_refused_with_all_kinds() -> None:

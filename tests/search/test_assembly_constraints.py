@@ -482,7 +482,7 @@ outputs: {carrier: {targets: [{speed: 2/7, tolerance: 5 %}]}}
 def test_the_command_reads_what_is_requested_from_texts(planets: Any, tmp_path: Path) -> None:
     (tmp_path / "set.yaml").write_text(PLANETS)
     texts = ("3" if planets == 3 else "carrier=3", "1/2", "14.5 deg", "60", "9")
-    named = ("planets", "clearance", "undercut", "largest-radius", "minimum")
+    named = ("planets", "clearance", "undercut", "max-radius", "min-teeth")
     given = (f"--{name}={text}" for name, text in zip(named, texts, strict=True))
     found = call("teeth", "train", tmp_path / "set.yaml", "--json", *given)
     options = ConstraintOptions(
@@ -504,7 +504,7 @@ def test_the_command_reads_what_is_requested_from_texts(planets: Any, tmp_path: 
         {"planets": "3,4"},
         {"clearance": "much"},
         {"undercut": "20"},
-        {"largest-radius": "20 deg"},
+        {"max-radius": "20 deg"},
         {"interference": "20 mm", "addendum": "x"},
     ],
 )

@@ -258,7 +258,7 @@ def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
 
 
 def test_a_picture_of_hostile_names_is_xml(tmp_path: Path, hostile: Path) -> None:
-    for kind in ("inspect", "graph", "stick"):
+    for kind in ("graph", "stick"):
         out = tmp_path / f"{kind}.svg"
         call("draw", hostile, "--kind", kind, "-o", out)
         ET.fromstring(out.read_bytes())

@@ -110,7 +110,10 @@ def graph(
     form: Annotated[
         Literal["labels", "edges", "matrix", "dot", "graphml", "json"] | None,
         typer.Option(
-            "--as", help="Format; default: by the suffix of -o, else labels, or edges for more than 48 links."
+            "--as",
+            metavar="FORMAT",
+            help="Format: labels, edges, matrix, dot, graphml or json; default: by the suffix of -o, else labels, or "
+            "edges for more than 48 links.",
         ),
     ] = None,
     out: Out = None,

@@ -21,11 +21,11 @@ GROUPS = {
 }
 LEAD = """# Gallery
 
-Every train that comes with geartrain, with what it answers. The [site](index.md#this-site) shows each turning, with its
-plan and dials, a page in which it turns, and its report; `geartrain view NAME -o x.html` makes the page here. Files
-stand in `trains/`; each names its sources.
+All shipped trains with their verdicts and the speeds of their first outputs. The [site](contributing.md#documentation)
+shows the plan, the dials, the animated page and the report of each; `geartrain view NAME -o x.html` writes the page. The
+files are in `trains/`; each cites its sources.
 """
-MOST = 4
+MOST = 3
 
 
 def main() -> None:
@@ -65,8 +65,8 @@ def _outputs(answers: list[Answer]) -> str:
 
 
 def _speeds(answers: list[Answer], name: str) -> str:
-    speeds = [exact(found.speed) for answer in answers if (found := answer.outputs.get(name))]
-    return " or ".join(dict.fromkeys(speeds))
+    speeds = dict.fromkeys(exact(found.speed) for answer in answers if (found := answer.outputs.get(name)))
+    return next(iter(speeds)) if len(speeds) == 1 else f"{len(speeds)} speeds"
 
 
 if __name__ == "__main__":

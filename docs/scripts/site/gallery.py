@@ -35,7 +35,6 @@ SIZE, RATE, COUNT = (320, 240), 10, 30  # of films: px, pictures a second, pictu
 AT = Fraction(1, 3)  # turns of the lead where they begin: pointers stand apart then
 _log = logging.getLogger("mkdocs.hooks")
 _ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \| (.*?) \|$", re.MULTILINE)
-_WALL = re.compile(r"^<!-- all trains -->$", re.MULTILINE)
 _FRAME = re.compile(r"^<!-- turning: ([\w.-]+) -->$", re.MULTILINE)
 _TABLE = re.compile(r"^\| train \| .*\n\|---.*\n((?:\|.*\n?)+)", re.MULTILINE)
 
@@ -62,16 +61,9 @@ def with_cards(markdown: str) -> str:
     return _TABLE.sub(lambda found: "".join(_cards(found[1])), markdown)
 
 
-def with_wall(markdown: str) -> str:
-    """The mark of the wall of all trains as their pictures, and that of a train as its page in a frame."""
-    markdown = _FRAME.sub(lambda found: _frame(found[1]), markdown)
-    return _WALL.sub(lambda _: "".join(_wall()), markdown)
-
-
-def _wall() -> Iterator[str]:
-    yield '<div class="wall" markdown>\n'
-    yield from (f"{_thumbnail(path.stem)}\n" for path in _trains())
-    yield "</div>\n"
+def with_frames(markdown: str) -> str:
+    """Marked trains as their pages in frames."""
+    return _FRAME.sub(lambda found: _frame(found[1]), markdown)
 
 
 def _frame(name: str) -> str:

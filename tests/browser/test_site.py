@@ -202,7 +202,7 @@ def test_where_nothing_draws_the_pages_show_plans(monkeypatch: pytest.MonkeyPatc
     made = {f"{kind}/worm.{suffix}": Path() for kind, suffix in (("plan", "png"), ("view", "html"), ("report", "html"))}
     monkeypatch.setattr(gallery, "make", lambda: made)
     assert gallery._thumbnail("worm").startswith("[![plan of worm](plan/worm.png)")
-    assert gallery.with_frames("<!-- turning: planetary -->\n") == "\n", "no frame of what is not made"
+    assert gallery.with_frames("<!-- turning: planetary -->\n![a](b)\n") == "![a](b)\n", "no frame of what is not made"
 
 
 def test_the_readme_opens_with_a_mechanism_that_turns() -> None:

@@ -35,7 +35,7 @@ SIZE, RATE, COUNT = (320, 240), 10, 30  # of films: px, pictures a second, pictu
 AT = Fraction(1, 3)  # turns of the lead where they begin: pointers stand apart then
 _log = logging.getLogger("mkdocs.hooks")
 _ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \| (.*?) \|$", re.MULTILINE)
-_FRAME = re.compile(r"^<!-- turning: ([\w.-]+) -->$", re.MULTILINE)
+_FRAME = re.compile(r"^<!-- turning: ([\w.-]+) -->\n(.*)$", re.MULTILINE)
 _TABLE = re.compile(r"^\| train \| .*\n\|---.*\n((?:\|.*\n?)+)", re.MULTILINE)
 
 
@@ -62,8 +62,8 @@ def with_cards(markdown: str) -> str:
 
 
 def with_frames(markdown: str) -> str:
-    """Marked trains as their pages in frames."""
-    return _FRAME.sub(lambda found: _frame(found[1]), markdown)
+    """Return the text with the pages of marked trains in frames; a picture below a mark stays where no page is made."""
+    return _FRAME.sub(lambda found: _frame(found[1]) or found[2], markdown)
 
 
 def _frame(name: str) -> str:

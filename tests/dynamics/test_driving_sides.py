@@ -413,7 +413,7 @@ def test_each_state_has_its_own_driver() -> None:
 def test_the_trials_of_a_looped_train_run_without_a_warning() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        arguments = ("--trials", 64, "--set", "pitch_deviation=0.1 deg", "--of", "moon", "--of", "17", "--json")
+        arguments = ("--trials", 64, "--cutting", "pitch_deviation=0.1 deg", "--of", "moon", "--of", "17", "--json")
         found = call("montecarlo", "pennestri-2002-teeth", *arguments)
     assert found.exit_code in (0, 1)
     assert json.loads(found.stdout)["outputs"]

@@ -155,7 +155,7 @@ SHOWN = [
         "inspect",
         "equations",
     ),
-    ("inspect", "equations", "--latex"),
+    ("inspect equations", "--latex"),
     ("motion", "--turns", "1"),
     ("motion", "--turns", "1", "--json"),
     ("view", "-o", "view.html"),
@@ -179,7 +179,7 @@ def test_every_command_tells_long_numbers(
     monkeypatch.chdir(tmp_path)
     Path("long.yaml").write_text(json.dumps(data), encoding="utf-8")
     name, *options = command
-    result = call(name, "long.yaml", *(option.format("long.yaml") for option in options))
+    result = call(*name.split(), "long.yaml", *(option.format("long.yaml") for option in options))
     if name == "motion" and data is FAR:  # angles are followed in float64
         assert isinstance(result.exception, RangeError)
     else:

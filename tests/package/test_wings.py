@@ -32,13 +32,13 @@ draw {train} -o {folder}/{train}.svg --force
 compare {train}
 check --quiet {train}
 solve {train} --json
-equations {train}
-formula {train}
-graph {train}
+inspect equations {train}
+inspect formula {train}
+inspect graph {train}
 torques {train}
-schema
-schema --as markdown
-schema --as answers
+inspect schema
+inspect schema --as markdown
+inspect schema --as answers
 list
 periods
 mesh 20 30 --form triangular -p window=0.5
@@ -46,7 +46,7 @@ mesh 20 30 --compare
 sphere icosidodecahedron --teeth 5=20,3=12
 motion moon-triangular --turns 1 --samples 500
 gearbox zf-8hp70
-bench planetary
+inspect bench planetary
 init planetary -o {folder}/new.yaml
 format {folder}/new.yaml
 --help
@@ -112,7 +112,7 @@ def test_a_command_of_an_absent_wing_is_unknown_and_an_option_that_needs_it_name
     assert "montecarlo" not in run_in(tmp_path, environment, "-m", "geartrain", "--help").stdout
     unknown = run_in(tmp_path, environment, "-m", "geartrain", "montecarlo", "moon-triangular")
     assert unknown.returncode == 2
-    assert "No such command" in unknown.stderr
+    assert "montecarlo: unknown command" in unknown.stderr
     words = ("mesh", "20", "30", "--form", "triangular", "--friction", "0.1", "--objective", "loss")
     sizes = run_in(tmp_path, environment, "-m", "geartrain", *words)
     assert sizes.returncode == 2

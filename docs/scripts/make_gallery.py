@@ -21,11 +21,11 @@ GROUPS = {
 }
 LEAD = """# Gallery
 
-All shipped trains with their verdicts and the speeds of their first outputs. The [site](contributing.md#documentation)
+All shipped trains with the speeds of their first outputs; all are determined unless noted. The [site](contributing.md#documentation)
 shows the plan, the dials, the animated page and the report of each; `geartrain view NAME -o x.html` writes the page. The
 files are in `trains/`; each cites its sources.
 """
-MOST = 3
+MOST = 2
 
 
 def main() -> None:
@@ -40,19 +40,19 @@ def page() -> str:
 
 
 def _group(folder: str, title: str) -> Iterator[str]:
-    yield f"\n## {title}\n\n| train | what it is | verdict | outputs |\n|---|---|---|---|\n"
+    yield f"\n## {title}\n\n| train | what it is | speeds of outputs |\n|---|---|---|\n"
     for path in sorted((ROOT / "trains" / folder).glob("*.yaml")):
         train = geartrain.load(path)
         answers = list(train.answers())
-        cells = (path.stem, train.declaration.title or "", _verdict(train, answers), _outputs(answers))
+        cells = (path.stem, train.declaration.title or "", _verdict(train, answers) + _outputs(answers))
         yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |\n"
 
 
 def _verdict(train: geartrain.GearTrain, answers: list[Answer]) -> str:
     kinds = list(dict.fromkeys(answer.verdict.kind for answer in answers))
-    words = f"{', '.join(kinds)}; {len(answers)} states" if train.states else kinds[0]
-    jam = "; its teeth cannot turn" if any(mesh.fault for mesh in train.meshes) else ""
-    return words + jam
+    words = [*(kind for kind in kinds if kind != "determined"), *([f"{len(answers)} states"] if train.states else [])]
+    jam = ["teeth cannot turn"] if any(mesh.fault for mesh in train.meshes) else []
+    return "".join(f"{word}: " for word in ("; ".join([*words, *jam]),) if word)
 
 
 def _outputs(answers: list[Answer]) -> str:
@@ -61,7 +61,7 @@ def _outputs(answers: list[Answer]) -> str:
     results.sort(key=lambda result: not (result.output.dial or result.targets))
     names = list(dict.fromkeys(result.name for result in results))
     shown = [f"{name} {_speeds(answers, name)}" for name in names[:MOST]]
-    return ", ".join(shown) + (f" and {len(names) - MOST} more" if len(names) > MOST else "")
+    return ", ".join(shown) + (f", +{len(names) - MOST}" if len(names) > MOST else "")
 
 
 def _speeds(answers: list[Answer], name: str) -> str:

@@ -34,7 +34,7 @@ WORKERS = 2
 SIZE, RATE, COUNT = (320, 240), 10, 30  # of films: px, pictures a second, pictures
 AT = Fraction(1, 3)  # turns of the lead where they begin: pointers stand apart then
 _log = logging.getLogger("mkdocs.hooks")
-_ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \| (.*?) \|$", re.MULTILINE)
+_ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \|$", re.MULTILINE)
 _FRAME = re.compile(r"^<!-- turning: ([\w.-]+) -->\n(.*)$", re.MULTILINE)
 _TABLE = re.compile(r"^\| train \| .*\n\|---.*\n((?:\|.*\n?)+)", re.MULTILINE)
 
@@ -86,14 +86,14 @@ def _thumbnail(name: str) -> str:
 
 def _cards(rows: str) -> Iterator[str]:
     yield '<div class="grid cards" markdown>\n\n'
-    for name, title, verdict, outputs in _ROW.findall(rows):
+    for name, title, outputs in _ROW.findall(rows):
         if f"view/{name}.html" in make():
             files = [("plan", f"plan/{name}.png"), ("dials", f"dials/{name}.png"), ("report", f"report/{name}.html")]
             links = " · ".join(f"[{word}]({file})" for word, file in files if file in make())
-            yield f"-   {_thumbnail(name)}\n\n    **{name}**: {title}\n\n    {verdict}: {outputs}\n\n"
+            yield f"-   {_thumbnail(name)}\n\n    **{name}**: {title}\n\n    {outputs}\n\n"
             yield f"    [turn it](view/{name}.html) · {links}\n\n"
         else:
-            yield f"-   **{name}**: {title}\n\n    {verdict}: {outputs}\n\n"
+            yield f"-   **{name}**: {title}\n\n    {outputs}\n\n"
     yield "</div>\n"
 
 

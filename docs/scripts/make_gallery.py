@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import geartrain
-from geartrain import Answer
+from geartrain import Answer, GearTrain
 from geartrain.report.document import exact
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,7 +25,7 @@ All shipped trains with the speeds of their first outputs; all are determined un
 shows the plan, the dials, the animated page and the report of each; `geartrain view NAME -o x.html` writes the page. The
 files are in `trains/`; each cites its sources.
 """
-MOST = 2
+MOST = 1
 
 
 def main() -> None:
@@ -48,25 +48,22 @@ def _group(folder: str, title: str) -> Iterator[str]:
         yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |\n"
 
 
-def _verdict(train: geartrain.GearTrain, answers: list[Answer]) -> str:
-    kinds = list(dict.fromkeys(answer.verdict.kind for answer in answers))
-    words = [*(kind for kind in kinds if kind != "determined"), *([f"{len(answers)} states"] if train.states else [])]
-    jam = ["teeth cannot turn"] if any(mesh.fault for mesh in train.meshes) else []
-    return "".join(f"{word}: " for word in ("; ".join([*words, *jam]),) if word)
+def _verdict(train: GearTrain, answers: list[Answer]) -> str:
+    """Return all that differs from a determined train."""
+    kinds = dict.fromkeys(answer.verdict.kind for answer in answers)
+    words = [kind for kind in kinds if kind != "determined"]
+    if any(mesh.fault for mesh in train.meshes):
+        words.append("teeth cannot turn")
+    return "".join(f"{word}; " for word in words)
 
 
 def _outputs(answers: list[Answer]) -> str:
-    """The first outputs with their speeds, in all states where there are several; pointers before others."""
-    results = [result for answer in answers for result in answer.outputs.values()]
-    results.sort(key=lambda result: not (result.output.dial or result.targets))
-    names = list(dict.fromkeys(result.name for result in results))
-    shown = [f"{name} {_speeds(answers, name)}" for name in names[:MOST]]
-    return ", ".join(shown) + (f", +{len(names) - MOST}" if len(names) > MOST else "")
-
-
-def _speeds(answers: list[Answer], name: str) -> str:
-    speeds = dict.fromkeys(exact(found.speed) for answer in answers if (found := answer.outputs.get(name)))
-    return next(iter(speeds)) if len(speeds) == 1 else f"{len(speeds)} speeds"
+    """Return the first outputs with their speeds if there is one state; pointers before others."""
+    if len(answers) > 1:
+        return f"{len(answers)} states"
+    results = sorted(answers[0].outputs.values(), key=lambda result: not (result.output.dial or result.targets))
+    shown = [f"{result.name} {exact(result.speed)}" for result in results[:MOST]]
+    return ", ".join(shown) + (f", +{len(results) - MOST}" if len(results) > MOST else "")
 
 
 if __name__ == "__main__":

@@ -12,11 +12,9 @@ import make_best_radii
 import make_budgets
 import make_commands
 import make_diagrams
-import make_errata
 import make_frames
 import make_gallery
 import make_images
-import make_missing
 import make_outputs
 import make_palette
 import make_sources
@@ -28,7 +26,8 @@ def main() -> None:
     """Run all makers, the command that writes the reference, and mkdocs."""
     reference = DOCS / "reference.md"
     subprocess.run(
-        [sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference), "--force"], check=True
+        [sys.executable, "-m", "geartrain", "inspect", "schema", "--as", "markdown", "-o", str(reference), "--force"],
+        check=True,
     )
     makers = (
         make_accuracy,
@@ -37,11 +36,9 @@ def main() -> None:
         make_best_radii,
         make_commands,
         make_diagrams,
-        make_errata,
         make_frames,
         make_gallery,
         make_images,
-        make_missing,
         make_palette,
         make_outputs,
         make_sources,

@@ -1,24 +1,25 @@
-"""Write docs/budgets.md and docs/budgets/: the budget of every shipped Antikythera and historic train.
+"""Write docs/budgets.md: causes of pointer errors, and the largest error of each Antikythera and historic train.
 
-`python docs/scripts/make_budgets.py` takes some ten minutes of one core. Trains that declare no teeth are told with
-assumed ones, where such teeth can turn; the assumption stands on the page, and as a declaration that can be run.
+`python docs/scripts/make_budgets.py` takes about ten minutes on one core. Where a train declares no teeth, triangular
+teeth are assumed if such teeth can turn.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from textwrap import fill
+
+from make_outputs import refresh
+from studies.page import with_numbers
 
 import geartrain
 from geartrain import GearTrain
 from geartrain.drawing import render
 from geartrain.errors import GearTrainError
-from geartrain.report import to_markdown
-from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, budget_figure, describe_budget, find_budget
+from geartrain.workshop import BudgetQuestion, PointerBudget, TrainBudget, budget_figure, find_budget
 
 DOCS = Path(__file__).resolve().parents[1]
-FOLDER = DOCS / "budgets"
+PAGE, PICTURE = DOCS / "budgets.md", DOCS / "images" / "budget.svg"
 TRAINS = DOCS.parent / "trains"
 FORM = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}"
 PITCH_TRUE = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5, radii: pitch_true}"
@@ -27,72 +28,71 @@ DRAG = "1 N mm"
 """Friction torque of the bearing of a pointer."""
 CUTTING = "cutting: {pitch_deviation: {normal: 0.1 deg}}"
 REQUESTED = BudgetQuestion(samples=10_000, clearances=(0.3, 0.5, 0.7))
-WHOLE = "freeth-2021"
-"""The reconstruction by which the literature is judged."""
+REFERENCE = "freeth-2021"
+"""The train of the example, the picture and the table of published statements."""
+UNIFORM = "al-biruni-box-of-the-moon"
+"""A train whose Moon moves uniformly, so that its theory error is the whole equation of centre."""
 
 
 @dataclass(frozen=True)
-class Told:
-    """A train's budgets, one for each state, with the declaration that was assumed or why none could be."""
+class TrainRow:
+    """Budget of a train in its first state, and the origin of its tooth data."""
 
     stem: str
-    title: str
-    budgets: tuple[TrainBudget, ...]
-    assumed: str = ""
-    refused: str = ""
+    budget: TrainBudget
+    teeth: str
 
 
 def main() -> None:
-    """Work out every budget, write the pages and pictures."""
-    FOLDER.mkdir(exist_ok=True)
-    for old in FOLDER.iterdir():
-        old.unlink()
-    told = {}
-    for kind in ("antikythera", "historic"):
-        told[kind] = [_tell(path.stem) for path in sorted((TRAINS / kind).glob("*.yaml"))]
-        for each in told[kind]:
-            _write(each)
-    index = "\n".join([HEAD, *_literature(told["antikythera"]), *_list(told), REST])
-    (DOCS / "budgets.md").write_text(index, encoding="utf-8")
-    print(f"wrote docs/budgets.md and {sum(map(len, told.values()))} pages in docs/budgets")
+    """Compute all budgets, write the page and the picture."""
+    paths = [path for kind in ("antikythera", "historic") for path in sorted((TRAINS / kind).glob("*.yaml"))]
+    rows = {path.stem: find_row(path.stem) for path in paths}
+    reference = rows[REFERENCE].budget
+    PICTURE.write_bytes(render(budget_figure(reference), ".svg"))
+    example = assumed(REFERENCE, [FORM, FRICTION, f"links: {{moon: {{bearing: {DRAG}}}}}", CUTTING]).strip()
+    head = HEAD.replace("ASSUMED", example)
+    parts = (head, *table(list(rows.values())), with_numbers(PUBLISHED, {}) + "\n", *published(rows), REST)
+    PAGE.write_text("\n".join(parts), encoding="utf-8")
+    refresh(PAGE)
 
 
-def _tell(stem: str) -> Told:
+def find_row(stem: str) -> TrainRow:
+    """Return the budget of a train, with assumed teeth where it declares none and triangular teeth can turn."""
     train = geartrain.load(stem)
-    lines = _missing(train)
-    title = train.declaration.title or stem
+    lines = missing(train)
     if not lines:
-        return Told(stem, title, _budgets(train))
-    text = _assumed(stem, lines)
+        return TrainRow(stem, first(train), "declared")
     try:
-        return Told(stem, title, _budgets(geartrain.load(text)), text)
-    except GearTrainError as error:
-        refused = f"{error.problems[0].what}: {error.problems[0].why}"
-    drag = _drag(train)
-    text = _assumed(stem, drag) if drag else ""
-    return Told(stem, title, _budgets(geartrain.load(text) if drag else train), text, refused)
+        return TrainRow(
+            stem, first(geartrain.load(assumed(stem, lines))), "assumed" if FORM in lines else "partly assumed"
+        )
+    except GearTrainError:
+        drag = bearings(train)
+        return TrainRow(stem, first(geartrain.load(assumed(stem, drag)) if drag else train), "none")
 
 
-def _assumed(stem: str, lines: list[str]) -> str:
-    """A train with what is assumed of it, as a declaration."""
+def first(train: GearTrain) -> TrainBudget:
+    """Return the budget of a train in its first state."""
+    return find_budget(train, REQUESTED, next(iter(train.states), None))
+
+
+def assumed(stem: str, lines: list[str]) -> str:
+    """Return a declaration that extends a train by assumptions."""
     return "\n".join((f"extends: {stem}", f"name: {stem}-assumed", *lines, ""))
 
 
-def _missing(train: GearTrain) -> list[str]:
-    """What a budget needs and the train leaves open: teeth, friction, drag of pointers, errors of cutting."""
+def missing(train: GearTrain) -> list[str]:
+    """Return lines for the data that a budget needs and the train does not declare."""
     declared = train.declaration
     own = declared.tooth_form is not None or any(gear.tooth_form for gear in declared.gears)
     lines = [] if own else [FORM]
     lines += [FRICTION] if declared.friction is None and not any(gear.friction for gear in declared.gears) else []
-    lines += _drag(train)
+    lines += bearings(train)
     return lines if declared.cutting is not None else [*lines, CUTTING]
 
 
-def _drag(train: GearTrain) -> list[str]:
-    """A bearing that rubs under each pointer of a dial, where nothing says what loads the crank.
-
-    Under each output of a train that has no dial.
-    """
+def bearings(train: GearTrain) -> list[str]:
+    """Return bearing friction for each pointer with a dial (each output if there is no dial) of an unloaded train."""
     declared = train.declaration
     if declared.drive is not None or any(declared.is_loaded(state) for state in train.states or (None,)):
         return []
@@ -103,258 +103,202 @@ def _drag(train: GearTrain) -> list[str]:
     return [f"links: {{{links}}}"] if links else []
 
 
-def _budgets(train: GearTrain) -> tuple[TrainBudget, ...]:
-    return tuple(find_budget(train, REQUESTED, state) for state in train.states or (None,))
+# --------------------------------------------------------------------------------------------------------------- tables
 
 
-# --------------------------------------------------------------------------------------------------------------- pages
+def table(rows: list[TrainRow]) -> list[str]:
+    """Return the pointer with the largest total error of each train and its two largest causes.
 
-
-def _write(each: Told) -> None:
-    lines = [f"# Budget: {each.stem}", "", f"{each.title}. Written by `python docs/scripts/make_budgets.py`; ", ""]
-    lines[2] += "see [what the figures are, and what they rest on](../budgets.md)."
-    if each.assumed:
-        lines += ["Assumed, where the train declares nothing, and no part of the reconstruction:", ""]
-        lines += ["```yaml", each.assumed.strip(), "```", ""]
-    if each.refused:
-        lines += [f"Triangular teeth cannot be assumed for this train. {each.refused}.", ""]
-    if not each.assumed:
-        lines += ["As declared; nothing is assumed.", ""]
-    for at, budget in enumerate(each.budgets):
-        picture = _picture(each.stem, at, budget)
-        lines += [f"![What each pointer's error comes from]({picture})", ""] if picture else []
-        text = to_markdown([describe_budget(budget)])
-        lines += [*text.replace("\n## ", "\n### ").replace("# Error budget", "## Error budget", 1).splitlines(), ""]
-    (FOLDER / f"{each.stem}.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
-
-
-def _picture(stem: str, at: int, budget: TrainBudget) -> str:
-    """The name of a picture; none where nothing is known to draw."""
-    try:
-        figure = budget_figure(budget)
-    except GearTrainError:
-        return ""
-    name = f"{stem}{at or ''}.png"
-    (FOLDER / name).write_bytes(render(figure, ".png", 80.0))
-    return name
-
-
-def _list(told: dict[str, list[Told]]) -> list[str]:
-    lines = ["## The trains", "", "By train the pointer that errs most, and its causes in degrees.", ""]
-    for kind, all_of in told.items():
-        lines += [f"### {kind.capitalize()}", "", "| train | teeth and cutting | pointers | errs most | causes |"]
-        lines += ["|---|---|---|---|---|"]
-        for each in all_of:
-            budget = each.budgets[0]
-            worst = max(budget.pointers, key=lambda pointer: pointer.total)
-            assumed = "assumed" if FORM in each.assumed else "assumed in part"
-            how = "triangular ones cannot turn" if each.refused else assumed if each.assumed else "declared"
-            causes = ", ".join(f"{cause.name} {_listed(cause.degrees)}" for cause in worst.ranked if cause.degrees)
-            row = (f"[{each.stem}](budgets/{each.stem}.md)", how, str(len(budget.pointers)), worst.name, causes or "-")
-            lines.append(f"| {' | '.join(row)} |")
-        lines.append("")
-    return lines
-
-
-def _listed(degrees: float) -> str:
-    return f"{degrees:.3g}" if degrees < 1000 else f"{degrees:.0f}"
-
-
-# ---------------------------------------------------------------------------------------------------------- literature
-
-
-def _literature(antikythera: list[Told]) -> list[str]:
-    """Which conclusions stand, with the figures of one whole reconstruction."""
-    budget = next(each for each in antikythera if each.stem == WHOLE).budgets[0]
-    true = _pitch_true()
-    moon, other = budget["moon"], true["moon"]
-    within = moon["cutting"].interval
-    small = [each for each in budget.pointers if (each["teeth"].degrees or 0.0) < 1]
-    count = len([each for each in budget.pointers if each["teeth"].degrees is not None])
-    jam = {case.clearance: case.events["jam"].value for case in budget.jams}
-    low, high = min(jam.values()), max(jam.values())
-    planets = [budget[name] for name in ("mars", "jupiter", "saturn")]
-    words = {
-        "teeth": _size(moon, "teeth"),
-        "rms": f"{moon['teeth'].rms:.2g}",
-        "theory": _size(moon, "theory"),
-        "times": f"{_of(moon, 'teeth') / _of(moon, 'theory'):.0f}",
-        "ratio": _size(moon, "ratio"),
-        "drifts": f"{_of(moon, 'teeth') / _of(moon, 'ratio'):.0f}",
-        "cutting": _size(moon, "cutting"),
-        "within": "not known" if within is None else f"{within[0]:.2g} to {within[1]:.2g}",
-        "lost": _size(moon, "lost motion"),
-        "true": _size(other, "teeth"),
-        "small": len(small),
-        "count": count,
-        "saros": _size(budget["saros"], "teeth"),
-        "saros_cut": _size(budget["saros"], "cutting"),
-        "metonic": _size(budget["metonic"], "teeth"),
-        "metonic_cut": _size(budget["metonic"], "cutting"),
-        "jams": f"{100 * low:.0f}" if low == high else f"{100 * low:.0f} to {100 * high:.0f}",
-        "windows": ", ".join(f"{share:g}" for share in jam),
-        "mars_teeth": _size(budget["mars"], "teeth"),
-        "mars_cutting": _size(budget["mars"], "cutting"),
-        "planets": ", ".join(
-            f"of {each.name.capitalize()} {_size(each, 'teeth')} and {_size(each, 'cutting')}" for each in planets
-        ),
-        "saros_lost": _size(budget["saros"], "lost motion"),
-    }
-    return [_filled(LITERATURE.format(**words)), ""]
-
-
-def _filled(text: str) -> str:
-    """Paragraphs in lines of a page's width, whatever figures they have got."""
-    return "\n\n".join(
-        fill(" ".join(part.split()), 118, break_long_words=False, break_on_hyphens=False) for part in text.split("\n\n")
+    Trains with equal figures share a line. Trains without a known error are named below.
+    """
+    lines: dict[str, list[str]] = {}
+    for row in rows:
+        worst = max(row.budget.pointers, key=lambda pointer: pointer.total)
+        causes = [f"{cause.name} {degrees(cause.degrees)}" for cause in worst.ranked if cause.degrees]
+        causes += ["-"] * (2 - len(causes))
+        cells = (row.teeth, worst.name, degrees(worst.total), *causes[:2]) if worst.total else ()
+        lines.setdefault(" | ".join(cells), []).append(f"`{row.stem}`")
+    exact = lines.pop("", [])
+    head = (
+        "| train | tooth data | pointer | total, deg | largest cause | second cause |",
+        "|---|---|---|---:|---|---|",
     )
+    return [
+        *head,
+        *(f"| {', '.join(names)} | {cells} |" for cells, names in lines.items()),
+        "",
+        f"All known causes are 0 in {', '.join(exact)}.",
+        "",
+    ]
 
 
-def _pitch_true() -> TrainBudget:
-    text = f"extends: {WHOLE}\nname: {WHOLE}-pitch-true\n{PITCH_TRUE}\n"
-    requested = BudgetQuestion(outputs=("moon",), samples=REQUESTED.samples)
-    return find_budget(geartrain.load(text), requested)
+def degrees(value: float) -> str:
+    """Three digits without an exponent."""
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
 
 
-def _of(pointer: PointerBudget, cause: str) -> float:
-    return pointer[cause].degrees or 0.0  # type: ignore[index]
+def published(rows: dict[str, TrainRow]) -> list[str]:
+    """Return the table of published statements, with the figures of the reference train."""
+    budget = rows[REFERENCE].budget
+    text = f"extends: {REFERENCE}\nname: {REFERENCE}-pitch-true\n{PITCH_TRUE}\n"
+    true = find_budget(geartrain.load(text), BudgetQuestion(outputs=("moon",), samples=REQUESTED.samples))
+    jams = [case.events["jam"].value for case in budget.jams]
+    lines = ["| statement | here |", "|---|---|"]
+    figures = {
+        "moon": budget["moon"],
+        "saros": budget["saros"],
+        "mars": budget["mars"],
+        "true": true["moon"],
+        "uniform": rows[UNIFORM].budget["moon"],
+    }
+    sizes = {
+        f"{name}_{cause.name.replace(' ', '_')}": size(pointer, cause.name)
+        for name, pointer in figures.items()
+        for cause in pointer.causes
+    }
+    low, high = f"{100 * min(jams):.0f}", f"{100 * max(jams):.0f}"
+    sizes["jams"] = low if low == high else f"{low} to {high}"
+    return [*lines, *(f"| {statement} | {here.format(**sizes)} |" for statement, here in STATEMENTS), ""]
 
 
-def _size(pointer: PointerBudget, cause: str) -> str:
-    """`6.07 degrees (0.46 days)`."""
+def size(pointer: PointerBudget, cause: str) -> str:
+    """`6.1 deg (0.46 d)`."""
     found = pointer[cause]  # type: ignore[index]
     if found.degrees is None:
         return "not known"
-    days = "" if found.days is None else f" ({_digits(found.days)} days)"
-    return f"{_digits(found.degrees)} degrees{days}"
+    days = "" if found.days is None else f" ({digits(found.days)} d)"
+    return f"{digits(found.degrees)} deg{days}"
 
 
-def _digits(value: float) -> str:
-    """Two digits, a last 0 too."""
+def digits(value: float) -> str:
+    """Two digits, including a trailing 0."""
     return f"{value:#.2g}".removesuffix(".") if value < 100 else f"{value:.0f}"
 
 
 HEAD = """# Budgets of the pointers
 
-What does the error of a pointer come from? `geartrain budget TRAIN` takes its causes one by one, in degrees at the
-pointer and in days, ranks them, and names what a train does not declare: that is not known, and never counted as 0.
+How large is the error of a pointer, and what causes it? `geartrain budget TRAIN` computes five causes separately, in
+degrees at the pointer and in days, and sorts them by size. Data that a train does not declare are reported as "not
+declared" and never counted as 0.
 
-```sh
-geartrain budget freeth-2021-cut --plot budget.svg
+![Causes of the error of each pointer of freeth-2021](images/budget.svg)
+
+*The eight pointers of `freeth-2021` with the largest errors, for assumed teeth.*
+
+## Run it
+
+The train `freeth-2021` declares no tooth form. Extend it by the teeth that you assume:
+
+<!-- file: assumed.yaml -->
+```yaml
+ASSUMED
 ```
 
-This page and the pages of the trains are written by `python docs/scripts/make_budgets.py`.
+<!-- show: Ranked -->
+```console
+$ geartrain budget assumed.yaml --of moon
+```
 
-## The causes
+`--span` sets the time over which ratios drift, by default one Saros of 6585.3213 days. `--plot budget.svg` draws the
+picture above.
 
-| cause | what | degrees |
+## Causes
+
+| cause | meaning | degrees printed |
 |---|---|---|
-| ratio | the mean speed is not the sky's | drift over `--span`, by default a Saros of 6585.3213 days |
-| theory | the pins' anomaly is not the true motion of Moon or Sun | peak to peak, at the best phase |
-| teeth | the driven wheel lags and leads within a pitch | peak to peak through the train |
-| lost motion | the play of the teeth, when the crank turns back | the greatest way a pointer stays behind |
-| cutting | teeth are not where they should be | the range that holds 95 % of trains cut by hand |
+| ratio | the mean speed differs from the target | drift over the span |
+| theory | the anomaly of the pins differs from the true motion of Moon or Sun | peak to peak, at the best phase |
+| teeth | transmission error of perfect teeth | peak to peak |
+| lost motion | backlash of the teeth when the crank turns back | maximum |
+| cutting | cutting errors of the wheels | central 95 % range of the Monte Carlo trials |
 
-A pointer of mean speed w (turns a unit) that should turn at t gains over a time T, counted in units,
+**Ratio.** A pointer of mean speed $w$ (turns per unit of time) with the target $t$ gains over a time $T$
 
-    ratio = 360 (|w| - |t|) T                                                              (1)
+$$ 360^\\circ\\,(|w| - |t|)\\,T, \\tag{1} $$
 
-exactly; where it has several targets, a period seen in the sky counts before a relation that its makers meant. With
-all teeth ideal its pins give an error d(phi) over one cycle. The true motion has the equation of centre C(M) = nu -
-M, by Kepler's M = E - e sin E and tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2), with e = 0.0549 for the Moon and
-0.0167 for the Sun, today. The phase at which the pins were set is the best,
+computed exactly and compared with the shipped [periods](reference.md). If a pointer has several targets, an observed
+period takes precedence over a relation that the makers intended.
 
-    theory = d(phi) - C(phi + s) - mean,   s such that its mean square is least;              (2)
+**Theory.** With perfect teeth, the pins give the pointer an anomaly $d(\\varphi)$ at the phase $\\varphi$. The true
+motion has the equation of centre $C(M) = \\nu - M$ at the mean anomaly $M$. The true anomaly $\\nu$ follows from
+Kepler's equation $M = E - e \\sin E$ and $\\tan(\\nu/2) = \\sqrt{(1 + e)/(1 - e)} \\tan(E/2)$, with eccentricities
+$e$ of 0.0549 for the Moon and 0.0167 for the Sun. The error is
 
-a pointer without pins errs by all of C. A pointer read against another body has the error of both: ranges add, and
-squares of rms too, since nothing relates their cycles. What the Sun does to the Moon beside (evection, 1.3 degrees;
-variation, 0.7) no pin follows and (2) leaves out, so that the Moon's true error is greater by that.
+$$ d(\\varphi) - C(\\varphi + s) - \\text{mean}, \\tag{2} $$
 
-Teeth are followed as in [motion](motion.md), equation (3) there: e_f, the pointer's error with real teeth and pins
-on the drive flanks; e_b, on the coast flanks; e_0, with pins alone. Then
+with the phase $s$ that minimises its mean square. The error of a pointer without pins is all of $C$. If a pointer is
+read against another moving body, both ranges are added. Evection (1.3 degrees) and variation (0.7 degrees) of the
+Moon are not included.
 
-    teeth = e_f - e_0,      lost motion = |e_b - e_f|;                                       (3)
+**Teeth and lost motion.** Let $e_f$ be the pointer's error with real teeth and pins on the drive flanks, $e_b$ on the
+coast flanks, and $e_0$ with pins and perfect teeth ([motion](motion.md), equation (3)). Then
 
-play between a pin and its slot is nothing that can be declared, and is said to be unknown. Of wheels cut by hand,
-trial by trial as in [cut by hand](cut-by-hand.md), e_c is the error at a random position, and
+$$ \\text{teeth} = e_f - e_0, \\qquad \\text{lost motion} = |e_b - e_f|. \\tag{3} $$
 
-    cutting = e_c - (e_f - e_0) there: the range from the 2.5th to the 97.5th percentile,     (4)
+Backlash between a pin and its slot cannot be declared, so it is reported as unknown.
 
-with an interval from order statistics. Where nearly all trials jam, it is what the pushing flanks would do were
-jams let pass.
+**Cutting.** Each Monte Carlo trial draws wheels with cutting errors ([cut by hand](cut-by-hand.md)). If $e_c$ is the
+error of the trial at a random position, the cause is the range from the 2.5th to the 97.5th percentile of
 
-Days are degrees over the pointer's mean speed against what it is read from: by so much an eclipse, a conjunction or
-a station is missed. Sums of causes are the worst that can come together; drift grows with the span, and the tables
-tell after how many years it is as great as the greatest other cause.
+$$ e_c - (e_f - e_0), \\tag{4} $$
+
+with a confidence interval from order statistics. If nearly all trials jam, the pushing flanks are followed as if they
+could pass.
+
+Days are degrees divided by the mean speed of the pointer relative to the body it is read against. The total is the
+sum of the causes, an upper bound.
+
+## Largest error of each train
+
+The table names, for each shipped train in its first state, the pointer with the largest total error and its two
+largest causes in degrees. "Assumed": the train declares no teeth, and those of the example are assumed, with bearing
+friction at every pointer. "None": triangular teeth with these counts cannot turn.
 """
 
-LITERATURE = """## What stands of what has been concluded
+PUBLISHED = """## Published statements
 
-Figures are of the [reconstruction of 2021](budgets/freeth-2021.md), which declares no teeth: assumed are equilateral
-teeth of equal depth in all its pairs (the rule of [Sorge's note](teeth.md)), each in the middle of its window of
-clearance, and a normal error of 0.1 degrees in the place of every tooth, the least that is quoted of the fragments.
-No clearance, depth or radius of a tooth in mesh has survived: other assumptions give other figures, and with a
-declaration anyone can try them.
-
-**"The triangular shape of the teeth alone produces negligible errors"** (Szigety and Arenas 2025, The Impact of
-Triangular-Toothed Gears on the Functionality of the Antikythera Mechanism; of this study only the abstract was
-read). *Stands for slow pointers, not for the Moon, under these assumptions.* Of {count} pointers whose teeth are
-known, {small} ripple by less than a degree: the Saros pointer by {saros}, where a cell of its dial is 6.5 degrees
-wide, the Metonic by {metonic}. The Moon ripples by {teeth} peak to peak, {rms} degrees rms: {times} times what its
-pin and slot leave against the true Moon, {theory}, and {drifts} times what its ratio drifts in a Saros, {ratio}. This
-depends on the radii: with pitch-true ones, in the ratio of the teeth, it is {true}. Whoever finds the ripple
-negligible assumes other teeth than Sorge's rule gives, or measures it by something greater; which of these, the
-abstract does not say.
-
-**"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement"**, and the
-errors identified by Edmunds exceed the limits that can be tolerated (same abstract). *Stands.* With the least of the
-errors quoted, 0.1 degrees, some pair jams in {jams} % of the trials at shares {windows} of each pair's window. It does
-not follow that the mechanism did not turn: it is a few pairs of very unequal wheels that jam ([cut by
-hand](cut-by-hand.md)), and a maker who files what jams removes the worst teeth.
-
-**That the shape of teeth weighs little beside cutting**, as the same abstract may be read. *Not at 0.1 degrees.*
-Cutting moves the Moon by {cutting}, with an interval of {within} degrees: as much as the ripple of even teeth. The
-Saros pointer it moves by {saros_cut}, the Metonic by {metonic_cut}. At greater errors it weighs more, in proportion,
-where the train still turns.
-
-**"Added to these inherent theoretical errors were significant mechanical inaccuracies because of the way that the
-rotations were transmitted"** (Freeth and Jones 2012, The Cosmos in the Antikythera Mechanism, ISAW Papers 4, section
-3.10, after an error of nearly 38 degrees that deferent and epicycle leave Mars at its retrogrades; second-hand, as
-quoted at drmsh.com/antikythera-mechanism-report). *Stands for the Moon, not for Mars.* Ripple and cutting of the Moon,
-{teeth} and {cutting}, are each {times} times what its pin and slot leave or more. Those of Mars, {mars_teeth} and
-{mars_cutting}, are together less than a twentieth of the 38 degrees: with Mars it is the theory that fails, and better
-teeth would not have helped.
-
-**"Considerable cumulative inaccuracies in the gear trains, which would have cancelled out many of the subtle
-anomalies built into its design"** (Wikipedia's article on the mechanism in 2017, second-hand too; which paper it takes
-this from was not seen). *Does not stand for the anomalies, stands for how finely they are drawn.* The Moon's anomaly,
-13 degrees peak to peak, stands out from ripple and cutting of half its size each. That pin and slot meet the true Moon
-within {theory} could not be seen on such a pointer, nor that its ratio drifts by {ratio} in a Saros.
-
-**Remarks on accuracy of cutting in Freeth et al. 2021**, A Model of the Cosmos in the ancient Greek Antikythera
-Mechanism. Its text was not to be had beyond abstract and introduction, so that nothing is quoted or judged. What can
-be said to whoever asks whether hand-cut wheels could show what this reconstruction intends: at 0.1 degrees, ripple and
-cutting are {planets}.
-
-**An indicated position of the Moon could differ by 20 degrees** (Edmunds and Freeth 2011, second-hand). *Stands
-from errors of 0.3 degrees on* ([cut by hand](cut-by-hand.md)), and at any error once the crank turns back.
-
-**Lost motion**, of which neither abstract nor second-hand quotation speaks. In the middle of its window a pair of
-triangular teeth has a play of a good part of a pitch, and six pairs lie before the Moon. When the crank turns back it
-stays behind by up to {lost}, the Saros pointer by {saros_lost}. That is the greatest cause on nearly every pointer,
-and one that a user avoids by always turning forward, as all other figures here assume. Whoever sets such a mechanism
-to a date must come to it from before.
+Several publications judge the accuracy of the mechanism. The figures here are for `freeth-2021` with the assumed
+teeth above. No depth, radius or clearance of a tooth in mesh has survived, so other assumptions give other figures.
 """
 
-REST = """## What this rests on
+STATEMENTS = (
+    (
+        '"The triangular shape of the teeth alone produces negligible errors" (Szigety and Arenas 2025, abstract)',
+        "Correct for slow pointers: Saros {saros_teeth}. Not for the Moon: {moon_teeth}, or {true_teeth} with"
+        " pitch-true radii; its theory error is {moon_theory}",
+    ),
+    (
+        '"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement" (same)',
+        "Confirmed: a pair jams in {jams} % of the trials. It is a few very unequal pairs that jam",
+    ),
+    (
+        '"Significant mechanical inaccuracies" besides the errors of theory (Freeth and Jones 2012, second-hand)',
+        "Correct for the Moon: teeth {moon_teeth}, cutting {moon_cutting}. Not for Mars: {mars_teeth} and"
+        " {mars_cutting}, against nearly 38 deg of theory",
+    ),
+    (
+        'Inaccuracies "would have cancelled out many of the subtle anomalies" (Wikipedia 2017, second-hand)',
+        "The Moon's anomaly ({uniform_theory} peak to peak) remains visible. Agreement with the true Moon within"
+        " {moon_theory} is not",
+    ),
+    (
+        "The indicated Moon could be wrong by 20 degrees (Edmunds and Freeth 2011, second-hand)",
+        "Reached with cutting errors of 0.3 deg ([cut by hand](cut-by-hand.md)), and with any when the crank turns"
+        " back: {moon_lost_motion}",
+    ),
+)
 
-- Speeds and drifts are exact fractions against the shipped table of [periods](reference.md).
-- Teeth, play and cutting are those declared or assumed on each page; a form that nobody declares is no finding.
-- The driven wheels drag, so that flanks stay in contact while the crank goes one way; teeth do not bend, arbors do
-  not yield, bearings have no play unless `fitting` says so.
-- The eccentricities are of today, in general knowledge (NASA's planetary fact sheets); the Sun's was 0.0176 two
-  thousand years ago, which changes its equation of centre by a twentieth.
-- Planets have no true motion here: what their pins leave is not declared.
+REST = """Lost motion is the largest cause of nearly every pointer, and you avoid it if you always turn forward.
+
+## Assumptions
+
+- The driven wheels are braked, so that flanks remain in contact while the crank turns in one direction. Teeth and
+  arbors are rigid. Bearings have no backlash unless `fitting` declares it.
+- The eccentricities are modern values (NASA's planetary fact sheets). The Sun's was 0.0176 two thousand years ago,
+  which changes its equation of centre by a twentieth.
+- The true motion of planets is not modelled.
+
+This page is written by `python docs/scripts/make_budgets.py`.
 """
 
 

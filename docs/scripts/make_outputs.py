@@ -37,13 +37,12 @@ NAMES = (
     "buildability",
     "closure",
     "sphere",
-    "tooth-numbers",
+    "which-counts",
+    "reconstruction",
     "shapes",
     "reducers",
     "drawing",
     "cut-by-hand",
-    "counts-in-doubt",
-    "reconstruct",
 )
 PAGES = (ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 COLUMNS = "100"

@@ -1,82 +1,141 @@
-"""Write docs/sources.md: what the four sources print, and what geartrain gives for it.
+"""Write docs/sources.md: errata and printed numbers of the sources, with the computed values.
 
-`python docs/scripts/make_sources.py WORDS` works out and prints the rows whose source and place hold the words instead.
+`python docs/scripts/make_sources.py WORDS` prints the rows whose source and place contain the words, with the command
+or expression that computes each.
 """
 
 from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import groupby
 from pathlib import Path
 
-from sources import pennestri, smith_rows, sorge, sphere
-from sources.row import ERRATUM, VERDICTS, Row, Source
+from sources import others, pennestri, smith_rows, sorge, sphere
+from sources.row import DECLARED, ERRATUM, NOT_COMPUTED, OUTSIDE, REPRODUCED, VERDICTS, Equal, Row, Source
 
 PAGE = Path(__file__).resolve().parents[1] / "sources.md"
-SOURCES: tuple[Source, ...] = (sorge.SOURCE, pennestri.SOURCE, smith_rows.SOURCE, sphere.SOURCE)
+SOURCES: tuple[Source, ...] = (sorge.SOURCE, pennestri.SOURCE, smith_rows.SOURCE, sphere.SOURCE, others.SOURCE)
+
+HEAD = """# Sources and their errata
+
+Every number, equation and statement of four sources is compared with the computed value. The tests recompute each
+one. A number is reproduced if it is equal within half a unit of the last printed digit, an equation if both sides are
+equal at many positions. "Read" numbers are declared in the shipped train or table, and not computed. The errata of
+each source are numbered; the evidence is the computed value. Errata of the other publications are in the last
+section.
+
+To see how one value is computed, run for example `python docs/scripts/make_sources.py 'Sorge Eq. (12)'`.
+"""
 
 
 def page() -> str:
-    """The whole page."""
-    return "\n".join([*lead(), *(line for source in SOURCES for line in section(source))]).rstrip() + "\n"
+    """Return the whole page."""
+    summary = [
+        (f"[{each.name}](#{anchor(each)})", str(len(each.rows)), *(str(count(each)[kind]) for kind in VERDICTS))
+        for each in SOURCES
+    ]
+    lines = [HEAD, *table(("source", "checked", "reproduced", "read", "errata", "not computed"), summary)]
+    lines += [line for source in SOURCES for line in section(source)]
+    return "\n".join(lines) + "\nThis page is written by `python docs/scripts/make_sources.py`.\n"
 
 
-def lead() -> Iterator[str]:
-    """Head and summary."""
-    yield from ("# Every printed number", "")
-    yield "Written by `python docs/scripts/make_sources.py`, which works out every row; the tests do the same. Each"
-    yield "equation, figure, table entry and claim of the sources, the value printed, ours, what gives it, and"
-    yield "the verdict:"
-    yield ""
-    yield "- **reproduced**: equal within half a unit of the last digit printed; an equation at many places; words"
-    yield "  where what they say was found so;"
-    yield "- **declared**: equal, but only read off the shipped train or table, which has it from the source:"
-    yield "  nothing is computed;"
-    yield "- **erratum**: it is not, and the link leads to a proof that `python docs/scripts/make_errata.py` runs;"
-    yield "- **out of scope**: nothing that geartrain computes, with the reason; a reason that is not of the source"
-    yield "  itself is worked out like a row."
-    yield ""
-    yield "A command is given with the place of the value in its JSON. A call is an expression of Python, with the"
-    yield "names of the source's module in `docs/scripts/sources/`; `python docs/scripts/make_sources.py"
-    yield "'Sorge Eq. (12)'` works out one row."
-    yield ""
-    yield from table(
-        ("source", "rows", *VERDICTS),
-        [
-            (
-                f"[{each.name}](#{each.name.lower()})",
-                str(len(each.rows)),
-                *(str(count(each)[kind]) for kind in VERDICTS),
-            )
-            for each in SOURCES
-        ],
-    )
+def anchor(source: Source) -> str:
+    """Return the anchor of a source's heading."""
+    return source.name.lower().replace(" ", "-")
 
 
 def count(source: Source) -> Counter[str]:
-    """Rows by verdict."""
+    """Return the number of rows of each verdict."""
     return Counter(row.verdict for row in source.rows)
 
 
 def section(source: Source) -> Iterator[str]:
-    """The table of one source."""
-    yield from (f"## {source.name}", "", source.cite + ".", source.text, "")
-    yield from table(("place", "what", "printed", "ours", "by", "verdict"), [cells(source, row) for row in source.rows])
+    """Yield the tables of one source."""
+    right = [row for row in source.rows if row.verdict in (REPRODUCED, DECLARED)]
+    equations = [row for row in right if isinstance(row.judge, Equal)]
+    numbers = [row for row in right if row.printed]
+    statements = [row for row in right if not row.printed and not isinstance(row.judge, Equal)]
+    yield from (f"## {source.name}", "", f"{source.cite}. {source.text}", "")
+    yield from table(("erratum", "place", "printed", "correct", "evidence"), errata(source))
+    if equations:
+        yield f"**Equations reproduced** (maximum relative difference): {equal(equations)}."
+        yield ""
+    if numbers:
+        yield from table(("place", "number", "printed", "computed"), grouped(numbers))
+    if statements:
+        yield from table(("place", "statement", "computed"), [(r.place, r.claim, r.ours) for r in statements])
+    outside = [row for row in source.rows if row.verdict == OUTSIDE]
+    if outside:
+        yield from ("**Not computed**:", "", *not_computed(outside), "")
 
 
-def cells(source: Source, row: Row) -> tuple[str, ...]:
-    """One row."""
-    verdict = f"[{ERRATUM}](errata.md#{row.section or source.section})" if row.erratum else row.verdict
-    if row.why:
-        verdict += f": {row.why}"
-    way = row.way or row.check
-    by = "" if way is None else way.text
-    return row.place, row.claim, row.printed, row.ours, by, verdict
+def errata(source: Source) -> list[tuple[str, ...]]:
+    """Return the errata of a source, numbered by its first letter."""
+    found = [row for row in source.rows if row.verdict == ERRATUM]
+    return [
+        (
+            f"{source.name[:2]}{number}",
+            row.place,
+            ": ".join(filter(None, (row.claim, row.printed))),
+            row.erratum,
+            "; ".join(filter(None, (row.ours, row.why))),
+        )
+        for number, row in enumerate(found, 1)
+    ]
 
 
-def table(header: tuple[str, ...], body: list[tuple[str, ...]]) -> Iterator[str]:
-    """A Markdown table."""
+def equal(rows: Iterable[Row]) -> str:
+    """Return the places of equations by the bound of their difference."""
+    bounds: dict[str, list[str]] = {}
+    for row in rows:
+        bounds.setdefault(row.ours.removeprefix("equal to "), []).append(row.place)
+    return ". ".join(f"{bound}: {'; '.join(merged(places))}" for bound, places in bounds.items())
+
+
+def merged(places: Iterable[str]) -> Iterator[str]:
+    """Yield places, with `Eq.` once for consecutive equations."""
+    last = ""
+    for place in places:
+        head, _, rest = place.partition(" ")
+        yield rest if head == last == "Eq." else place
+        last = head
+
+
+def grouped(rows: Iterable[Row]) -> Iterator[tuple[str, ...]]:
+    """Yield lines of printed numbers; numbers of one table and meaning share a line."""
+    for (head, claim), same in groupby(rows, lambda row: (row.place.partition(", ")[0], general(row))):
+        each = list(same)
+        if len(each) == 1:
+            yield each[0].place, each[0].claim, each[0].printed, each[0].ours
+            continue
+        items = [(row.place.partition(", ")[2], row.printed, short(row)) for row in each]
+        computed = "equal" if all(a == b for _, a, b in items) else ", ".join(ours for *_, ours in items)
+        yield head, claim, ", ".join(f"{name}: {printed}" for name, printed, _ in items), computed
+
+
+def general(row: Row) -> str:
+    """Return the meaning of a number; the equations of a listing share one."""
+    return "residual of each equation" if row.claim.endswith(" = 0") else row.claim
+
+
+def short(row: Row) -> str:
+    """Return a computed value as a fraction if there is one, or as printed if it rounds to it."""
+    return row.ours.partition(" = ")[0] if " = " in row.ours else row.ours
+
+
+def not_computed(rows: Iterable[Row]) -> list[str]:
+    """Return a list of reasons with the places of statements that are not computed."""
+    reasons: dict[str, list[str]] = {}
+    for row in rows:
+        reason = row.why.partition("; ")[0] if row.why.startswith(NOT_COMPUTED) else row.why
+        reasons.setdefault(reason, []).append(row.place)
+    return [f"- {'; '.join(places)}: {reason}" for reason, places in reasons.items()]
+
+
+def table(header: tuple[str, ...], body: Iterable[tuple[str, ...]]) -> Iterator[str]:
+    """Yield a Markdown table."""
     yield "| " + " | ".join(header) + " |"
     yield "|" + "---|" * len(header)
     for row in body:
@@ -85,15 +144,17 @@ def table(header: tuple[str, ...], body: list[tuple[str, ...]]) -> Iterator[str]
 
 
 def show(requested: str) -> None:
-    """Print the rows whose source and place hold the words."""
+    """Print the rows whose source and place contain the words."""
     for source in SOURCES:
         for row in source.rows:
             if requested.lower() in f"{source.name} {row.place}".lower():
-                print(" | ".join(cell for cell in cells(source, row) if cell), "" if row.stands else "DOES NOT STAND")
+                way = row.way or row.check
+                cells = (row.place, row.claim, row.printed, row.ours, way.text if way else "", row.verdict, row.erratum)
+                print(" | ".join(filter(None, (*cells, row.why))), "" if row.passes else "FAILS")
 
 
 def main(requested: str = "") -> None:
-    """Write the page, or print what is asked for."""
+    """Write the page, or print the requested rows."""
     if requested:
         show(requested)
         return

@@ -146,7 +146,6 @@ class _GraphFacts:
         return self._circuits[name].ratio
 
     def axes(self, name: str) -> tuple[str, str]:
-        """Return the axes of a circuit's first and second link on its carrier."""
         circuit, tree = self._circuits[name], self._train.tree
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 

@@ -210,7 +210,6 @@ class _Toothing:
     # ----------------------------------------------------------------------------------------------------------- wheels
 
     def all(self) -> TrainTeeth:
-        """Return the teeth of all wheels."""
         found: dict[str, WheelTeeth] = {}
         problems: dict[str, tuple[Problem, ...]] = {}
         approximations: dict[str, WheelTeeth] = {}

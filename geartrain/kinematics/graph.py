@@ -218,7 +218,6 @@ def to_json(graph: Graph) -> str:
 
 
 def _plain(graph: Graph) -> Graph:
-    """Return the graph with text as data of nodes and edges."""
     import networkx as nx
 
     plain: Graph = nx.MultiGraph(name=graph.name)

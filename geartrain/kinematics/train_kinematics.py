@@ -383,7 +383,6 @@ class TrainKinematics(Shown):
         return SolvedPart(links, declared.frame, circuits, first)
 
     def _relevant_part(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
-        """Return the part of the train that can affect the links `wanted`."""
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = relevant_circuits(self.circuits, kept)
@@ -462,8 +461,6 @@ class TrainKinematics(Shown):
     def _rounded_answer(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution
     ) -> Answer:
-        """Return the answer with exact speeds rounded to floats."""
-
         def relative(of: str, base: str) -> float | None:
             speed = solution.relative(of, base)
             return None if speed is None else _nearest(speed)
@@ -536,7 +533,6 @@ class TrainKinematics(Shown):
         return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)
 
     def _verdict(self, case: StateCase) -> Verdict:
-        """Return the verdict on the complete train."""
         try:
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
@@ -554,7 +550,6 @@ def _unknown(of: str, base: str) -> None:
 
 
 def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:
-    """Return the accuracy of the given links, computed when it is read."""
     return LazyMapping(lambda: {link: accuracy[link] for link in links if link in accuracy})
 
 

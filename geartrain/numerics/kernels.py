@@ -55,7 +55,6 @@ def compilation() -> Iterator[None]:
 
 @contextmanager
 def _compilation_events() -> Iterator[None]:
-    """Call the registered functions when numba begins to compile."""
     if not _listeners:
         yield
         return

@@ -481,7 +481,6 @@ def field_docs(kind: type) -> Mapping[str, str]:
 
 @cache
 def _docs_of_classes(module: str) -> Mapping[str, Mapping[str, str]]:
-    """Return the docstrings of the fields of all classes in a module, by qualified class name."""
     import ast
     import inspect
     import sys

@@ -272,8 +272,9 @@ def _kind(shape: Schema, parts: Mapping[str, str]) -> str:
     if "$ref" in shape:
         return parts[shape["$ref"].rsplit("/", 1)[-1]]
     if len(options := _options(shape)) > 1:
-        words = " or ".join(filter(None, (_kind(option, parts) for option in options)))
-        return " or ".join(dict.fromkeys(words.split(" or ")))
+        each = (_kind(option, parts) for option in options)
+        words = (word for kind in each if kind for word in ([kind] if kind[0] == "[" else kind.split(" or ")))
+        return " or ".join(dict.fromkeys(words))
     if "enum" in shape or "const" in shape:
         values = shape.get("enum", [shape.get("const")])
         return "name" if len(values) > _MOST_VALUES else ", ".join(f"`{value}`" for value in values)

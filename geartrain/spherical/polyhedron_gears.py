@@ -403,7 +403,6 @@ def without_gears(
 
 
 def _matching_gears(word: str, names: Sequence[str], kinds: Sequence[str]) -> set[int]:
-    """Return the indices of the gears with this name, or of this kind."""
     meant = _matching_kinds(word, kinds)
     found = {at for at, (name, kind) in enumerate(zip(names, kinds, strict=True)) if name == word or kind in meant}
     if not found:

@@ -313,7 +313,6 @@ class _Search:
         return room
 
     def compromise(self, row: NDArray[np.int64]) -> ToothCountCompromise:
-        """Return one set of tooth numbers with its reported sizes."""
         block = [np.array([count]) for count in row]
         pitches = self.pitches(block)[:, 0]
         angles = pressure_angle(base_pitch(pitches), pitches)

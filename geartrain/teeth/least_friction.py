@@ -31,7 +31,7 @@ class LeastFriction(ConjugateToothForm):
 
     Along the dedendum the contact keeps the speed `margin`. `literal` gives the extremal printed in the source instead:
     its pressure angles are above 45 deg, it does not include the pitch point, and it is not usable as a pair
-    (docs/errata.md).
+    (docs/sources.md).
 
     See Also
     --------

@@ -42,7 +42,7 @@ def _plain(data: Any) -> Any:
 
 def one_line(key: str, value: Any) -> str:
     """Return a key and its value as a line of YAML."""
-    return on_one_line({key: value}).removeprefix("{").removesuffix("}")
+    return f"{key}: {on_one_line(value)}"
 
 
 _OF_NAMES = ("links", "wheels", "axes", "outputs", "states", "dials", "clutches", "sources", "materials")

@@ -24,7 +24,7 @@ MISTAKES = {
         "links:",
         "unit: {per: 12 hrs}\nlinks:",
         """\
-error: mine.yaml:1: '12 hrs' is not a unit
+error: my.yaml:1: '12 hrs' is not a unit
   why: `per` is a time, a length, or a period listed by `geartrain periods`
   fix: write for example `unit: {per: 12 h}`; units: m, cm, mm, um, in, ft, km, mile, s, min, h, d
 """,
@@ -33,7 +33,7 @@ error: mine.yaml:1: '12 hrs' is not a unit
         "links:",
         "unit: 12 h\nlinks:",
         """\
-error: mine.yaml:1: `unit` is not a mapping of keys to values
+error: my.yaml:1: `unit` is not a mapping of keys to values
   why: the given value is '12 h'
   fix: write for example `unit: {per: 12 h}`
 """,
@@ -42,7 +42,7 @@ error: mine.yaml:1: `unit` is not a mapping of keys to values
         "links:",
         "unit: {per: rpm}\nlinks:",
         """\
-error: mine.yaml:1: 'rpm' is not a unit
+error: my.yaml:1: 'rpm' is not a unit
   why: `per` is a time, a length, or a period listed by `geartrain periods`
   fix: leave `unit` out, and write inputs with their unit: `inputs: {a: 30 rpm}`
 """,
@@ -51,7 +51,7 @@ error: mine.yaml:1: 'rpm' is not a unit
         "expect: -1/3",
         "targets: [{period: 3 d}]",
         """\
-error: mine.yaml:8: a period cannot be a target of this train
+error: my.yaml:8: a period cannot be a target of this train
   why: the train has no unit of time
   fix: add for example `unit: {per: 1 d}`: a speed of 1 is then one turn per day
 """,
@@ -60,7 +60,7 @@ error: mine.yaml:8: a period cannot be a target of this train
         "{p: 20}",
         "{p: {teeth: 20, thickness: 3}}",
         """\
-error: mine.yaml:3: `links.a.wheels.p.thickness`: '3' has no unit
+error: my.yaml:3: `links.a.wheels.p.thickness`: '3' has no unit
   fix: write for example '3 mm'; units: m, cm, mm, um, in, ft, km, mile
 """,
     ),
@@ -68,7 +68,7 @@ error: mine.yaml:3: `links.a.wheels.p.thickness`: '3' has no unit
         "{a: 1}",
         "{a: 30 1/min}",
         """\
-error: mine.yaml:7: `inputs.a`: '30 1/min' has an unknown unit
+error: my.yaml:7: `inputs.a`: '30 1/min' has an unknown unit
   fix: write for example '30 rpm'; units: rpm, turn/s, turn/min, turn/h, turn/d, deg/s, rad/s
 """,
     ),
@@ -76,7 +76,7 @@ error: mine.yaml:7: `inputs.a`: '30 1/min' has an unknown unit
         "links:",
         "extends: planetery\nlinks:",
         """\
-error: mine.yaml:1: `extends` names the unknown parent 'planetery'
+error: my.yaml:1: `extends` names the unknown parent 'planetery'
   why: this folder contains no such file, and no shipped train or evidence has that name
   fix: did you mean 'planetary' or 'norton-planetary' or 'planetary-24-18-60'?
 """,
@@ -85,7 +85,7 @@ error: mine.yaml:1: `extends` names the unknown parent 'planetery'
         "revolutes: {A: [frame, a], B: [frame, b]}\n",
         "",
         """\
-error: mine.yaml:1: no turning pair is declared
+error: my.yaml:1: no turning pair is declared
   why: every link but 'frame' turns on an axis that another link carries
   fix: add for example `revolutes: {A: [frame, a]}`, with an entry for each axis
 """,
@@ -94,7 +94,7 @@ error: mine.yaml:1: no turning pair is declared
         "  frame: {}\n",
         "",
         """\
-error: mine.yaml:1: no link 'frame'
+error: my.yaml:1: no link 'frame'
   why: it is the fixed link, unless the key `frame` names another one
   fix: add `frame: {}` to `links`, or name the fixed link: `frame: a`
 """,
@@ -103,7 +103,7 @@ error: mine.yaml:1: no link 'frame'
         "inputs: {a: 1}",
         "clutches: {C1: {fixes: a}}\nstates: {low: {engaged: [C2]}}",
         """\
-error: mine.yaml:8: no clutch 'C2'
+error: my.yaml:8: no clutch 'C2'
   why: `states.low.engaged[0]` refers to it
   fix: use one of: C1; or declare `clutches: {C2: {fixes: a}}`
 """,
@@ -112,7 +112,7 @@ error: mine.yaml:8: no clutch 'C2'
         "[p ~ w]",
         "[[p, w]]",
         """\
-error: mine.yaml:6: an entry of `gears` is a list
+error: my.yaml:6: an entry of `gears` is a list
   why: each entry has the form `a ~ b`
   fix: write `p ~ w`
 """,
@@ -121,7 +121,7 @@ error: mine.yaml:6: an entry of `gears` is a list
         "[p ~ w]",
         "[p, w]",
         """\
-error: mine.yaml:6: 'p w' is not a gear pair
+error: my.yaml:6: 'p w' is not a gear pair
   why: a pair is two wheels with a tilde between them
   fix: write `p ~ w`
 """,
@@ -130,7 +130,7 @@ error: mine.yaml:6: 'p w' is not a gear pair
         "[p ~ w]",
         "[p-w]",
         """\
-error: mine.yaml:6: 'p-w' is not a gear pair
+error: my.yaml:6: 'p-w' is not a gear pair
   why: a pair is two wheels with a tilde between them
   fix: write `p ~ w`
 """,
@@ -139,7 +139,7 @@ error: mine.yaml:6: 'p-w' is not a gear pair
         "[p ~ w]",
         "p ~ w",
         """\
-error: mine.yaml:6: `gears` is not a list in brackets
+error: my.yaml:6: `gears` is not a list in brackets
   why: the given value is 'p ~ w'
   fix: write for example `gears: [m ~ h]`
 """,
@@ -148,7 +148,7 @@ error: mine.yaml:6: `gears` is not a list in brackets
         "[p ~ w]",
         "[a ~ w]",
         """\
-error: mine.yaml:6: no wheel 'a'
+error: my.yaml:6: no wheel 'a'
   why: 'a' is a link, and a pair names two wheels
   fix: write one of its wheels: p
 """,
@@ -157,7 +157,7 @@ error: mine.yaml:6: no wheel 'a'
         "  b: {wheels",
         "  carrier: {}\n  b: {wheels",
         """\
-error: mine.yaml:4: link 'carrier' is not joined to the frame
+error: my.yaml:4: link 'carrier' is not joined to the frame
   why: no chain of turning pairs leads from it to 'frame'
   fix: add it to an axis of `revolutes`, or an axis of its own: `carrier: [frame, carrier]`
 """,
@@ -166,7 +166,7 @@ error: mine.yaml:4: link 'carrier' is not joined to the frame
         "p: 20",
         "p: twenty",
         """\
-error: mine.yaml:3: `links.a.wheels.p.teeth`: 'twenty' is not a tooth count
+error: my.yaml:3: `links.a.wheels.p.teeth`: 'twenty' is not a tooth count
   fix: write a whole number from 1 to 10^12, such as 20
 """,
     ),
@@ -174,7 +174,7 @@ error: mine.yaml:3: `links.a.wheels.p.teeth`: 'twenty' is not a tooth count
         "p: 20",
         "p: 20 teeth",
         """\
-error: mine.yaml:3: `links.a.wheels.p.teeth`: '20 teeth' is not a tooth count
+error: my.yaml:3: `links.a.wheels.p.teeth`: '20 teeth' is not a tooth count
   fix: write the number only: 20
 """,
     ),
@@ -182,7 +182,7 @@ error: mine.yaml:3: `links.a.wheels.p.teeth`: '20 teeth' is not a tooth count
         "a: {wheels: {p: 20}}",
         "a: {teeth: 20}",
         """\
-error: mine.yaml:3: unknown key 'teeth'
+error: my.yaml:3: unknown key 'teeth'
   why: `links.a` has no such key
   fix: write `a: {wheels: {w: 20}}`: teeth belong to a wheel, here named w
 """,
@@ -191,7 +191,7 @@ error: mine.yaml:3: unknown key 'teeth'
         "a: {wheels: {p: 20}}",
         "a: 20",
         """\
-error: mine.yaml:3: `links.a` is not a mapping of keys to values
+error: my.yaml:3: `links.a` is not a mapping of keys to values
   why: the given value is '20'
   fix: write for example `a: {wheels: {m: 6}}`
 """,
@@ -200,7 +200,7 @@ error: mine.yaml:3: `links.a` is not a mapping of keys to values
         "inputs: {a: 1}\n",
         "",
         """\
-mine: free: 1 degree of freedom and no input: speeds of a, b undetermined; give an input, such as a (mine.yaml:1)
+my: free: 1 degree of freedom and no input: speeds of a, b are undetermined; prescribe an input, such as a (my.yaml:1)
   frame                     0  0
   b              undetermined  -  FAILS
 """,
@@ -209,7 +209,7 @@ mine: free: 1 degree of freedom and no input: speeds of a, b undetermined; give 
         "{a: 1}",
         "{a: 1, b: 2}",
         """\
-mine: contradictory: a = 1, b = 2 contradict each other: 1 a + 3 b must be 0 and is 7 (mine.yaml:7)
+my: contradictory: a = 1, b = 2 contradict each other: 1 a + 3 b must be 0 and is 7 (my.yaml:7)
   b          undetermined  -  FAILS
 """,
     ),
@@ -217,7 +217,7 @@ mine: contradictory: a = 1, b = 2 contradict each other: 1 a + 3 b must be 0 and
         "outputs: {b:",
         "outputs: {hour:",
         """\
-error: mine.yaml:8: no link 'hour'
+error: my.yaml:8: no link 'hour'
   why: `outputs.hour` refers to it
   fix: use one of: frame, a, b; or declare `links: {hour: {}}`
 """,
@@ -226,7 +226,7 @@ error: mine.yaml:8: no link 'hour'
         "outputs: {b: {expect: -1/3}}",
         "outputs: [b]",
         """\
-error: mine.yaml:8: `outputs` is not a mapping of keys to values
+error: my.yaml:8: `outputs` is not a mapping of keys to values
   why: the given value is ['b']
   fix: write for example `outputs: {hour: {expect: -1}}`
 """,
@@ -235,7 +235,7 @@ error: mine.yaml:8: `outputs` is not a mapping of keys to values
         "  a: {wheels",
         "\ta: {wheels",
         """\
-error: mine.yaml:3: the line contains a tab
+error: my.yaml:3: the line contains a tab
   why: YAML is indented with spaces only
   fix: replace the tab by spaces
 """,
@@ -244,7 +244,7 @@ error: mine.yaml:3: the line contains a tab
         "  a: {wheels",
         " a: {wheels",
         """\
-error: mine.yaml:3: the YAML cannot be read here
+error: my.yaml:3: the YAML cannot be read here
   why: a key and a colon are expected here, as far to the right as the keys above
   fix: write `key: value`, and indent all keys of a mapping equally
 """,
@@ -253,7 +253,7 @@ error: mine.yaml:3: the YAML cannot be read here
         "a: {wheels: {p: 20}}",
         "a {wheels: {p: 20}}",
         """\
-error: mine.yaml:3: the YAML cannot be read here
+error: my.yaml:3: the YAML cannot be read here
   why: a key and a colon are expected here, as far to the right as the keys above
   fix: write `key: value`, and indent all keys of a mapping equally
 """,
@@ -262,7 +262,7 @@ error: mine.yaml:3: the YAML cannot be read here
         "{p: 20}",
         "{p:20}",
         """\
-error: mine.yaml:3: no space after the colon in `p:20`
+error: my.yaml:3: no space after the colon in `p:20`
   why: without it the colon is part of the key
   fix: write `p: 20`
 """,
@@ -271,8 +271,8 @@ error: mine.yaml:3: no space after the colon in `p:20`
         "inputs: {a: 1}",
         "inputs: {a: 1}\ninputs: {b: 1}",
         """\
-error: mine.yaml:8: key 'inputs' is given twice
-  why: it is also at mine.yaml:7, and one would be lost
+error: my.yaml:8: key 'inputs' is given twice
+  why: it is also at my.yaml:7, and one would be lost
   fix: rename or remove one
 """,
     ),
@@ -280,7 +280,7 @@ error: mine.yaml:8: key 'inputs' is given twice
         "inputs:",
         "input:",
         """\
-error: mine.yaml:7: unknown key 'input'
+error: my.yaml:7: unknown key 'input'
   why: the declaration has no such key
   fix: did you mean 'inputs'?
 """,
@@ -310,8 +310,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_mistake_is_explained(mistake: str) -> None:
     old, new, message = MISTAKES[mistake]
     assert SOUND.count(old) == 1
-    Path("mine.yaml").write_text(SOUND.replace(old, new), encoding="utf-8")
-    done = ended("solve", "mine.yaml")
+    Path("my.yaml").write_text(SOUND.replace(old, new), encoding="utf-8")
+    done = ended("solve", "my.yaml")
     assert done.returncode in (1, 2)
     assert (done.stderr or done.stdout) == message
 
@@ -323,11 +323,11 @@ def test_a_name_that_is_not_found_is_explained(name: str) -> None:
 
 
 def test_a_wheel_that_is_in_no_pair_is_reported_by_check() -> None:
-    Path("mine.yaml").write_text(SOUND.replace("{w: 60}", "{w: 60, x: 10}"), encoding="utf-8")
-    first, _ = ended("check", "mine.yaml").stdout.splitlines()
+    Path("my.yaml").write_text(SOUND.replace("{w: 60}", "{w: 60, x: 10}"), encoding="utf-8")
+    first, _ = ended("check", "my.yaml").stdout.splitlines()
     what, *fixes = first.split("; ")
-    assert what == "note mine.yaml:4: wheel 'x' 10 is not in mesh"
+    assert what == "note my.yaml:4: wheel 'x' 10 is not in mesh"
     assert fixes == [
-        "no pair under `gears` names it",
+        "no pair in `gears` contains it",
         "add its gear pair, give its purpose in its `note`, or remove it [W1]",
     ]

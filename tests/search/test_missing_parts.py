@@ -16,7 +16,7 @@ from geartrain.search import TrainFindings, search_train
 
 F = Fraction
 Row = tuple[int, int, int]
-PAGE = DOCS / "missing-parts.md"
+PAGE = DOCS / "which-counts.md"
 YEAR = F("365.242190402")
 # days, as NASA's and JPL's mean motions give them; the saros is 223 mean lunations
 PERIODS = {"venus": F("583.9214"), "mars": F("779.9363"), "jupiter": F("398.8821"), "saros": F("6585.3213")}
@@ -160,10 +160,17 @@ def test_wheels_of_28_to_60_cannot_show_the_saros_and_the_search_says_why() -> N
     assert part.shortfall.advice
 
 
-def test_the_page_lists_every_solution_and_flags_the_misprint() -> None:
-    text = PAGE.read_text(encoding="utf-8")
-    for planet in LETTERS:
-        section = text.split(f"## {planet.capitalize()}\n")[1].split("\n## ")[0]
-        rows = {tuple(map(int, row)) for row in re.findall(r"(\d+)/(\d+)/(\d+)", section)}
-        assert rows == set(brute(planet))
-    assert "| Venus | 32/48/41 | 24/41 | -64162 | +6.856 % | **misses: a misprint** |" in text
+def test_the_page_prints_the_number_of_solutions_the_ranks_and_the_misprint() -> None:
+    text = PAGE.read_text(encoding="utf-8").split("## 2. Missing wheels")[1].split("\n## ")[0]
+    numbers = re.findall(r"^(\d+) of \S+ assignments are solutions \(complete search\)\.$", text, re.M)
+    assert [int(number) for number in numbers] == list(COUNTS.values())
+    ranks = text.split("Ranks of the given assignments")[1]
+    printed = re.findall(r"^VO1 = (\d+), VO2 = (\d+), VX = .*? (\d+|-)(?:  .*)?\n(\d+)", ranks, re.M)
+    errors = brute("venus")
+    for o1, o2, rank, x in printed:
+        row = (int(o1), int(o2), int(x))
+        assert (rank == "-") is (row not in errors)
+        if rank != "-":
+            nearer = sum(abs(error) < abs(errors[row]) for error in errors.values())
+            assert int(rank) > nearer
+    assert [row[2] == "-" for row in printed] == [False, True, False]

@@ -298,8 +298,8 @@ rate: 1 turn/s
 solve_for: ring
 loads: {arm: -84 N m}
 """
-    left_out = {each.what: each.where for each in load(text).torques().left_out}
-    assert left_out["losses of pairs"] == ("s~p", "p~r")
+    neglected = {each.what: each.where for each in load(text).torques().neglected}
+    assert neglected["losses of pairs"] == ("s~p", "p~r")
 
 
 @pytest.mark.parametrize(

@@ -212,7 +212,7 @@ def test_torques_of_a_reducer_are_those_of_its_ratio_less_what_its_pins_lose() -
     loss = train.meshes[0].transmission.disc.loss  # type: ignore[attr-defined]
     # of 12 times the power that passes the pins a part is lost
     assert float(found.external["shaft"]) == pytest.approx(10 / 11 * (1 + 12 * 0.05 * loss), rel=2e-3)
-    assert not any("holes" in effect.where for effect in found.left_out)
+    assert not any("holes" in effect.where for effect in found.neglected)
 
 
 def test_holes_are_cut_where_both_links_have_wheels() -> None:

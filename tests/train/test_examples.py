@@ -21,7 +21,7 @@ PAGE = (DOCS / "reference.md").read_text(encoding="utf-8")
 
 @pytest.fixture(scope="module")
 def schema() -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(call("schema").stdout)
+    found: dict[str, Any] = json.loads(call("inspect", "schema").stdout)
     return found
 
 

@@ -159,12 +159,12 @@ def test_a_limit_on_a_chance_is_requested_of_few_designs_and_met() -> None:
         requested.append(design.radii)
         return 0.0 if design.radii >= 0.9853 else 0.5
 
-    found = find_tooth_sizes(pair(48, 96), free={"radii": (0.95, 1.0)}, chance=ProbabilityLimit(0.1, chance))
+    found = find_tooth_sizes(pair(48, 96), free={"radii": (0.95, 1.0)}, probability=ProbabilityLimit(0.1, chance))
     assert 0.9853 <= found.best.radii < 0.9856
     assert found.stops == 0.0
     assert len(requested) < 20
     with pytest.raises(QuestionError, match="stop with a probability above"):
-        find_tooth_sizes(pair(48, 96), free={"window": (0.4, 0.6)}, chance=ProbabilityLimit(0.1, lambda _: 1.0))
+        find_tooth_sizes(pair(48, 96), free={"window": (0.4, 0.6)}, probability=ProbabilityLimit(0.1, lambda _: 1.0))
 
 
 def test_no_design_of_a_front_is_better_than_another_in_both() -> None:

@@ -5,19 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import lru_cache
-from pathlib import Path
 
 import geartrain
 from geartrain import GearTrain
 from geartrain.kinematics import adjacency_labels
+from geartrain.search import search_train
 from geartrain.train import period_table
-from sources.row import Digits, Exactly, Finding, Holds, Row, Source, Statements, declared, outside
+from sources.row import Digits, Exactly, Finding, Found, Row, Source, Statements, declared, outside
 from sources.ways import Command
 
-SECTION = "the-antikythera-train-of-pennestri-valentini-and-petti-2002"
-MONTHS, TABLE_6, PRICE = "years-over-months", "table-6-the-conjectured-wheels", "price-1974"
-DOCS = Path(__file__).resolve().parents[2]
-HISTORY = "history, not kinematics: nothing to compute"
+HISTORY = "history"
 SOLVE = "solve pennestri-2002"
 
 
@@ -157,23 +154,20 @@ def structure() -> Iterator[Row]:
     for table, columns in CIRCUITS.items():
         for name, entries in columns.items():
             yield exact(f"Table {table}, {name}", "bodies i, j, k, wheels", entries, f"circuit('{name}')")
-    yield exact(
-        "Table 3, caption", "fundamental circuits", "8-18", "caption()", "Its columns are G13 to G18", section="table-3"
-    )
+    yield exact("Table 3, caption", "fundamental circuits", "8-18", "caption()", "13-18")
     yield words("Eq. (2)", "w_i - tau w_j + (tau - 1) w_k = 0, tau = -z_j/z_i, for each circuit", "willis()")
     for entry in TEETH.split():
         name, _, teeth = entry.partition("=")
-        erratum, section = ("Only 60 gives the speeds", "z18-15-or-60") if entry == "z18=15" else ("", "")
+        erratum = "60, as in the Maple listing; 15 gives other speeds" if entry == "z18=15" else ""
         expression = f"count('{name.capitalize()}')"
-        yield declared(exact(f"Tooth list, {name}", "teeth", teeth, expression, erratum, section=section))
+        yield declared(exact(f"Tooth list, {name}", "teeth", teeth, expression, erratum))
     for link, entries in enumerate(TABLE_7, 1):
         yield exact(
             f"Table 7, row {link}",
-            "what stands in the row, in order",
+            "entries of the row",
             entries,
             f"cells({link})",
-            "Row 18 of the matrix holds" if link == 18 else "",
-            section="table-7" if link == 18 else "",
+            "R(18) G17 G18" if link == 18 else "",
         )
 
 
@@ -258,8 +252,7 @@ def speeds() -> Iterator[Row]:
             printed,
             Command(SOLVE, f"states.0.speeds.{link}.exact"),
             Digits(),
-            "| 6 | 16/9 | 1.7777 |" if link == 6 else "",
-            section="table-4-digit-by-digit" if link == 6 else "",
+            "1.7778" if link == 6 else "",
             echo=link in (1, 2),  # the frame and the input
         )
     for entry in LETTERS.split():
@@ -269,9 +262,9 @@ def speeds() -> Iterator[Row]:
             why = "Price's train has no wheel EK, and no equation of the listing uses it"
             yield _OWN.outside(place, claim, why, "no_wheel('EK')", teeth)
         else:
-            wrong = ("| 48 | 75/16 |", PRICE) if name == "A" else ("", "")
+            wrong = "45, see Price 1974 below" if name == "A" else ""
             expression = f"count('{name}', price())"
-            yield declared(exact(place, claim, teeth, expression, erratum=wrong[0], section=wrong[1]))
+            yield declared(exact(place, claim, teeth, expression, erratum=wrong))
     for entry in MAPLE.split():
         name, _, teeth = entry.partition("=")
         yield declared(exact(f"Maple, {name}", "teeth, in the paper's numbers", teeth, f"count('{name}')"))
@@ -303,11 +296,18 @@ def missing(planet: str, o1: int, o2: int, x: int) -> Finding:
     return Finding(abs(error) < 0.0025, f"{found} turns a year, the period {100 * error:+.3f} %")
 
 
+def misprint() -> Finding:
+    """The third row for Venus as printed, and with 30 teeth."""
+    printed, corrected = missing("venus", 32, 48, 41), missing("venus", 30, 48, 41)
+    assert corrected
+    return Finding(bool(printed), f"{printed.text}; corrected, {corrected.text}")
+
+
 def arrangement() -> Finding:
-    """Sets of wheels that give the saros, from the kept page of the search."""
-    page = (DOCS / "missing-parts.md").read_text(encoding="utf-8")
-    head, _, rest = page.partition("## Saros\n\n")[2].partition("\n")
-    return Finding("meet the target" in head and "(complete)" in head and bool(rest), head)
+    """Sets of wheels that give the saros, of all within the bounds."""
+    parts = search_train(geartrain.load("pennestri-2002-missing").declaration, best=1).parts
+    (found,) = (part for part in parts if part.outputs == ("saros",))
+    return Finding(found.complete and found.count > 0, f"{found.count} of {found.considered} sets meet the target")
 
 
 def calendar() -> Finding:
@@ -342,24 +342,21 @@ def years_and_months() -> Iterator[Row]:
         "Hipparchus' year (days)",
         "365.242",
         "period('year_hipparchus_tropical')",
-        "365 + 1/4 - 1/300",
-        section=MONTHS,
+        "365.24667 = 365 + 1/4 - 1/300",
     )
     yield digits(
         "Results, month",
         "Hipparchus' month (days)",
         "29.53058",
         "period('month_synodic_hipparchus_4267')",
-        "Hipparchus' month",
-        section=MONTHS,
+        "29.53059 (Almagest IV 2)",
     )
     yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, and right")
     yield words(
         "Results, its name",
         "that month is the sidereal one",
         "sidereal()",
-        "a sidereal month; it is synodic",
-        section=MONTHS,
+        "the synodic one",
     )
     yield words("Footnote 1", "the Julian year is more than 11 minutes too long; 10 days in all", "calendar()")
     yield outside(
@@ -374,8 +371,7 @@ def years_and_months() -> Iterator[Row]:
         "days",
         "27.3229",
         "period('month_sidereal_J2000')",
-        "The sidereal month of Table 5 is long",
-        section=MONTHS,
+        "27.32166",
     )
 
 
@@ -389,42 +385,35 @@ def results() -> Iterator[Row]:
         "the actual value of it",
         "13.3676",
         "period('year_tropical_J2000') / period('month_sidereal_J2000')",
-        "13.3676 in the text is its consequence",
-        section=MONTHS,
+        "13.3682; 13.3676 follows from the month of Table 5",
     )
     yield words(
         "Results 3, wheel 19",
         "turns once in a synodic month",
         "counts_months(19, 1)",
-        "wheel 19 counts synodic months",
-        section=MONTHS,
+        "link 17 does (235/19 a year)",
     )
     yield digits(
         "Results 3, actual",
         "365.242199/29.5308, for the divisor of Table 5",
         "12.3681",
         "Fraction('365.242199') / Fraction('29.53059')",
-        "12.3681 is the quotient of the misprint",
-        section=MONTHS,
+        "12.3683, with 29.53059; the printed divisor lost a digit",
     )
     yield digits("Results 3, w17", "turns of link 17 a year, without sign", "12.3684", "abs(speed(17))")
-    yield digits(
-        "Results 3, Price", "Price's ratio 236/19", "12.4210", "price_ratio()", "given as Price's ratio", section=MONTHS
-    )
+    yield digits("Results 3, Price", "Price's ratio 236/19", "12.4210", "price_ratio()", "12.3684 = 235/19")
     yield words(
         "Results 4, wheel 9",
         "turns once in a lunar year",
         "counts_months(9, 12)",
-        "wheel 9 counts lunar years",
-        section=MONTHS,
+        "link 19 does (235/228 a year)",
     )
     yield digits(
         "Results 4, actual",
         "365.242199/(29.53059*12)",
         "1.03068",
         "Fraction('365.242199') / (Fraction('29.53059') * 12)",
-        "printed cut off, for 1.03069",
-        section=MONTHS,
+        "1.03069 (printed without rounding)",
     )
     yield digits("Results 4, w19", "turns of link 19 a year, without sign", "1.0307", "abs(speed(19))")
     yield exact("Results 5, wheel 8", "years in which it turns once", "4", "1 / speed(8)")
@@ -432,8 +421,7 @@ def results() -> Iterator[Row]:
         "Results 5, alone",
         "wheel 8 is not engaged with any other",
         "mates()",
-        "wheel 8 is engaged with no other",
-        section=MONTHS,
+        "it meshes with links 7 and 9",
     )
 
 
@@ -444,20 +432,19 @@ def missing_parts() -> Iterator[Row]:
     yield declared(exact("Footnote 2, months", "synodic months of a saros", "223", "months_of_saros()"))
     yield declared(digits("Footnote 2, days", "its days", "6585.32", "period('saros_223_synodic_modern')"))
     yield words("Footnote 2, years", "18 years and about 11 days", "saros_of_years()")
-    yield words("Fig. 4", "N drives O1, O2 beside it drives X", "fig_4()")
+    yield words("Fig. 4", "N drives O1; O2 on the same arbor drives X", "fig_4()")
     for planet, rows in {"venus": ("32 50 40", "31 52 43", "32 48 41"), "mars": ("30 50 57", "31 48 53"),
                          "jupiter": ("30 48 28", "32 53 29")}.items():  # fmt: skip
         for number, row in enumerate(rows, 1):
             given = ", ".join(row.split())
-            wrong = ("| Venus | 32 | 48 | 41 |", TABLE_6) if row == "32 48 41" else ("", "")
+            wrong = "30 48 41" if row == "32 48 41" else ""
             yield Row(
                 f"Table 6, {planet.capitalize()} {number}",
                 "teeth of O1, O2, X that give its synodic period",
                 row,
-                call(f"missing('{planet}', {given})"),
-                Holds(),
-                wrong[0],
-                section=wrong[1],
+                call("misprint()" if wrong else f"missing('{planet}', {given})"),
+                Found(),
+                wrong,
             )
     yield outside(
         "Footnote 3",
@@ -471,7 +458,7 @@ def missing_parts() -> Iterator[Row]:
         "Missing parts, arrangement",
         "an arrangement like Fig. 4 could give the saros",
         "arrangement()",
-        why="kept in [missing parts](missing-parts.md); `geartrain teeth train pennestri-2002-missing`",
+        why="`geartrain teeth train pennestri-2002-missing`",
     )
     yield _OWN.outside(
         "Conclusion",
@@ -502,7 +489,7 @@ def mates() -> Finding:
     found = [
         f"{each.j if each.i == '8' else each.i} by {each.id}" for each in paper().circuits if "8" in (each.i, each.j)
     ]
-    return Finding(not found, f"it is engaged with links {' and '.join(found)}")
+    return Finding(not found, f"it meshes with links {' and '.join(found)}")
 
 
 def fig_4() -> Finding:
@@ -528,7 +515,6 @@ SOURCE = Source(
     "Pennestri",
     "E. Pennestri, P. P. Valentini, F. Petti, Kinematic analysis of the Antikythera gear mechanism by means of graph "
     "theory, ASME DETC2002/EDC-34379, 2002",
-    "Speeds are in turns a year. Table 7 is compared by its rows; in the copy at hand its columns are shifted.",
-    SECTION,
+    "Speeds are in turns per year. Table 7 is compared by rows, because its columns are shifted in the copy.",
     rows(),
 )

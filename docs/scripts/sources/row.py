@@ -45,8 +45,8 @@ class Judge(ABC):
     def shows(self, printed: str, value: Any) -> str:
         """The value for the page."""
 
-    def mends(self, value: Any) -> bool:
-        """Of an erratum: whether what is put in its place is right, where the value tells."""
+    def corrects(self, correct: str, value: Any) -> bool:
+        """Return whether the correction of an erratum agrees with the value, as far as it can be compared."""
         return True
 
 
@@ -59,6 +59,10 @@ class Digits(Judge):
     def accepts(self, printed: str, value: Any) -> bool:
         """Compared as fractions; what is printed has no more digits than it shows."""
         return abs(_exact(value) - Fraction(printed)) <= Fraction(1, 2 * 10 ** _decimals(printed))
+
+    def corrects(self, correct: str, value: Any) -> bool:
+        """Return whether the correction begins with the right number."""
+        return self.accepts(correct.split()[0].rstrip(",;:"), value)
 
     def shows(self, printed: str, value: Any) -> str:
         """A few digits more than are printed, after the fraction where there is one."""
@@ -76,6 +80,10 @@ class Exactly(Judge):
     def accepts(self, printed: str, value: Any) -> bool:
         """Compared as text."""
         return str(value) == printed
+
+    def corrects(self, correct: str, value: Any) -> bool:
+        """Return whether the correction begins with the value."""
+        return correct.startswith(str(value))
 
     def shows(self, printed: str, value: Any) -> str:
         """As it is."""
@@ -95,13 +103,13 @@ class Equal(Judge):
     def shows(self, printed: str, value: Any) -> str:
         """The bound if it is kept: rounding is not for a page."""
         if self.accepts(printed, value):
-            return f"both sides equal to {self.bound:.0e}"
+            return f"equal to {self.bound:.0e}"
         return f"differs by up to {float(value):.2g}"
 
 
 @dataclass(frozen=True)
-class Mended(Judge):
-    """An equation with an erratum: two values as of `Equal`, as printed and as mended."""
+class Corrected(Judge):
+    """An equation with an erratum: two values as of `Equal`, as printed and as corrected."""
 
     bound: float = 1e-12
 
@@ -109,17 +117,17 @@ class Mended(Judge):
         """Whether it is right as printed."""
         return float(value[0]) <= self.bound
 
-    def mends(self, value: Any) -> bool:
-        """Whether it is right as mended."""
+    def corrects(self, correct: str, value: Any) -> bool:
+        """Return whether the corrected equation is right."""
         return float(value[1]) <= self.bound
 
     def shows(self, printed: str, value: Any) -> str:
         """Both."""
-        return f"as printed off by up to {float(value[0]):.2g}, mended equal to {self.bound:.0e}"
+        return f"error {float(f'{value[0]:.2g}'):g} as printed, at most {self.bound:.0e} corrected"
 
 
 @dataclass(frozen=True)
-class Holds(Judge):
+class Found(Judge):
     """A statement in words: a `Finding`."""
 
     def accepts(self, printed: str, value: Any) -> bool:
@@ -145,14 +153,13 @@ def _decimals(printed: str) -> int:
 class Row:
     """A statement of a source.
 
-    place     where it stands, once in its source
+    place     place in the source, unique
     claim     what is said
     printed   the value as printed; empty for words and equations
     way       how ours is had; None out of scope
     judge     how the two are compared
-    erratum   words of docs/errata.md that show what is wrong; empty where nothing is
-    why       out of scope: why; else a remark
-    section   the heading of docs/errata.md with the proof, where it is not that of the source
+    erratum   correct number, formula or statement; empty if what is printed is right
+    why       reason why nothing is computed, or a remark
     echo      whether ours is only read off what the shipped train or table declares
     check     out of scope: gives a `Finding` that bears out the reason
     """
@@ -164,7 +171,6 @@ class Row:
     judge: Judge = field(default_factory=Digits)
     erratum: str = ""
     why: str = ""
-    section: str = ""
     echo: bool = False
     check: Way | None = None
 
@@ -175,18 +181,18 @@ class Row:
 
     @property
     def verdict(self) -> str:
-        """One of `VERDICTS`, as declared; `stands` says whether the value bears it out."""
+        """One of `VERDICTS`, as declared; `passes` checks it."""
         if self.way is None:
             return OUTSIDE
         return ERRATUM if self.erratum else DECLARED if self.echo else REPRODUCED
 
     @property
-    def stands(self) -> bool:
+    def passes(self) -> bool:
         """Reproduced, declared: the value agrees; erratum: it does not; out of scope: the reason is true."""
         if self.way is None:
             return self.why.startswith(NOT_COMPUTED) if self.check is None else bool(self.check.value())
         agrees = self.judge.accepts(self.printed, self.value)
-        return not agrees and self.judge.mends(self.value) if self.erratum else agrees
+        return not agrees and self.judge.corrects(self.erratum, self.value) if self.erratum else agrees
 
     @property
     def ours(self) -> str:
@@ -220,11 +226,9 @@ class Statements:
         """A statement that geartrain does not answer; the expression gives a `Finding` that bears out the reason."""
         return Row(place, claim, printed, why=why, check=self.call(check))
 
-    def words(
-        self, place: str, claim: str, expression: str, erratum: str = "", why: str = "", section: str = ""
-    ) -> Row:
-        """A claim in words; the expression gives a `Finding`."""
-        return Row(place, claim, "", self.call(expression), Holds(), erratum, why, section)
+    def words(self, place: str, claim: str, expression: str, erratum: str = "", why: str = "") -> Row:
+        """Return a statement in words; the expression gives a `Finding`."""
+        return Row(place, claim, "", self.call(expression), Found(), erratum, why)
 
     def equation(
         self, place: str, claim: str, expression: str, judge: Judge | None = None, erratum: str = "", why: str = ""
@@ -240,10 +244,9 @@ class Statements:
         expression: str,
         erratum: str = "",
         why: str = "",
-        section: str = "",
     ) -> Row:
         """A number right at its digits."""
-        return Row(place, claim, printed, self.call(expression), Digits(), erratum, why, section)
+        return Row(place, claim, printed, self.call(expression), Digits(), erratum, why)
 
     def exact(
         self,
@@ -253,18 +256,16 @@ class Statements:
         expression: str,
         erratum: str = "",
         why: str = "",
-        section: str = "",
     ) -> Row:
         """A number or text that must be the same."""
-        return Row(place, claim, printed, self.call(expression), Exactly(), erratum, why, section)
+        return Row(place, claim, printed, self.call(expression), Exactly(), erratum, why)
 
 
 @dataclass(frozen=True)
 class Source:
-    """A text and its rows. `section` is the heading of docs/errata.md that proves its errata, as in a link."""
+    """A text and its rows."""
 
     name: str
     cite: str
     text: str
-    section: str
     rows: tuple[Row, ...]

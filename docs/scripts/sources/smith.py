@@ -158,14 +158,14 @@ def involute_line() -> float:
 
 
 def steady_force() -> Finding:
-    """The normal force under constant torque, along the path of each shape, as greatest over least."""
+    """The normal force under constant torque, along the path of each shape, as maximum over minimum."""
     spread = {}
     for shape in ("involute", "stress", "heat"):
         v = profiles.seen(path("spur", shape), True, 0.3)
         spread[shape] = float(v.sin_phi.max() / v.sin_phi.min())
     text = ", ".join(f"{shape} {value:.3f}" for shape, value in spread.items())
     return Finding(
-        spread["involute"] < 1 + 1e-9 < min(spread["stress"], spread["heat"]), f"greatest over least: {text}"
+        spread["involute"] < 1 + 1e-9 < min(spread["stress"], spread["heat"]), f"maximum over minimum: {text}"
     )
 
 
@@ -267,7 +267,7 @@ def same_flank(shape: str) -> Finding:
         flanks.append(made.flank1(at))
     apart = float(np.abs(flanks[0] - flanks[1]).max())
     text = "the same flank to 1e-10" if apart < 1e-10 else f"flanks up to {apart:.4f} modules apart"
-    return Finding(apart < 1e-10, f"24 teeth beside 36 and 60: {text}")
+    return Finding(apart < 1e-10, f"24 teeth with 36 and 60: {text}")
 
 
 def sliding(kind: Kind) -> float:
@@ -295,7 +295,7 @@ def sliding_turns() -> Finding:
     """Signs of the sliding before and after the pitch point, and where it is 0."""
     signs = {bool(v.X[0] < 0): np.sign(c.U1 - c.U2) for v, c in sides("spur")}
     good = bool((signs[True] < 0).all() and (signs[False] > 0).all())
-    return Finding(good, "0 only where s is 0; it turns round there")
+    return Finding(good, "0 only at s = 0, where it reverses")
 
 
 # ---------------------------------------------------------------------------------------- sections 12 to 14: curvatures
@@ -500,8 +500,8 @@ def shared_work() -> Finding:
 
 
 def losses(kind: Kind) -> tuple[float, float]:
-    """How far the form factor by (51) or (52) spreads over pairs, as printed and mended; it should be one number."""
-    printed, mended, G = [], [], 0.02
+    """How far the form factor by (51) or (52) spreads over pairs, as printed and corrected; it should be one number."""
+    printed, corrected, G = [], [], 0.02
     radii = ((1.0, 1.0), (1.0, 3.0), (1.0, 10.0)) if kind == "spur" else ((0.3, 0.4), (0.3, 1.2), (0.9, 0.6))
     for R1, R2 in radii:
         pitch = PitchSurfaces(100, 100, R1, R2, kind == "bevel")
@@ -511,8 +511,8 @@ def losses(kind: Kind) -> tuple[float, float]:
         loss = float(weights @ ((c.U1 - c.U2) / c.cos_psi)) / 2 / G
         ratio = R1 / R2 if kind == "spur" else sin(R1) / sin(R2)
         printed.append(loss / (ratio + 1 / ratio))
-        mended.append(loss / (pitch.A + pitch.B))
-    return max(printed) / min(printed) - 1, max(mended) / min(mended) - 1
+        corrected.append(loss / (pitch.A + pitch.B))
+    return max(printed) / min(printed) - 1, max(corrected) / min(corrected) - 1
 
 
 def trains() -> Finding:
@@ -539,8 +539,8 @@ def stress() -> float:
 
 
 def long_one(equation: int) -> tuple[float, float]:
-    """(56) or (63) as printed and mended, on involutes and uniform stress of 24/36, recess."""
-    printed, mended = [], []
+    """(56) or (63) as printed and corrected, on involutes and uniform stress of 24/36, recess."""
+    printed, corrected = [], []
     for v, c in (sides("spur")[1], sides("spur")[3]):
         jet = (v.r[0], v.slope[0], v.bend[0], np.sqrt)
         H = 1 / (1 / v.R1 + 1 / v.R2)
@@ -551,8 +551,8 @@ def long_one(equation: int) -> tuple[float, float]:
             true, first, second = c.Q1, profiles.printed_63(v.R1, v.R2, *jet), profiles.corrected_63(v.R1, v.R2, *jet)
             scale = v.R1 / v.along(1)
         printed.append(_off(first * scale, true))
-        mended.append(_off(second * scale, true))
-    return min(printed), max(mended)
+        corrected.append(_off(second * scale, true))
+    return min(printed), max(corrected)
 
 
 def eq_57() -> float:
@@ -588,7 +588,7 @@ def heat() -> float:
 
 
 def order_of_64() -> tuple[float, float]:
-    """How the left side of (64) depends on r''' and r'''', with Z as printed and mended; 0 is the second order."""
+    """How the left side of (64) depends on r''' and r'''', with Z as printed and corrected; 0 is the second order."""
     import mpmath as mp
 
     def lagrange(Z: Any, curve: list[Any]) -> Any:
@@ -643,7 +643,7 @@ def minimum_height(shape: str) -> Finding:
     c = PathOfContact(SPUR, other, other).at(np.linspace(-0.999, 0.999, 400) * SPUR.p / 2)
     own = path("spur", "stress" if shape == "stress" else "heat").at(np.linspace(-0.999, 0.999, 400) * SPUR.p / 2)
     first, second = (float(np.max(e.H if shape == "stress" else np.maximum(e.Q1, e.Q2))) for e in (own, c))
-    return Finding(first <= second, f"greatest {first:.3f}; of an involute of {tilt:g} deg {second:.3f}")
+    return Finding(first <= second, f"maximum {first:.3f}; of an involute of {tilt:g} deg {second:.3f}")
 
 
 def extremal_is_minimum() -> Finding:
@@ -681,7 +681,9 @@ def spacing() -> Finding:
     """Involutes against other forms, misplaced."""
     found = {form: misplaced(form) for form in ("involute", "cycloidal", "uniform_stress")}
     text = ", ".join(f"{form} {1e3 * value:.3f} mrad" for form, value in found.items())
-    return Finding(found["involute"] < 1e-12 < min(found["cycloidal"], found["uniform_stress"]), f"error: {text}")
+    return Finding(
+        found["involute"] < 1e-12 < min(found["cycloidal"], found["uniform_stress"]), f"transmission error: {text}"
+    )
 
 
 def compared(form: str, what: str) -> float:
@@ -714,7 +716,7 @@ def arithmetic(which: str) -> float:
 def law_of_gearing() -> Finding:
     """Points of both teeth at one place, at every displacement, for three shapes in the plane and on the sphere."""
     apart = max(v.apart / (1 if v.bevel else v.R2) for kind in BOTH for v, _ in sides(kind))
-    return Finding(apart < 1e-12, "both teeth are at one place at every displacement, three shapes, to 1e-12")
+    return Finding(apart < 1e-12, "both teeth coincide at every displacement, for three shapes, to 1e-12")
 
 
 def not_one_flank() -> Finding:

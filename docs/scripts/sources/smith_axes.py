@@ -54,9 +54,7 @@ def generatrix() -> Finding:
             speed = np.cross([0.0, 0.0, 1.0], point) - np.cross(second, point - base)
             across = max(across, float(np.linalg.norm(np.cross(speed, turning)) / np.linalg.norm(turning)))
         across = max(across, abs(float(foot[0])), abs(float(foot[2])))
-    text = (
-        "one line crosses the common normal of both axes and slides in itself; turned about them it makes both surfaces"
-    )
+    text = "one line crosses the common normal of both axes and slides along itself; its rotation makes both surfaces"
     return Finding(across < 1e-12, text)
 
 
@@ -74,7 +72,7 @@ def efficiencies() -> Finding:
     ]
     limit = 0.05 / 1.95 * cos(NORMAL_ANGLE)  # (1 - m) / (1 + m) = 0.95 at 45 degrees, m = friction / cos(20 degrees)
     text = (
-        f"friction {DUDLEY[0]} to {DUDLEY[1]}, teeth alone: spur and bevel {100 * min(near):.1f} to "
+        f"friction {DUDLEY[0]} to {DUDLEY[1]}, losses of teeth only: spur and bevel {100 * min(near):.1f} to "
         f"{100 * max(near):.1f} %; worms and crossed helices of 5 to 45 deg lead {100 * min(crossed):.1f} to "
         f"{100 * max(crossed):.1f} %, above 95 % where friction is less than {limit:.4f}"
     )

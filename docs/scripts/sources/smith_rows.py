@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sources import smith, smith_axes
-from sources.row import Equal, Mended, Row, Source, Statements, outside
+from sources.row import Corrected, Equal, Row, Source, Statements, outside
 from sources.smith import BOTH, ONCE, TWICE
 
-HISTORY = "history: nothing to compute"
+HISTORY = "history"
 DATUM = "a measurement that the note quotes, not computed"
 
 
@@ -63,12 +63,15 @@ def introduction() -> Iterator[Row]:
         Equal(ONCE),
     )
     yield words(
-        "Section 6, clocks", "cycloids supposedly have less friction than involutes", "cycloids_rub()", "**Section 6**"
+        "Section 6, clocks",
+        "cycloids supposedly have less friction than involutes",
+        "cycloids_rub()",
+        "at the same arcs they have more",
     )
     for form in ("involute", "cycloid"):
         yield words(f"Section 6, {form}s", "need no matched pair: any size mates with any", f"same_flank('{form}')")
-    yield words("Section 7, force", "involutes alone transmit a constant force", "steady_force()")
-    yield words("Section 7, spacing", "involutes alone run well at other distances", "spacing()")
+    yield words("Section 7, force", "only involutes transmit a constant force", "steady_force()")
+    yield words("Section 7, spacing", "only involutes run well at other distances", "spacing()")
     yield words("Section 7, contacts", "more than 1.4 contacts on the mean have been made", "contact_number()")
     yield _OF_AXES.outside(
         "Section 7, few teeth",
@@ -98,7 +101,13 @@ def conjugates() -> Iterator[Row]:
         "off('bevel', lambda v: np.sin(v.r[1]) / sin(v.R2) * np.cos(v.psi(2)), lambda v: v.sin_phi)",
         Equal(ONCE),
     )
-    yield equation("Eq. (8), first", "cos r1 of the mate", "(eq_8(1.0), eq_8(-1.0))", Mended(), "| (8), first, bevel |")
+    yield equation(
+        "Eq. (8), first",
+        "cos r1 = cos R1 cos s + sin R1 sin s cos phi",
+        "(eq_8(1.0), eq_8(-1.0))",
+        Corrected(),
+        "minus",
+    )
     yield equation(
         "Eq. (8), second",
         "tan(w1 t + theta1)",
@@ -124,7 +133,9 @@ def conjugates() -> Iterator[Row]:
         "off('spur', lambda v: v.r[1] / v.R2 * np.cos(v.psi(2)), lambda v: v.sin_phi)",
         Equal(ONCE),
     )
-    yield equation("Eq. (11), first", "the square of r1", "(eq_11(-1.0), eq_11(1.0))", Mended(), "| (11), first | 0.1")
+    yield equation(
+        "Eq. (11), first", "r1^2 = s^2 + R1^2 - 2 R1 s cos phi", "(eq_11(-1.0), eq_11(1.0))", Corrected(), "plus"
+    )
     yield equation(
         "Eq. (11), second",
         "tan(w1 t + theta1)",
@@ -173,8 +184,10 @@ def friction() -> Iterator[Row]:
         "Eq. (20)", "sliding by s, spur", "of_path('spur', lambda v: rate(v) * v.s, lambda c: c.U1 - c.U2)", Equal(ONCE)
     )
     yield equation("Eq. (21)", "cos R1 by r1, s and psi1", "eq_21()", Equal(ONCE))
-    yield equation("Eq. (22)", "sin s, upper sign", "(eq_22(1.0), eq_22(-1.0))", Mended(ONCE), "| (22), bevel |")
-    yield equation("Eq. (23)", "s, upper sign", "(eq_23(1.0), eq_23(-1.0))", Mended(ONCE), "| (23) | 6")
+    yield equation(
+        "Eq. (22)", "sin s: upper sign of the root", "(eq_22(1.0), eq_22(-1.0))", Corrected(ONCE), "lower sign"
+    )
+    yield equation("Eq. (23)", "s: upper sign of the root", "(eq_23(1.0), eq_23(-1.0))", Corrected(ONCE), "lower sign")
     yield words(
         "Theorem 4", "sliding is unavoidable, 0 at the pitch point only, where it turns round", "sliding_turns()"
     )
@@ -182,8 +195,8 @@ def friction() -> Iterator[Row]:
     for place, what, printed in (
         ("teflon", "mu of teflon on teflon", "0.04"),
         ("soap", "mu of metals with stearic acid", "0.05"),
-        ("Dudley, least", "mu over oils and speeds", "0.017"),
-        ("Dudley, greatest", "the same", "0.061"),
+        ("Dudley, minimum", "mu over oils and speeds", "0.017"),
+        ("Dudley, maximum", "the same", "0.061"),
     ):
         yield outside(f"Section 11, {place}", what, DATUM, printed)
     for place, what, printed, expression in (
@@ -227,19 +240,19 @@ def curvatures() -> Iterator[Row]:
     yield equation("Eq. (30)", "both centres of curvature", "eq_30()", Equal(TWICE))
     yield equation("Eq. (31)", "their ratio z", "eq_31()", Equal(TWICE))
     yield equation("Eq. (32), theorem 5", "Euler and Savary's equation", "savary('spur')", Equal(TWICE))
-    yield equation("Eq. (33)", "cos phi = (r1/R1) cos psi1", "cosine_of_phi('spur')", Mended(ONCE), "| (33) | 3")
+    yield equation("Eq. (33)", "cos phi = (r1/R1) cos psi1", "cosine_of_phi('spur')", Corrected(ONCE), "sin phi")
     yield equation("Eq. (34)", "cos A2", "spherical_centres(2)", Equal())
     yield equation(
         "Eq. (35)",
-        "cos A1, with a minus",
+        "cos A1 = ... - sin(s - c1) sin R1 cos phi1",
         "(spherical_centres(1, -1.0), spherical_centres(1))",
-        Mended(),
-        "| (35), bevel |",
+        Corrected(),
+        "plus",
     )
     yield equation("Eq. (36)", "both cotangents", "eq_36()", Equal(TWICE))
     yield equation("Eq. (37), theorem 6", "Euler and Savary's equation on the sphere", "savary('bevel')", Equal(TWICE))
     yield equation(
-        "Eq. (38)", "cos phi = (sin r1/sin R1) cos psi1", "cosine_of_phi('bevel')", Mended(ONCE), "| (38), bevel |"
+        "Eq. (38)", "cos phi = (sin r1/sin R1) cos psi1", "cosine_of_phi('bevel')", Corrected(ONCE), "sin phi"
     )
     yield equation(
         "Eq. (39)", "four parts of the triangle of pitch point, axis, centre of curvature", "triangle(39)", Equal()
@@ -250,23 +263,23 @@ def curvatures() -> Iterator[Row]:
         "Eq. (42)",
         "speed of the contact, bevel, with c + s",
         "speed_of_contact('bevel')",
-        Mended(TWICE),
-        "| (42), bevel |",
+        Corrected(TWICE),
+        "c - s, with the signed s of (23)",
     )
     yield equation("Eq. (43)", "cos A", "eq_43()", Equal(ONCE))
     yield equation(
         "Eq. (44)",
         "speed of the contact, spur, with c + s",
         "speed_of_contact('spur')",
-        Mended(TWICE),
-        "| (44), (45) | 3",
+        Corrected(TWICE),
+        "c - s",
     )
     yield equation(
         "Eq. (45), theorem 7",
-        "the same with the law of cosines",
+        "the same by the law of cosines, with c + s",
         "speed_of_contact('spur')",
-        Mended(TWICE),
-        "| (44), (45) | 3",
+        Corrected(TWICE),
+        "c - s",
     )
 
 
@@ -281,27 +294,35 @@ def work_and_stress() -> Iterator[Row]:
     )
     yield equation("Eq. (46)", "work of friction, spur: what stands under the integral", "work('spur')", Equal(ONCE))
     yield words(
-        "Section 15, n contacts", "n contacts that share the force leave W as it is", "shared_work()", "**Section 15**"
+        "Section 15, n contacts",
+        "n contacts that share the force leave W as it is",
+        "shared_work()",
+        "each place of a tooth bears less",
     )
-    yield words("Footnote 6", "45 deg makes involutes most efficient", "heights()", "**Footnote 6**")
+    yield words(
+        "Footnote 6",
+        "45 deg makes involutes most efficient",
+        "heights()",
+        "only at one height of the tooth; at one arc all are equal",
+    )
     yield equation("Eq. (47)", "normal force of a torque, spur", "forces('spur')", Equal(ONCE))
     yield equation("Eq. (48)", "normal force of a rack", "rack_force()", Equal())
     yield equation("Eq. (49)", "normal force of a torque, bevel", "forces('bevel')", Equal(ONCE))
     yield equation("Eq. (50)", "work of friction between two angles, bevel", "work('bevel')", Equal(ONCE))
     yield equation(
         "Eq. (51)",
-        "lost part: its form factor is one over pairs of spur wheels",
+        "lost part (R1/R2 + R2/R1) G kappa mu, spur",
         "losses('spur')",
-        Mended(ONCE),
-        "| (51), spread",
+        Corrected(ONCE),
+        "(1/R1 + 1/R2) G kappa mu",
     )
     yield equation(
         "Eq. (52)",
-        "the same of bevel wheels",
+        "the same, bevel",
         "losses('bevel')",
-        Mended(ONCE),
-        "| (52), the same, bevel |",
-        "only for axes at a right angle is it the same",
+        Corrected(ONCE),
+        "cot R1 + cot R2",
+        "the printed one is right for perpendicular axes",
     )
     for place, printed, key in (
         ("saving", "33", "33"),
@@ -316,15 +337,20 @@ def work_and_stress() -> Iterator[Row]:
             f"arithmetic('{key}')",
             why="the arithmetic; what is concluded from it is the erratum below",
         )
-    yield words("Section 16, trains", "trains lose less than one pair of large ratio", "trains()", "**Section 16**")
+    yield words(
+        "Section 16, trains",
+        "trains lose less than one pair of large ratio",
+        "trains()",
+        "they lose more, with (51) corrected",
+    )
     yield equation("Eqs. (53), (54)", "stress by force and curvatures, plane and sphere", "stress()", Equal(TWICE))
     yield equation("Eq. (55)", "what is uniform, spur", "stress()", Equal(TWICE))
     yield equation(
         "Eq. (56), theorem 8",
-        "the equation of uniform stress in r, r', r''",
+        "uniform stress: -2 r^3 r'^3 H - r^5 r' H - r r'^5 H",
         "long_one(56)",
-        Mended(TWICE),
-        "| (56) | 1",
+        Corrected(TWICE),
+        "+ H Q (r^2 + r'^2)^2",
     )
     yield equation("Eq. (57)", "Q", "eq_57()", Equal(ONCE))
     yield equation("Eq. (58), theorem 9", "what is uniform, bevel", "stress()", Equal(TWICE))
@@ -339,21 +365,27 @@ def heat_and_optima() -> Iterator[Row]:
     """Sections 18 to 21, the six problems."""
     yield equation("Eqs. (60), (61)", "rate of heat and how long it lasts: their product", "heat()", Equal(TWICE))
     yield equation("Eq. (62)", "heat of an area", "heat()", Equal(TWICE))
-    yield equation("Eq. (63)", "Z in r, r', r''", "long_one(63)", Mended(TWICE), "| (63) | 2")
+    yield equation(
+        "Eq. (63)",
+        "Z: a square over a sum of twelve terms",
+        "long_one(63)",
+        Corrected(TWICE),
+        "linear in r'', with the other sign",
+    )
     yield equation(
         "Eq. (64)",
-        "of the fourth order: how much r''' and r'''' change it",
+        "a differential equation of the fourth order",
         "order_of_64()",
-        Mended(1e-20),
-        "| (64), by how much",
+        Corrected(1e-20),
+        "of the second order, with a closed solution",
     )
     yield words(
         "Theorem 10",
-        "least friction between given ends",
+        "minimum friction between given ends",
         "extremal_is_minimum()",
         why="in closed form: (10) of [Tooth shapes](shapes.md)",
     )
-    names = (("friction", "least friction"), ("stress", "uniform stress"), ("temperature", "uniform temperature"))
+    names = (("friction", "minimum friction"), ("stress", "uniform stress"), ("temperature", "uniform temperature"))
     for kind in BOTH:
         for number, (form, name) in enumerate(names, 1):
             yield words(
@@ -369,9 +401,8 @@ def heat_and_optima() -> Iterator[Row]:
     for shape, tilt in (("stress", 45), ("temperature", 80)):
         yield words(
             f"Section 21, {shape}",
-            f"uniform {shape} plausibly has the least greatest {shape}",
+            f"uniform {shape} plausibly has the smallest maximum {shape}",
             f"minimum_height('{shape}')",
-            "**Section 21**",
             f"not without a bound on the pressure angle, here {tilt} deg",
         )
     yield outside("Section 21, pieces", "where pieces join, collisions", "left open by the note; here every form says")
@@ -386,10 +417,9 @@ _PARTS = (introduction, conjugates, friction, curvatures, work_and_stress, heat_
 SOURCE = Source(
     "Smith",
     "W. D. Smith, Optimal shapes for gears, NEC Research Institute, 22 December 1993 (19 pages)",
-    "The text at hand is the abstract with the contexts of its references; equations are numbered as in the whole "
-    "note, whose PostScript its author kept on his pages. They are worked out on finished profiles of 24 and 36 "
-    "teeth, spur and bevel: involute, uniform stress, uniform temperature; points of the two teeth alone are "
-    "turned to where they touch, and differentiated as they lie.",
-    "smiths-note-on-optimal-gears-1993",
+    "The copy is the abstract with the contexts of its references; equations are numbered as in the whole "
+    "note, whose PostScript its author published. They are evaluated on finished profiles of 24 and 36 "
+    "teeth, spur and bevel: involute, uniform stress, uniform temperature; points of both teeth are turned "
+    "to where they touch, and differentiated numerically.",
     tuple(row for part in _PARTS for row in part()),
 )

@@ -15,12 +15,11 @@ from geartrain.teeth import Triangular
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.tooth_pair import ToothPair
 from sources import sorge_contacts as note
-from sources.row import Equal, Finding, Mended, Row, Source, Statements, outside
+from sources.row import Corrected, Equal, Finding, Row, Source, Statements, outside
 from sources.sorge_contacts import Contact, contacts, figures, off, transmission
 from sources.ways import Command
 
-SECTION = "sorges-note-on-ancient-gears"
-HISTORY = "history, not mechanics: nothing to compute"
+HISTORY = "history"
 A, R = "approach", "recess"
 
 
@@ -80,15 +79,15 @@ def distances() -> float:
 
 
 def matched() -> Finding:
-    """Where flank lies on flank the angles are opposite; speed leaps there."""
-    angles, leaps = [], []
+    """Where flank lies on flank the angles are opposite; speed jumps there."""
+    angles, jumps = [], []
     for pair in figures().values():
         s, tooth_pair = pair.sizes, pair.contact.path.tooth_pair
         angles.append(abs(tooth_pair.approach_angle(s.matching) + s.matching))
-        leaps.append(tooth_pair.recess_speed(s.matching) / tooth_pair.approach_speed(s.matching) - 1)
+        jumps.append(tooth_pair.recess_speed(s.matching) / tooth_pair.approach_speed(s.matching) - 1)
     return Finding(
-        max(angles) < 1e-12 and min(leaps) > 0,
-        f"alpha_2 = -alpha_1 to 1e-12; there tau leaps up by {100 * min(leaps):.1f} to {100 * max(leaps):.1f} %",
+        max(angles) < 1e-12 and min(jumps) > 0,
+        f"alpha_2 = -alpha_1 to 1e-12; there tau jumps by {100 * min(jumps):.1f} to {100 * max(jumps):.1f} %",
     )
 
 
@@ -154,7 +153,7 @@ def loci() -> Finding:
     """Contacts on the tip circle of the apex that slides: distances from its centre."""
     driven = max(float(np.abs(np.hypot(c.point[0] - c.D, c.point[1]) / c.R2 - 1).max()) for c in contacts(A))
     driver = max(float(np.abs(np.hypot(*c.point) / c.R1 - 1).max()) for c in contacts(R))
-    return Finding(max(driven, driver) < 1e-12, "so at every contact, to 1e-12")
+    return Finding(max(driven, driver) < 1e-12, "at every contact, to 1e-12")
 
 
 def eq_10() -> float:
@@ -213,7 +212,7 @@ def sum_of_angles() -> Finding:
         late = c.x < 0
         v1, v2 = (np.arctan2(each[1], c.D - each[0])[late] for each in (one, two))
         worst = max(worst, float(np.abs(np.abs(v1) + np.abs(v2 - v1) - np.abs(c.y[late])).max()))
-    return Finding(worst < 1e-12, "so after the line of centres; before it, up to matching, their difference")
+    return Finding(worst < 1e-12, "after the line of centres; before it, up to matching, their difference")
 
 
 def kinematics() -> Iterator[Row]:
@@ -244,7 +243,7 @@ def kinematics() -> Iterator[Row]:
     yield equation("Eq. (14)", "closure across it, recess", "closure(R, 1)")
     yield equation("Eq. (15)", "the quadratic equation of v in recess", "eq_15()")
     yield words("Eq. (15), signs", "third term positive, and the quarter-discriminant of (16)", "signs_15()")
-    yield equation("Eq. (16)", "v in recess, plus before the root", "eq_16()", Mended(), "**Eq. (16)**")
+    yield equation("Eq. (16)", "v in recess: plus before the root", "eq_16()", Corrected(), "minus")
     yield equation("Eq. (17)", "alpha_2 as an arctangent of a quotient", "eq_17()", Equal(1e-9))
     yield words("Eq. (17), text", "abs(alpha_2) is a sum of two angles at O2", "sum_of_angles()")
     yield equation(
@@ -283,7 +282,7 @@ def back_profiles() -> Finding:
         f"{z1}/{z2}": transmission(z1, z2, "1.01").verdict.backlash * z2 / (2 * pi) for z1, z2 in ((48, 96), (15, 60))
     }
     text = ", ".join(f"{name}: {part:.3f}" for name, part in backlash.items())
-    return Finding(min(backlash.values()) > 0, f"least play at a = 1.01, in pitches: {text}")
+    return Finding(min(backlash.values()) > 0, f"minimum backlash at a = 1.01, in pitches: {text}")
 
 
 def admissible() -> Finding:
@@ -297,26 +296,24 @@ def admissible() -> Finding:
                 for j in (-3, -2, -1, 1, 2, 3):
                     if abs(x + j * s.p1) <= s.reach1:
                         deepest = max(deepest, (y + j * s.p2 - tooth_pair.contact(x + j * s.p1)) / s.p2)
-    return Finding(deepest < 1e-9, f"so at {note.SAMPLES} contacts of each figure, three couples before and after")
+    return Finding(deepest < 1e-9, f"at {note.SAMPLES} contacts of each figure, three tooth pairs before and after")
 
 
 def real_meshing() -> Iterator[Row]:
     """Section III C."""
     yield words("III C, concavity", "alpha_2(alpha_1) is slightly concave upward but at matching", "concave_upward()")
-    yield words("III C, admissible", "points where no other couple would overlap: below the chord", "admissible()")
+    yield words("III C, admissible", "points where no other tooth pair would overlap: below the chord", "admissible()")
     yield words(
         "III C, one couple",
         "one couple at a time, joined by the next without a break",
         "shared_bounds()",
-        "**III C.** One couple at a time",
-        "true inside a window of clearance",
+        "only within the window of clearance",
     )
     yield words(
         "III C, back profiles",
         "the back profiles are quite far from interference",
         "back_profiles()",
-        "| 15/60 | 1.01475 |",
-        "not for unequal wheels with small clearance",
+        "false for unequal wheels with small clearance",
     )
     yield words("III C, chord", "the active part is one pitch of alpha_1 wide: 360/z1", "widths()")
 
@@ -330,7 +327,7 @@ def widths() -> Finding:
         if len({each.phase for each in pair.intervals}) == 1:
             first, last = ((at.x, at.y) for at in next(note.ends(next(n for n, p in figures().items() if p is pair))))
             worst = max(worst, abs((first[1] - last[1]) / (first[0] - last[0]) / s.ratio - 1))
-    return Finding(worst < 1e-9, "so in all six figures, and where it is one phase its chord has the slope z1/z2")
+    return Finding(worst < 1e-9, "in all six figures; where it is one phase its chord has the slope z1/z2")
 
 
 # ---------------------------------------------------------------------------------------------------- III D. collision
@@ -353,7 +350,7 @@ def entered(z1: int, z2: int, a: str, expected: list[str]) -> Finding:
 def faster() -> Finding:
     """Speed ratios before and after each blow."""
     jumps = [jump for pair in figures().values() for jump in pair.jumps]
-    return Finding(all(jump.after > jump.before for jump in jumps), f"so in all {len(jumps)} collisions of the figures")
+    return Finding(all(jump.after > jump.before for jump in jumps), f"in all {len(jumps)} impacts of the figures")
 
 
 def maximum_jumps() -> Finding:
@@ -369,9 +366,9 @@ def towards_straddling() -> Finding:
     falls = all(b < a for each in (starts, ends) for a, b in pairwise(each))
     return Finding(
         falls,
-        "distance of the path from matching, in pitches: 48/96 at 1.01, 1.02, 1.025, 1.031 "
+        "distance of the path from matching, in pitches: 48/96 at a = 1.01, 1.02, 1.025, 1.031: "
         + ", ".join(f"{each:.3f}" for each in starts)
-        + " (it stands still before it straddles); 96/72 at 1.01, 1.012, 1.014 "
+        + " (dwell before it straddles); 96/72 at 1.01, 1.012, 1.014: "
         + ", ".join(f"{each:.3f}" for each in ends),
     )
 
@@ -423,17 +420,17 @@ def collisions() -> Iterator[Row]:
     yield equation("Eq. (24), first form", "by O2Cr", "first_forms(R)")
     yield equation(
         "Eq. (25)",
-        "jump of a meshing in recess, Fig. 3a; alpha_2 without an index",
-        "[abs(note.eq_25(mended) - note.jump('3a', R)) for mended in (False, True)]",
-        Mended(),
-        "**Eq. (25)**",
+        "jump in recess (Fig. 3a): alpha_2 in the denominators without an index",
+        "[abs(note.eq_25(corrected) - note.jump('3a', R)) for corrected in (False, True)]",
+        Corrected(),
+        "alpha_2i above, alpha_2e below",
     )
     yield equation(
         "Eq. (26)",
-        "jump from recess into approach, Fig. 5a; -1 outside the fraction",
-        "[abs(note.eq_26(mended) - note.jump('5a', A)) for mended in (False, True)]",
-        Mended(),
-        "**Eq. (26)**",
+        "jump from recess into approach (Fig. 5a): -1 outside the fraction",
+        "[abs(note.eq_26(corrected) - note.jump('5a', A)) for corrected in (False, True)]",
+        Corrected(),
+        "-1 in the denominator",
     )
     yield equation("Eq. (27)", "jump from approach into recess, Fig. 5a", "abs(note.eq_27('5a') - note.jump('5a', R))")
     yield equation(
@@ -470,12 +467,12 @@ def arm(phase: str, wheel: int) -> float:
 
 
 def eq_31() -> tuple[float, float]:
-    """Eq. (31) as printed and mended."""
+    """Eq. (31) as printed and corrected."""
     return off(R, lambda c: note.arms(c, False)[1], lambda c: c.arms[1]), arm(R, 2)
 
 
 def eq_33() -> tuple[float, float]:
-    """Eq. (33) as printed and mended."""
+    """Eq. (33) as printed and corrected."""
     found = [off(R, lambda c, s=sign: note.eq_33(c, s), lambda c: c.eta) for sign in (1.0, -1.0)]  # type: ignore[misc]
     return found[0], found[1]
 
@@ -521,7 +518,7 @@ def lost_in_impacts() -> tuple[float, float]:
 
 
 def course(phase: str, key: str) -> float:
-    """A column of the course that the command gives for all figures, against the note's equation for it, mended."""
+    """A column of the course that the command gives for all figures, against the note's equation for it, corrected."""
     worst = 0.0
     for name, (z1, z2, a) in note.FIGURES.items():
         s = figures()[name].sizes
@@ -565,23 +562,37 @@ def power_loss() -> Iterator[Row]:
         "IV, line of action",
         "turned by the friction angle towards the driven wheel's centre in both phases",
         "turned_force()",
-        "**IV**, line of action",
+        "towards it before the line of centres, away from it after",
     )
     yield equation("IV, V2Ca, V1Cr", "distances from the contact to the instant centre", "distances_to_centre()")
     yield equation("Eq. (28)", "b1, approach", "arm(A, 1)")
     yield equation("Eq. (29)", "b2, approach", "arm(A, 2)")
     yield equation("Eq. (30)", "b1, recess", "arm(R, 1)")
-    yield equation("Eq. (31)", "b2, recess; tau divides the whole bracket", "eq_31()", Mended(), "**Eq. (31)**")
+    yield equation(
+        "Eq. (31)",
+        "b2, recess: tau divides the whole bracket",
+        "eq_31()",
+        Corrected(),
+        "tau divides the first product only",
+    )
     yield equation(
         "IV, efficiency",
         "eta = tau b2/b1",
         "max(off(p, lambda c: c.tau * c.arms[1] / c.arms[0], lambda c: c.eta) for p in (A, R))",
     )
     yield equation("Eq. (32)", "efficiency in approach", "off(A, note.eq_32, lambda c: c.eta)")
-    yield equation("Eq. (33)", "efficiency in recess", "eq_33()", Mended(), "**Eq. (33)**")
+    yield equation(
+        "Eq. (33)", "[cc + tau ss]/[cc - ss], efficiency in recess", "eq_33()", Corrected(), "[cc - tau ss]/[cc + ss]"
+    )
     yield from from_command()
     yield equation("Eq. (34)", "loss of one meshing, at constant driver torque", "eq_34()")
-    yield equation("IV, impact", "J2 w1^2 (tau+^2 - tau-^2)/2 is lost", "lost_in_impacts()", Mended(), "**IV**, 48/96")
+    yield equation(
+        "IV, impact",
+        "J2 w1^2 (tau+^2 - tau-^2)/2 is lost",
+        "lost_in_impacts()",
+        Corrected(),
+        "J2 w1^2 (tau+ - tau-)^2/2",
+    )
 
 
 # --------------------------------------------------------------------------------------------------------- V. results
@@ -608,7 +619,7 @@ def efficiencies() -> Finding:
 def falling() -> Finding:
     """tau along every interval."""
     falls = all(np.diff(c.tau[np.argsort(c.x)]).min() > 0 for phase in (A, R) for c in contacts(phase))
-    return Finding(falls, "so in all six figures: tau falls as alpha_1 does")
+    return Finding(falls, "in all six figures tau decreases with alpha_1")
 
 
 def backlash() -> Finding:
@@ -631,7 +642,7 @@ def larger() -> Finding:
     means = {n: [figures()[n + side].efficiency_mean() for side in "ab"] for n in names}
     better = all(b < a for a, b in jumps.values()) and all(b > a for a, b in means.values())
     told = ", ".join(f"Fig. {n}: {a:.3f} to {b:.3f}" for n, (a, b) in jumps.items())
-    return Finding(better, f"greatest jump falls, {told}; sliding efficiency rises in all")
+    return Finding(better, f"maximum jump decreases, {told}; sliding efficiency increases in all")
 
 
 def two_pitches() -> Finding:
@@ -676,7 +687,7 @@ def best_of_all() -> Finding:
     spent = {a: collision_energies(transmission(96, 96, a).speed_leaps(), 1.0, 1.0)[1] for a in ("1.025", "1.019273")}
     return Finding(
         lost["1.025"] <= lost["1.0117219"] and spent["1.025"] <= spent["1.019273"],
-        f"sliding takes {100 * lost['1.025']:.3f} %, at 1.0117219 {100 * lost['1.0117219']:.3f} %; blows "
+        f"sliding takes {100 * lost['1.025']:.3f} %, at 1.0117219 {100 * lost['1.0117219']:.3f} %; impacts "
         f"{spent['1.025']:.2e} J2 w1^2, at 1.019273 {spent['1.019273']:.2e}",
     )
 
@@ -704,7 +715,7 @@ def results() -> Iterator[Row]:
         for figure, kind, printed in JUMPS:
             if figure == name:
                 at = [each.kind for each in figures()[name].jumps].index(kind)
-                wrong = "4b | matching 0.03157" if printed == "0.0314" else ""
+                wrong = "0.0316" if printed == "0.0314" else ""
                 yield Row(
                     f"Fig. {name}, {kind}",
                     "relative jump of normal velocity",
@@ -730,14 +741,13 @@ def results() -> Iterator[Row]:
         "V, sub-phases",
         "two sub-phases, one pitch apart, until one is left",
         "sub_phases()",
-        "| 1.0113 | 0.430 | 0.130 | 0.439 |",
-        "one, two or three intervals",
+        "one, two or three intervals of total width one pitch",
     )
     yield words(
         "V, left sub-region",
         "its width decreases until it vanishes",
         "narrowing()",
-        "**V**, 96/96: neither sub-region narrows",
+        "both keep half a pitch until a third piece, astride the matching position, replaces them",
     )
     yield words("Fig. 5 b", "astride the matching position", "entered(96, 96, '1.025', ['astride'])")
     yield words(
@@ -747,13 +757,13 @@ def results() -> Iterator[Row]:
     )
     yield words(
         "V, best conditions",
-        "1:1 at 1.025 has the least energy losses",
+        "1:1 at 1.025 has the minimum energy losses",
         "best_of_all()",
-        "**V**, 96/96: a = 1.025 is not best",
+        "friction takes the minimum at 1.0117219, impacts near 1.0193",
     )
     yield words(
         "V, standstill",
-        "where the ideal region is smaller than 360/z1 the driven wheel stands",
+        "if the ideal region is smaller than 360/z1 the driven wheel dwells",
         "dwell()",
         why="of equal wheels; unequal ones stand earlier",
     )
@@ -792,8 +802,7 @@ def conclusions() -> Iterator[Row]:
         "VI, losses",
         "energy losses of the order of 10 % or less",
         "whole_train()",
-        "**VI**: losses",
-        "true of a pair, not of a mechanism",
+        "of a pair; a train of such pairs loses several times as much",
     )
 
 
@@ -806,8 +815,7 @@ def rows() -> tuple[Row, ...]:
 SOURCE = Source(
     "Sorge",
     "F. Sorge, A Note on the Mechanics of Ancient Gear Systems, University of Palermo",
-    "Equations are worked out at 400 contacts of each pair of Figs. 3 to 5, the two angles being the library's; "
-    "places, normals, velocities and forces are plane vectors made from the angles alone.",
-    SECTION,
+    "Equations are evaluated at 400 contacts of each pair of Figs. 3 to 5, with the angles of the library. "
+    "Positions, normals, velocities and forces are plane vectors computed from these angles.",
     rows(),
 )

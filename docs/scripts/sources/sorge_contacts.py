@@ -220,12 +220,12 @@ def products(c: Contact) -> tuple[Values, Values]:
     return first * np.cos(lean + phi), np.sin(apex) * np.sin(phi)
 
 
-def arms(c: Contact, mended: bool = True) -> tuple[Values, Values]:
+def arms(c: Contact, corrected: bool = True) -> tuple[Values, Values]:
     """b1 and b2 by Eqs. (28) to (31); (31) also as printed."""
     cc, ss = products(c)
     if c.phase == "approach":
         return (c.R2 * (c.tau * cc + ss) / np.cos(c.lean), c.R2 * (cc - ss) / np.cos(c.lean))
-    second = cc / c.tau - ss if mended else (cc - ss) / c.tau
+    second = cc / c.tau - ss if corrected else (cc - ss) / c.tau
     return c.R1 * (cc + ss) / np.cos(c.lean), c.R1 * second / np.cos(c.lean)
 
 
@@ -289,7 +289,7 @@ def jump(name: str, kind: str) -> float:
     return float(next(each.value for each in figures()[name].jumps if each.kind == kind))
 
 
-def eq_25(mended: bool) -> float:
+def eq_25(corrected: bool) -> float:
     """The jump of Fig. 3a; as printed alpha_2 without an index is read as that of the entry."""
     ((first, last),) = ends("3a")
     s = first.pair.sizes
@@ -297,14 +297,14 @@ def eq_25(mended: bool) -> float:
     def side(at: End, other: float) -> float:
         return float(s.D * np.cos(s.beta1 - at.y) / np.cos(s.beta1 - at.x - other) - s.R1)
 
-    return 1 - side(first, first.y) / side(last, last.y if mended else first.y)
+    return 1 - side(first, first.y) / side(last, last.y if corrected else first.y)
 
 
-def eq_26(mended: bool) -> float:
+def eq_26(corrected: bool) -> float:
     """The jump into approach of Fig. 5a, from the end of recess."""
     found = {at.phase: (at, last) for at, last in ends("5a")}
     last, first = found["recess"][1], found["approach"][0]
-    return 1 - last.share / first.share if mended else 1 - last.share / (first.share + 1) - 1
+    return 1 - last.share / first.share if corrected else 1 - last.share / (first.share + 1) - 1
 
 
 def eq_27(name: str) -> float:

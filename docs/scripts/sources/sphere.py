@@ -15,7 +15,6 @@ from geartrain.spherical import Configuration, GearSphere, from_polyhedron, rati
 from sources.row import Digits, Exactly, Finding, Row, Source, Statements, outside
 from sources.ways import Command
 
-SECTION = "the-note-on-spherical-configurations-of-rounded-gears"
 NOTE = "icosidodecahedron"
 SIZED = "sphere icosidodecahedron --teeth 5=20,3=12 --radius 5=1.25"
 PICTURE = "the copy has no pictures; "
@@ -238,13 +237,19 @@ def introduction() -> Iterator[Row]:
         PICTURE + "`geartrain sphere rhombicosidodecahedron --plot sphere.svg` draws it",
     )
     yield words("Introduction, simpler", "5-3 is less complicated than 5-4-3", "kinds()")
-    yield Row("Introduction, gears", "gears of the 5-3 model", "30", Command(SIZED, "gears"), Exactly(), "| 30 gears |")
+    yield Row(
+        "Introduction, gears",
+        "gears of the 5-3 model",
+        "30",
+        Command(SIZED, "gears"),
+        Exactly(),
+        "32: 12 and 20; 30 is the number of vertices",
+    )
     yield words(
         "Introduction, name",
         "such a solid is a buckyball",
         "buckyball()",
-        "| it is called a buckyball |",
-        "the note's models are the icosidodecahedron and the rhombicosidodecahedron, which turn",
+        "the models are the icosidodecahedron and the rhombicosidodecahedron",
     )
     yield outside(
         "How to, steps 1 to 6", "the order of work", f"a method, not a result; all of it is `geartrain {SIZED}`"
@@ -272,7 +277,7 @@ def first_steps() -> Iterator[Row]:
         "Step 1, middles",
         "gears interface at the middles of edges",
         "middle()",
-        "| wheels meet at the middles of edges |",
+        "only with the irrational ratio 2.383963",
     )
     yield words(
         "Step 2", "faces and corners of the characteristic pentagons mark pentagons and triangles", "same_lines()"
@@ -304,8 +309,7 @@ def angles() -> Iterator[Row]:
         "angle between two triangles by an arcsine (deg)",
         "44.9110304",
         "right_beta()",
-        "| the angle between triangles by an arcsine of the wrong side",
-        "the note corrects itself, and leaves the first text standing",
+        "41.8103149 = asin(2/3); the note corrects itself below",
     )
     yield digits("Step 4, its arithmetic", "2 asin(sin 18/cos 36), as a number (deg)", "44.9110304", "wrong_beta()")
     yield equation(
@@ -318,13 +322,13 @@ def angles() -> Iterator[Row]:
         "that angle (deg)",
         "41.8103148828",
         "right_beta()",
-        "| the corrected angle, 41.8103148828",
+        "41.8103148958, from the note's own formula",
     )
     yield words(
         "Step 4, neighbours",
         "beta is an angle between neighbours that mesh",
         "triangles_mesh()",
-        "| it is an angle between neighbours |",
+        "triangles meet in vertices only; the angle bounds their cones",
     )
 
 
@@ -337,12 +341,11 @@ def sizes() -> Iterator[Row]:
         "Step 5, multiples",
         "teeth are multiples of the number of neighbours, so that they mesh",
         "rule()",
-        "| multiples of 5 and 3, because of the number of neighbours |",
-        "5 and 3 are right here, for another reason",
+        "not the reason, although multiples of 5 and 3 are right here",
     )
     yield words("Step 5, 5/3", "the ratio 5/3, with 20 and 12 teeth", "fits(20, 12)")
-    yield words("Step 5, 5/6", "could be chosen", "fits(5, 6)", "| 5/6 and 10/3 teeth as alternatives |")
-    yield words("Step 5, 10/3", "could be chosen", "fits(10, 3)", "| 5/6 and 10/3 teeth as alternatives |")
+    yield words("Step 5, 5/6", "could be chosen", "fits(5, 6)", "it collides")
+    yield words("Step 5, 10/3", "could be chosen", "fits(10, 3)", "it collides")
     yield words("Step 5, 45/33", "could be chosen", "fits(45, 33)")
     yield words("Step 5, overlap", "of a pair of 45/33 neither overlaps its neighbours", "window()")
     yield number(
@@ -359,15 +362,14 @@ def sizes() -> Iterator[Row]:
         "How to, more types",
         "more than two types are very difficult or impossible",
         "three_types()",
-        "| more than two types are very difficult or impossible |",
+        "exact with idlers; nearly exact without",
     )
     yield exact(
         "Step 6, pitch",
         "diametral pitch N/R",
         "8",
         "diametral()",
-        "| a diametral pitch N/R of 8 |",
-        "N/R is 8; the diametral pitch is teeth over diameter",
+        "4.0 = N/(2R), teeth over diameter",
     )
     yield exact("Step 6, teeth", "N1/R1 = N2/R2 with 10 and 6 teeth", "8", "round(10 / 1.25 + 6 / 0.75) // 2")
     yield words("Step 6, slope", "teeth should slope radially outwards", "one_apex()")
@@ -379,8 +381,6 @@ def sizes() -> Iterator[Row]:
 SOURCE = Source(
     "Sphere",
     "Anonymous, Spherical Configuration of Rounded Gears - A Derivation (a web log)",
-    "S, L, R_SPH, R and D are measured on a dodecahedron of the library, DEG is a degree; 20 and 12 teeth stand for "
-    "the ratio 5/3.",
-    SECTION,
+    "Lengths are measured on a dodecahedron of the library. The ratio 5/3 is realised by 20 and 12 teeth.",
     tuple(row for part in (introduction, first_steps, angles, sizes) for row in part()),
 )

@@ -176,7 +176,6 @@ def _determinant(matrices: Floats) -> Floats:
 
 
 def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
-    """Return the error for pairs without a unique motion, with its cause `why`."""
     names = ", ".join(pairs)
     if len(pairs) == 1:
         what = f"the motion of pair {names}, which moves its own driver, has no unique solution"

@@ -180,7 +180,6 @@ class StepSearch:
         return given.chosen(order[: int(np.count_nonzero(most > 1))])
 
     def _drop(self, given: BoundedSteps) -> None:
-        """Record the bounds of steps that are not searched further."""
         self.dropped = np.maximum(self.dropped, given.above.max(axis=2, initial=-np.inf))
 
     def _count(self, passage: ErrorSamples) -> None:
@@ -212,7 +211,6 @@ class StepSearch:
             self._take_pieces(middle[first : first + size], half[first : first + size])
 
     def _take_pieces(self, middle: Floats, half: Floats) -> None:
-        """Include the extremes of smooth pieces in the maxima."""
         found = self._at((middle[:, None] + half[:, None] * _NODES).ravel())
         self._count(found)
         values = signed(found.error, found.rate).reshape(len(self.values), 4, len(middle), -1)
@@ -328,7 +326,6 @@ class ExtremeSearch:
             self._take(group, search)
 
     def _take(self, group: tuple[int, ...], search: StepSearch) -> None:
-        """Record the results of a search for some outputs."""
         at = list(group)
         self.values[at] = self._whole.values[at] = np.maximum(self.values[at], search.values)
         self._dropped[at] = np.maximum(self._dropped[at], search.dropped)
@@ -346,7 +343,6 @@ class ExtremeSearch:
 
 
 def _restricted(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
-    """Return a composition restricted to some of its outputs."""
     seen = tuple(composition.outputs[at] for at in outputs)
     offsets = tuple(composition.offsets[at] for at in outputs) if composition.offsets else ()
     return ErrorComposition(composition.spread, composition.sources, seen, offsets)

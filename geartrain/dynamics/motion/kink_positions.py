@@ -235,7 +235,6 @@ class KinkSearch:
         return self._joined(found)
 
     def _joined(self, found: list[list[Floats]]) -> KinkPositions:
-        """Return the kinks of all pairs, sorted by position."""
         each = [pair.unique(np.concatenate(parts, axis=1)) for pair, parts in zip(self.pairs, found, strict=True)]
         turns = np.concatenate(each or [np.zeros(0)])
         pair = np.repeat(np.arange(len(each)), [len(part) for part in each])

@@ -222,7 +222,6 @@ class Motion(Shown):
 
     @property
     def _propagation(self) -> ErrorPropagation:
-        """Propagation of errors to the links on which the outputs depend."""
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
@@ -341,7 +340,6 @@ class Motion(Shown):
         return found
 
     def _statistics(self) -> list[RunningStatistics]:
-        """Return statistics without data for each output."""
         return [
             RunningStatistics(name, self._problem.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()
         ]
@@ -563,7 +561,6 @@ class Motion(Shown):
         return self.run()
 
     def _of(self, outputs: Sequence[str]) -> Motion:
-        """Return the motion of some of the outputs only."""
         shown = {name: self.outputs[name] for name in outputs}
         motion = Motion(self._problem, shown, self.tolerance, self.fast)
         motion._declaration, motion._state, motion._without = self._declaration, self._state, self._without

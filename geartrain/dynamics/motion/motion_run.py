@@ -346,7 +346,6 @@ class MotionRun(Tabular, Pictured):
 
     @property
     def _position_columns(self) -> list[str]:
-        """Column names of the table of all positions."""
         names = self.motion.outputs
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 

@@ -85,7 +85,6 @@ class PairErrors:
 
     @cached_property
     def _meshes(self) -> list[GearMesh]:
-        """Pairs with real teeth on which the requested links depend."""
         reached = self.spread.reached
         names = [name for at, name in enumerate(self.spread.pairs) if at in reached and name in self.train.meshes]
         return [self.train.meshes[name] for name in names]

@@ -167,7 +167,6 @@ class RateBounds:
 
     @cached_property
     def _sources(self) -> dict[int, PairErrorSource]:
-        """Sources on which an output depends, by index."""
         return {at: self.composition.sources[at] for step in self.composition.steps for at in step.sources}
 
     @cached_property

@@ -141,7 +141,6 @@ def _branches(
 
 
 def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
-    """Return a complete solution as driving sides and torques by name."""
     pattern: dict[str, int] = {}
     found: dict[str, Fraction | None] = {}
     for at, column in enumerate(balance.columns):

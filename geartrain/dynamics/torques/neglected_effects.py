@@ -292,7 +292,6 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
 
 
 def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the friction declared for pins without dimensions."""
     couplings = setting.couplings
     bearing_friction = [
         circuit.id for circuit in busy if circuit.kind != "gear" and setting.has_friction(couplings[circuit.id])
@@ -341,7 +340,6 @@ def _open(
 
 
 def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return whether a pair's efficiency depends on speed."""
     tooth = setting.meshes.get(circuit.id)
     declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
     return tooth is not None and not declared and tooth.wheels.friction_law is not None

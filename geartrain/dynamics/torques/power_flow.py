@@ -163,7 +163,6 @@ def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
 
 
 def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerNode]:
-    """Return the strongly connected component that contains a node."""
     ways: list[set[PowerNode]] = []
     for pairs in (((s.source, s.target) for s in streams), ((s.target, s.source) for s in streams)):
         after: dict[PowerNode, list[PowerNode]] = {}

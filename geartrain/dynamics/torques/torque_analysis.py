@@ -126,7 +126,6 @@ def find_torque_verdict(
 
 
 def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
-    """Return a short text on the neglected effects."""
     uncounted: dict[str, list[str]] = {}
     for each in neglected:
         if each.counts:
@@ -522,7 +521,6 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
 
 
 def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fraction]) -> dict[str, Fraction]:
-    """Return the known torque on each link: load plus bearing friction."""
     return {
         link: loads.get(link, Fraction(0)) + bearing_friction.get(link, Fraction(0))
         for link in {**loads, **bearing_friction}

@@ -118,7 +118,6 @@ class PositionMotion:
 
     @cached_property
     def _columns(self) -> list[int]:
-        """Indices of the links in the order of solution."""
         at = {link: number for number, link in enumerate(self.motion._propagation.links)}
         return [at[link] for link in self.links]
 

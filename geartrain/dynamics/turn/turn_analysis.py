@@ -174,7 +174,6 @@ class _RunResults:
     run: TurnRun
 
     def figures(self, of: str | None) -> CycleFigures:
-        """Return mean, maximum and starting torque, and efficiency."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)
         if self.run.share(~found.valid):
@@ -202,7 +201,6 @@ class _RunResults:
         return float(self.run.cells.weights @ own.torque(self.run.found)) / self.run.span
 
     def cycle(self, of: str | None) -> TorqueCycle:
-        """Return all results of the run for link `of`."""
         train, found = self.run.train, self.run.found
         own = self._requested(of)
         link = train.requested[own.row]

@@ -310,7 +310,6 @@ def _times_derivative(p: Laurent, at: int) -> Laurent:
 
 
 def _product(p: FactoredPolynomial, wheels: Sequence[str], style: _Style) -> str:
-    """Return the absolute value of a factored polynomial as text."""
     parts = [] if abs(p.content) == 1 else [str(abs(p.content))]
     for wheel, power in zip(wheels, p.powers, strict=True):
         if power:

@@ -347,7 +347,6 @@ def _image(p: Laurent, at: int, point: Sequence[int]) -> list[int]:
 
 
 def _remainder(p: Sequence[int], q: Sequence[int]) -> list[int]:
-    """Return the remainder of the division of two univariate polynomials modulo the prime."""
     rest = list(p)
     # schoolbook division with the inverse of the leading coefficient
     inverse = pow(q[-1], -1, PRIME)

@@ -193,7 +193,6 @@ def _solve_core(
 def _combined(
     form: Mapping[int, Laurent], values: Mapping[int, SymbolicValue], determinants: Sequence[Laurent], width: int
 ) -> SymbolicValue:
-    """Return a linear form of solved unknowns as one rational function over a common denominator."""
     used = frozenset().union(*(values[column].blocks for column in form if column in values))
     return SymbolicValue(_over_blocks(form, values, determinants, used, width), used)
 
@@ -488,7 +487,6 @@ def _equations(
 
 
 def _collect_formulas(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
-    """Return the outputs, conditions and exclusions as functions of the free wheels, from the solved equations."""
     solution = solve_rows(equations.rows, equations.width, _declared(train, wheels))
     outputs: dict[str, Formula] = {}
     undetermined: list[str] = []

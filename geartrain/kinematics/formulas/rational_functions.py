@@ -310,7 +310,6 @@ def _listed(terms: Sequence[Term]) -> list[list[Any]]:
 
 
 def _formula(label: str, wheels: Sequence[str], grouping: MonomialGrouping, top: Laurent, bottom: Laurent) -> Formula:
-    """Return the formula for two coprime polynomials in the monomials of the groups."""
     used = sorted(variable for members in grouping.members for variable in members)
     spread = [grouping.back(each, len(wheels)) for each in (top, bottom)]
     # exponents are made non-negative by a common monomial factor

@@ -335,7 +335,6 @@ def _bundles(network: GainGraph, nodes: Sequence[tuple[int, Gain]]) -> dict[Pair
 
 
 def _faces(drawing: nx.PlanarEmbedding[int]) -> list[list[int]]:
-    """Return the nodes around each face of a planar embedding."""
     seen: set[Pair] = set()
     return [
         drawing.traverse_face(first, second, seen) for first, second in drawing.edges if (first, second) not in seen

@@ -160,7 +160,6 @@ def _prime_powers(number: int) -> Iterable[int]:
 
 
 def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return a set of generators of the same group without redundant ones."""
     found = _howell_form(rows, power)
     for row in found[::-1]:
         fewer = [other for other in found if other is not row]

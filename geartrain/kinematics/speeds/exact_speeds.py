@@ -331,7 +331,6 @@ def propagate(
 
 
 def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
-    """Return the equations of all circuits and locks, over the moving links."""
     rows: list[Terms] = []
     for circuit in circuits:
         rows.append(tuple([(index[link], factor) for link, factor in circuit.terms if link != frame]))
@@ -600,7 +599,6 @@ class _LazySpeeds(Mapping[str, Fraction]):
 def _determined_speeds(
     reduced: ReducedSystem, forms: Mapping[int, LinearForm], signs: Mapping[str, int]
 ) -> tuple[Mapping[str, Fraction], list[str]]:
-    """Return the speeds of all determined links, and the names of undetermined links."""
     parts = reduced.components
     known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
     speeds = _LazySpeeds(reduced, known, signs)

@@ -435,7 +435,6 @@ def _right_hand_sides(
 
 
 def _rounded_right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]]) -> tuple[Floats, Floats]:
-    """Return right-hand sides as floats, and the exact remainders after rounding."""
     right = np.zeros((len(rows), len(given[0])))
     remainder = np.zeros_like(right)
     for at, line in enumerate(given):

@@ -124,7 +124,6 @@ class Execution:
 
 
 def _run_here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Progress) -> Iterator[Any]:
-    """Yield the results of all tasks, computed in this process."""
     pace.step(0)
     for index, task in enumerate(tasks):
         mark = mark_of(task) if journal is not None else ""
@@ -153,7 +152,6 @@ class _Progress:
             self._report(self.tell)
 
     def end(self) -> None:
-        """Report the final number of tasks, unless already reported."""
         if self.tell and self._reported != self.done:
             self._report(self.tell)
 
@@ -190,7 +188,6 @@ class _Run:
         self.checked = monotonic()
 
     def results(self) -> Iterator[Any]:
-        """Yield the results in the order of the tasks."""
         try:
             self.pace.step(0)
             if isinstance(self.executor, WorkerPool) and self.executor.waits:
@@ -222,7 +219,6 @@ class _Run:
                 return
 
     def _due(self) -> Iterator[Any]:
-        """Yield available results up to the first missing one."""
         while self.next in self.ready:
             text = self.ready.pop(self.next)
             self.next += 1
@@ -292,7 +288,6 @@ class _Run:
                 return self.ended.get(timeout=_CHECK_INTERVAL)
 
     def _process(self, future: Future[Any]) -> None:
-        """Process the result or exception of a finished future."""
         submission = self.pending.pop(future)
         self.suspects -= bool(submission.deaths)
         try:

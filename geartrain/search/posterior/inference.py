@@ -135,7 +135,7 @@ def infer_counts(
     -----
     p(counts | outputs) = p(counts) L(outputs | counts) / evidence. The prior p treats wheels as independent. The
     likelihood L is 1 or 0, or exp(-misfit / 2) with `soft`. The evidence is the sum of the products of prior and
-    likelihood (docs/counts-in-doubt.md). The exact join merges partial combinations that no later output distinguishes,
+    likelihood (docs/which-counts.md). The exact join merges partial combinations that no later output distinguishes,
     and sums in integers.
 
     Examples

@@ -15,20 +15,41 @@ from geartrain.numerics.lazy_names import lazy_names
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain as GearTrain
     from geartrain.analysis.gear_train import load as load
+    from geartrain.errors import DeclarationError as DeclarationError
     from geartrain.errors import GearTrainError as GearTrainError
+    from geartrain.errors import MissingExtraError as MissingExtraError
+    from geartrain.errors import Problem as Problem
+    from geartrain.errors import QuestionError as QuestionError
+    from geartrain.errors import RangeError as RangeError
     from geartrain.kinematics.answer import Answer as Answer
     from geartrain.kinematics.answer import Verdict as Verdict
     from geartrain.train.declaration_files import shipped as shipped
 
 __version__ = "0.1.0"
-__all__ = ["Answer", "GearTrain", "GearTrainError", "Verdict", "__version__", "load", "shipped"]
+__all__ = [
+    "Answer",
+    "DeclarationError",
+    "GearTrain",
+    "GearTrainError",
+    "MissingExtraError",
+    "Problem",
+    "QuestionError",
+    "RangeError",
+    "Verdict",
+    "__version__",
+    "load",
+    "shipped",
+]
 
 __getattr__ = lazy_names(
     __name__,
     {
         "Answer": "kinematics.answer",
+        **dict.fromkeys(
+            ("DeclarationError", "GearTrainError", "MissingExtraError", "Problem", "QuestionError", "RangeError"),
+            "errors",
+        ),
         "GearTrain": "analysis.gear_train",
-        "GearTrainError": "errors",
         "Verdict": "kinematics.answer",
         "load": "analysis.gear_train",
         "shipped": "train.declaration_files",

@@ -27,6 +27,7 @@ from geartrain.search.reconstruct import (
     SurvivingArbor,
     SurvivingWheel,
 )
+from geartrain.train import Train, declare
 
 Wheel = tuple[str, int]
 Node = tuple  # (name, driven, dials, drives)
@@ -306,6 +307,21 @@ def package_arbor(tree: Node) -> Arbor:
     return Arbor(name or None, placed, dials, others, passes)
 
 
+def plain_prior(tree: Node, problem: ReconstructionProblem) -> Fraction:
+    """The product of what every part of a concrete tree weighs."""
+    factors, limits = problem.factors, problem.additions
+    weights = {one.name: dict(one.counts) for arbor in (problem.input, *problem.arbors) for one in arbor.wheels}
+    weight, unused = Fraction(1), set(weights)
+    for name, driven, _, drives in nodes(tree):
+        weight /= factors.arbor if name == "" else 1
+        for wheel, teeth in [one for one in (driven, *(wheel for wheel, _ in drives)) if one]:
+            if wheel in weights:
+                weight *= weights[wheel][teeth]
+                unused.discard(wheel)
+    weight /= (factors.wheel * (limits.maximum - limits.minimum + 1)) ** added_wheels(tree)
+    return weight / factors.unused ** len(unused)
+
+
 # questions
 
 
@@ -447,3 +463,53 @@ def with_rings(problem: ReconstructionProblem, seed: int) -> ReconstructionProbl
     )
     changed = replace(problem, input=arbors[0], arbors=tuple(arbors[1:]), dials=turned)
     return replace(changed, meshes=frozenset(pair for pair in problem.meshes if not pair <= rings_of(changed)))
+
+
+def declared(problem: ReconstructionProblem) -> Train:
+    """A small question as evidence; targets carry what is wanted, so that either sense will do where it may."""
+    arbors = (problem.input, *problem.arbors)
+    counts = {
+        arbor.name: {
+            part.name: {
+                "value": part.counts[0][0],
+                "choices": [count for count, _ in part.counts],
+                "weights": [str(weight) for _, weight in part.counts],
+            }
+            for part in arbor.wheels
+        }
+        for arbor in arbors
+    }
+    links = {
+        link: {"wheels": {name: {"teeth": part, "internal": name in problem.rings} for name, part in wheels.items()}}
+        for link, wheels in counts.items()
+    }
+    outputs = {}
+    for dial in problem.dials:
+        middle, half = (dial.minimum + dial.maximum) / 2, (dial.maximum - dial.minimum) / 2
+        said = {"expect": {"value": str(middle), "tolerance": str(half)}}
+        if not dial.signed:
+            share = str(half / middle)
+            said = {"targets": [{"period": f"{1 / middle} d", "tolerance": share}]}
+        outputs[dial.name] = {**({"of": dial.place} if dial.place else {}), **said}
+    add = {"wheels": problem.additions.wheels, "on": problem.additions.on}
+    add["teeth"] = [problem.additions.minimum, problem.additions.maximum]
+    if problem.additions.arbors is not None:
+        add["arbors"] = problem.additions.arbors
+    requested = {
+        "add": add,
+        "use": problem.use,
+        "idlers": problem.idlers,
+        "apart": [sorted(pair) for pair in problem.apart],
+    }
+    joints = [{"pair": ["frame", arbor], "axis": "same"} for pair in problem.coaxial for arbor in sorted(pair)]
+    return declare(
+        {
+            "unit": {"per": "1 d"},
+            "revolutes": joints,
+            "links": links,
+            "gears": [{"pair": sorted(pair)} for pair in problem.meshes if len(pair) == 2],
+            "inputs": {problem.input.name: str(problem.input_speed)},
+            "outputs": outputs,
+            "reconstruct": requested,
+        }
+    )

@@ -15,10 +15,7 @@ from scipy.spatial import Delaunay, cKDTree
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.numerics.arrays import Floats
-    from geartrain.simulation.strength.iso_6336 import ToothLoad, ToothSide
-
-    Integers = NDArray[np.int64]
+    Floats, Integers = NDArray[np.float64], NDArray[np.int64]
 
 Spacing = Callable[["Floats"], "Floats"]
 """The length of an edge wanted at each of (n, 2) points."""
@@ -31,7 +28,7 @@ FINE = 0.03
 """Edges at the root [module]; coarser ones change stresses by less than 1 in 200."""
 
 
-def root_stress_factor(side: ToothSide, z: float, load: ToothLoad, poisson: float, fine: float = FINE) -> float:
+def root_stress_factor(side: Any, z: float, load: Any, poisson: float, fine: float = FINE) -> float:
     """Maximum tension along the fillet of the loaded side, over torque/(width module^2): docs/strength.md, section 6.
 
     Three teeth on a rim held inside and at its ends, plane stress, quadratic triangles; Young's modulus cancels.
@@ -48,7 +45,7 @@ def root_stress_factor(side: ToothSide, z: float, load: ToothLoad, poisson: floa
 class _Held:
     """Where the rim is held: its inner circle, and both of its cuts."""
 
-    def __init__(self, side: ToothSide, z: float) -> None:
+    def __init__(self, side: Any, z: float) -> None:
         self.radius = side.root - side.outward * _DEEP
         self.angle = 3 * pi / z
 
@@ -60,7 +57,7 @@ class _Held:
         return np.asarray(found)
 
 
-def _sector(side: ToothSide, z: float) -> tuple[Floats, Floats]:
+def _sector(side: Any, z: float) -> tuple[Floats, Floats]:
     """Three teeth on their rim, anticlockwise, and the round at the loaded side of the middle one."""
     half = side.points[side.points[:, 1] > 1e-9]
     r, angle = np.hypot(*half.T), np.arctan2(half[:, 1], half[:, 0])

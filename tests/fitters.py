@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from geartrain import GearTrain
 from geartrain.search import ConstraintOptions
 from geartrain.search.constraints.assembly_constraints import find_constraints
-from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.train import Train
 
 Central = Mapping[str, tuple[int, bool]]
@@ -53,9 +52,7 @@ def declared(data: Mapping[str, Any]) -> Train:
     return GearTrain.declare(data).declaration
 
 
-def rules_of(
-    train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **requested: Any
-) -> tuple[CountConstraint, ...]:
+def rules_of(train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **requested: Any) -> tuple[Any, ...]:
     """The rules with some wheels free, by default all."""
     found = train if isinstance(train, Train) else declared(train)
     wheels = found.wheels if free is None else free
@@ -68,7 +65,7 @@ def columns(**counts: Any) -> dict[str, NDArray[np.int64]]:
     return {name: np.atleast_1d(np.array(count, dtype=np.int64)) for name, count in counts.items()}
 
 
-def passed(rules: Sequence[CountConstraint], **counts: int) -> bool:
+def passed(rules: Sequence[Any], **counts: int) -> bool:
     """True if a set of counts keeps all rules."""
     one = columns(**counts)
     return all(bool(rule.holds(one)[0]) for rule in rules)

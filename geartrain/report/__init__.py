@@ -31,6 +31,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.report.document import Branch as Branch
     from geartrain.report.document import Document as Document
     from geartrain.report.document import Picture as Picture
     from geartrain.report.document import Section as Section
@@ -58,6 +59,7 @@ if TYPE_CHECKING:
     from geartrain.report.train_report import describe_train as describe_train
 
 __all__ = [
+    "Branch",
     "Document",
     "FormulaReport",
     "MotionFigures",
@@ -86,7 +88,7 @@ __all__ = [
 ]
 
 _PLACES = {
-    **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
+    **dict.fromkeys(("Branch", "Document", "Picture", "Section", "Table"), "document"),
     **dict.fromkeys(("FormulaReport", "collect_formulas", "describe_formulas"), "formula_report"),
     **dict.fromkeys(("describe_gear_search", "describe_gearbox"), "gearbox_report"),
     "to_html": "html_page",

@@ -140,7 +140,12 @@ def _field_text(value: Any, digits: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """Node of a tree of text lines."""
+    """Node of a tree of text lines.
+
+    See Also
+    --------
+    Section : its field `branches` is a tree.
+    """
 
     text: str
     """Text of the line."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from commands import call
 
 import geartrain
-from geartrain.cli import app
 from geartrain.errors import DeclarationError
 
 STATES = """
@@ -27,10 +26,9 @@ def test_neutral_and_park_are_as_expected(tmp_path: Path) -> None:
     found = {answer.state: (answer.verdict.kind, bool(answer)) for answer in train.answers()}
     assert found["N"] == ("free", True)
     assert found["P"] == ("locked", True)
-    runner = CliRunner()
-    assert runner.invoke(app, ["check", str(file)]).exit_code == 0
-    assert runner.invoke(app, ["gearbox", str(file)]).exit_code == 0
-    assert runner.invoke(app, ["solve", str(file), "--state", "N"]).exit_code == 0
+    assert call("check", file).exit_code == 0
+    assert call("gearbox", file).exit_code == 0
+    assert call("solve", file, "--state", "N").exit_code == 0
 
 
 @pytest.mark.parametrize(("state", "wrong"), [("N", "locked"), ("N", "determined"), ("P", "free"), ("1", "free")])
@@ -39,7 +37,7 @@ def test_another_verdict_than_the_expected_one_fails(state: str, wrong: str, tmp
     said = {"N": "expect: free", "P": "expect: locked"}
     text = STATES + f"  {state}: {{expect: {wrong}}}\n" if state not in said else STATES
     file.write_text(text.replace(said.get(state, "nothing"), f"expect: {wrong}"), encoding="utf-8")
-    result = CliRunner().invoke(app, ["check", str(file)])
+    result = call("check", file)
     assert result.exit_code == 1
     assert wrong == "determined" or f"where `expect` says {wrong}" in result.output
 

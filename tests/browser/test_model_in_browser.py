@@ -19,8 +19,9 @@ from geartrain.workshop.export.triangle_files import Keyframes
 
 if TYPE_CHECKING:
     from conftest import OpenPage
+    from numpy.typing import NDArray
 
-    from geartrain.numerics.arrays import Floats
+    Floats = NDArray[np.float64]
 
 VIEWER = Path(__file__).parent.parent.parent / "geartrain" / "viewer"
 STEPS = 65534  # along the largest extent of a part

@@ -19,14 +19,17 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from geartrain.drawing.theme_colours import themed
-from geartrain.scene.palette import ThemeName
 
 _LINE, _AREA = 70.0, 15.0  # of 255: greys nearer to each other than this are one, of lines and of areas
 _WIDTH = 1.6  # ratio of two widths of lines that are told apart
 _SIZE = 1.3  # of two sizes of marks
 
 
-def alike(figure: Figure, theme: ThemeName = "print") -> list[tuple[str, str]]:
+KINDS = ("plan", "stick", "graph", "lever", "dials")
+"""Kinds of pictures of a train, as the refusal of another one lists them."""
+
+
+def alike(figure: Figure, theme: Any = "print") -> list[tuple[str, str]]:
     """Pairs of entries of one legend that a reader could not tell apart in a theme."""
     with themed(figure, theme):
         return [

@@ -15,9 +15,6 @@ pytest.importorskip("matplotlib")
 
 from geartrain.drawing import picture
 from geartrain.drawing.arrangement import Callout, CalloutMargin, find_margin
-from geartrain.drawing.plan_view import PlanNames
-from geartrain.drawing.projection import project_scene
-from geartrain.scene import make_scene
 
 EDGES, BOUNDS = (-0.3, 6.3), (0.0, 6.0)
 SPOT = st.tuples(*2 * [st.integers(0, 600).map(lambda hundredth: hundredth / 100)])
@@ -50,23 +47,6 @@ def test_no_line_crosses_another_and_no_list_stands_over_another(drawn: list[tup
     for side in (margin.left, margin.right):
         for (one, y), (other, v) in combinations(side, 2):
             assert abs(y - v) >= (one.height + other.height) / 2 - 1e-9
-
-
-def test_all_wheels_of_an_axis_share_a_line_and_stand_from_inside_out() -> None:
-    scene = make_scene(load("freeth-2021"))
-    standing = project_scene(scene, Fraction(0))
-    facing = [wheel for wheel in scene.wheels if standing.faces(wheel)]
-    written, callouts = PlanNames.of(standing, facing, lambda seen: 0.07 * seen[..., :2], 0.07).place()
-    wheels = {f"name {wheel.id}": wheel for wheel in facing}
-    told = [key for each in callouts for key, _ in each.words] + [f"name {wheel.id}" for wheel, _ in written]
-    assert sorted(told) == sorted(wheels)
-    places = [tuple(round(part, 3) for part in wheels[each.words[0][0]].centre[:2]) for each in callouts]
-    assert len(set(places)) == len(places) < len(told) / 2
-    for each, place in zip(callouts, places, strict=True):
-        radii = [wheels[key].radius for key, _ in each.words]
-        assert radii == sorted(radii)
-        if len(radii) > 1:
-            assert each.anchor == pytest.approx((0.07 * scene.front * place[0], 0.07 * place[1]), abs=1e-4)
 
 
 @pytest.mark.parametrize("name", ["huygens-planetarium-1682", "price-1974", "simpson-set"])

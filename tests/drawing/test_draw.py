@@ -7,7 +7,7 @@ import sys
 import xml.etree.ElementTree as ET
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, pairwise
+from itertools import combinations
 from math import atan2, hypot, pi
 from pathlib import Path
 from types import FrameType
@@ -17,8 +17,6 @@ import pytest
 import shipped
 import yaml
 from commands import LOCKED, call
-from hypothesis import given
-from hypothesis import strategies as st
 from places import TRAINS, train_files
 from shipped import train as load
 
@@ -30,13 +28,9 @@ pytest.importorskip("svgelements")
 
 import svgelements
 from matplotlib.figure import Figure
+from seen_figure import KINDS
 
 from geartrain.drawing import picture, render
-from geartrain.drawing.arrangement import arrange, spread
-from geartrain.drawing.dial_faces import dials_figure
-from geartrain.drawing.plan_view import plan_figure, points_in_discs
-from geartrain.drawing.train_pictures import KINDS
-from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors, scene_pose
 
 FEW = [
@@ -59,9 +53,11 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 @cache
-def drawn(name: str, kind: str, turns: Fraction = Fraction(0), state: str | None = None) -> Figure:
+def drawn(
+    name: str, kind: str, turns: Fraction = Fraction(0), state: str | None = None, outputs: tuple[str, ...] = ()
+) -> Figure:
     """A picture made once for the tests that only look at it."""
-    return picture(load(name), kind, state, turns)  # type: ignore[arg-type]
+    return picture(load(name), kind, state, turns, outputs=outputs)  # type: ignore[arg-type]
 
 
 @cache
@@ -330,7 +326,7 @@ def test_a_stick_diagram_without_clutches_is_as_it_was() -> None:
 
 def test_a_plan_bends_a_thin_wheel_where_its_wave_stands() -> None:
     """After a sixth of a turn the generator lies at 60 degrees, and the teeth are farthest out there."""
-    figure = plan_figure(make_scene(load("strain-wave")), Fraction(1, 6))
+    figure = picture(load("strain-wave"), "plan", turns=Fraction(1, 6))
     lobes = [line for line in figure.axes[0].lines if line.get_gid() == "wave generator"]
     ways = [np.diff(np.asarray(line.get_xydata()), axis=0)[0] for line in lobes]
     assert sorted(np.degrees(np.arctan2(y, x)) for x, y in ways) == pytest.approx([-120, 60])
@@ -433,9 +429,9 @@ def test_the_hands_of_a_clock_stand_where_the_time_is(turns: Fraction) -> None:
 
 
 def test_a_pointer_on_a_spiral_moves_outwards_with_every_turn() -> None:
-    reach, scene = [], shipped.scene("freeth-2021")
+    reach = []
     for years in (0, 4, 8, 12, 16):  # five turns in nineteen years
-        figure = dials_figure(scene, Fraction(years), ("metonic",))
+        figure = drawn("freeth-2021", "dials", turns=Fraction(years), outputs=("metonic",))
         (line,) = [line for line in figure.axes[0].lines if line.get_gid() == "pointer metonic"]
         (x, u), (y, v) = (np.asarray(each, dtype=float) for each in line.get_data())
         reach.append(hypot(u - x, v - y))
@@ -451,42 +447,20 @@ DIALLED = [name for name in shipped.trains() if load(name).declaration.dials and
 def test_a_pointer_at_its_zero_mark_reads_the_first_cell(name: str) -> None:
     """Its float error is some 1e-17 turns at the start, and of any sign."""
     scene = shipped.scene(name)
-    shown = {text.get_text() for text in dials_figure(scene).axes[0].texts}
+    shown = {text.get_text() for text in drawn(name, "dials").axes[0].texts}
     read = [each for each in scene.pointers if each.dial is not None and each.speed is not None]
     assert read
     for pointer in read:
         text = next(each for each in shown if each.startswith(f"{pointer.output}: at "))
-        assert scene.dials[pointer.dial or 0].scale.told(Fraction(0)) in text
+        assert scene.dials[pointer.dial or 0].scale.reading_text(Fraction(0)) in text
+
+
+def test_a_kind_that_is_none_is_refused_with_all_kinds() -> None:
+    assert f"kinds are {', '.join(KINDS)}" in refusal("longcase-clock", "map")
 
 
 def test_dials_name_what_they_do_not_have() -> None:
     assert "no output 'minute hand'" in refusal("longcase-clock", "dials", outputs=("minute hand",))
-
-
-# ----------------------------------------------------------------------------------------------------------- placement
-
-
-@given(st.lists(st.tuples(st.floats(-5, 5), st.floats(0.1, 2)), min_size=1, max_size=8))
-def test_boxes_are_spread_without_overlap_in_their_order(boxes: list[tuple[float, float]]) -> None:
-    wanted, needs = [place for place, _ in boxes], [width for _, width in boxes]
-    places = spread(wanted, needs, (-20.0, 20.0))
-    order = sorted(range(len(boxes)), key=lambda at: wanted[at])
-    for one, other in pairwise(order):
-        assert places[other] - places[one] >= (needs[one] + needs[other]) / 2 - 1e-9
-    if all(abs(a - b) >= (m + n) / 2 for (a, m), (b, n) in combinations(boxes, 2)):
-        assert places == pytest.approx(wanted)
-
-
-@given(st.lists(st.tuples(st.sampled_from("abcdefg"), st.sampled_from("abcdefg")), max_size=12))
-def test_an_arrangement_holds_every_item_once_and_no_single_move_shortens_it(pairs: list[tuple[str, str]]) -> None:
-    def length(order: list[str]) -> int:
-        return sum(abs(order.index(one) - order.index(other)) for one, other in pairs)
-
-    order = arrange("abcdefg", pairs)
-    assert sorted(order) == list("abcdefg")
-    for item in order:
-        rest = [other for other in order if other != item]
-        assert all(length([*rest[:at], item, *rest[at:]]) >= length(order) for at in range(7))
 
 
 # ------------------------------------------------------------------------------------------------------------- command
@@ -578,30 +552,18 @@ def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
                 "inputs": {"g0": 1},
             }
         )
-        scene, steps = make_scene(train), [0]
+        steps = [0]
 
         def entered(frame: FrameType, event: str, _: object, steps: list[int] = steps) -> None:
             steps[0] += event == "call" and of_drawing(frame.f_code.co_filename)
 
         sys.setprofile(entered)
         try:
-            plan_figure(scene)
+            picture(train, "plan")
         finally:
             sys.setprofile(None)
         counts.append(steps[0])
     assert counts[1] < 2.5 * counts[0], counts
-
-
-@given(
-    *(st.lists(st.tuples(*[st.floats(-9, 9)] * n), max_size=12) for n in (2, 3)),
-)
-def test_spots_are_hidden_by_the_discs_they_lie_in(
-    points: list[tuple[float, float]], discs: list[tuple[float, float, float]]
-) -> None:
-    found = points_in_discs(
-        np.array(points).reshape(-1, 2), np.array(discs).reshape(-1, 3)[:, :2], np.array([disc[2] for disc in discs])
-    )
-    assert list(found) == [any(hypot(x - u, y - v) < reach for u, v, reach in discs) for x, y in points]
 
 
 def test_a_figure_shows_itself_in_a_notebook() -> None:

@@ -17,13 +17,13 @@ from shipped import train as load
 pytest.importorskip("matplotlib")
 
 from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 from PIL import Image
+from seen_figure import KINDS
 
 from geartrain.drawing import picture, render
-from geartrain.drawing.style import HALO, Figure
 from geartrain.drawing.theme_colours import themed
-from geartrain.drawing.train_pictures import KINDS
 from geartrain.scene.palette import THEMES, series_colour
 
 _COLOUR = re.compile(rb"#[0-9a-f]{6}")
@@ -44,15 +44,6 @@ def test_a_picture_for_print_is_grey(kind: str) -> None:
     for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
         red, green, blue = (int(found[at : at + 2], 16) for at in (1, 3, 5))
         assert max(red, green, blue) - min(red, green, blue) <= 2, found
-
-
-def test_words_that_share_a_halo_are_all_on_paper() -> None:
-    figure = Figure()
-    for at in range(3):
-        figure.text(0.2, 0.2 + 0.2 * at, "words", path_effects=HALO)
-    found = _COLOUR.findall(render(figure, ".svg", theme="dark"))
-    assert THEMES["light"].paper.encode() not in found
-    assert found.count(THEMES["dark"].paper.encode()) >= 3
 
 
 def test_values_with_a_scale_of_colours_are_grey_in_print_and_as_before_after_it() -> None:

@@ -22,11 +22,10 @@ pytest.importorskip("matplotlib")
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
-from seen_figure import alike
+from seen_figure import KINDS, alike
 from written_text import read_picture
 
 from geartrain.drawing import picture, render
-from geartrain.drawing.train_pictures import KINDS
 
 MINIMUM = 8.0  # points
 WIDEST = 34.0  # inches: 3,400 pixels as the command draws them

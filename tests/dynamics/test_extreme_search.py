@@ -9,7 +9,6 @@ import pytest
 
 from geartrain import load
 from geartrain.dynamics import Motion, MotionRun
-from geartrain.dynamics.motion.rate_bounds import RangeExtremes, RateBounds
 
 FREETH = ("moon", "mars", "saturn", "draconic month", "mercury")
 
@@ -88,33 +87,6 @@ def test_a_run_too_long_to_be_searched_says_how_far_it_may_be_off() -> None:
     # what is told is attained, and what may be more does not pass the sum of all ranges
     (whole,) = _run(motion, 20, 2_000).statistics
     assert tally.peak_to_peak + 2 * tally.error_within > whole.peak_to_peak
-
-
-@pytest.mark.parametrize("name", ["moon-triangular", "longcase-clock-bs978", "pennestri-2002-teeth", "freeth-2021"])
-def test_bounds_over_steps_hold_what_lies_in_them(name: str) -> None:
-    composition = load(name).motion()._forward
-    random = np.random.default_rng(5)
-    for width in (1e-5, 1e-3, 0.03):
-        low = random.uniform(0, 2, 200)
-        found = RateBounds(composition).over(low, low + width)
-        errors = found.errors()
-        for share in random.uniform(0, 1, 40):
-            inside = composition.at(low + share * width)
-            assert (inside.error <= errors.high + 1e-12).all()
-            assert (inside.error >= errors.low - 1e-12).all()
-            assert (inside.rate <= found.rate.high + 1e-9).all()
-            assert (inside.rate >= found.rate.low - 1e-9).all()
-
-
-def test_extremes_of_runs_of_a_row_are_those_of_its_entries() -> None:
-    random = np.random.default_rng(3)
-    values = random.normal(size=23)
-    table = RangeExtremes(values, values + 1)
-    first, length = random.integers(-60, 60, 400), random.integers(1, 30, 400)
-    minimum, most = table.over(first, first + length - 1)
-    for at in range(400):
-        entries = values[np.arange(first[at], first[at] + min(length[at], 23)) % 23]
-        assert (minimum[at], most[at]) == (entries.min(), entries.max() + 1)
 
 
 def test_speeds_at_a_jump_count_from_both_sides() -> None:

@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
+from commands import call
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.cli import app
 
 DIFFERENTIAL = """
 frame: case
@@ -77,11 +76,10 @@ def test_a_brake_says_by_which_clutch_it_holds(accepted: Callable[[str], GearTra
 def test_solve_check_report_and_json_agree_on_a_held_spider(tmp_path: Path) -> None:
     path = tmp_path / "held.yaml"
     path.write_text(DIFFERENTIAL + "fixed: [spider]\ninputs: {left: 1}\n")
-    run = CliRunner().invoke
-    solved, checked, reported = (run(app, [*verb.split(), str(path)]) for verb in ("solve", "check", "report"))
+    solved, checked, reported = (call(*verb.split(), path) for verb in ("solve", "check", "report"))
     assert (solved.exit_code, checked.exit_code, reported.exit_code) == (1, 1, 1)
     (verdict, one) = (
-        json.loads(run(app, ["solve", "--json", *more, str(path)]).stdout)["states"][0]["verdict"]
+        json.loads(call("solve", "--json", *more, path).stdout)["states"][0]["verdict"]
         for more in ([], ["--of", "crown"])
     )
     text = verdict["text"]
@@ -274,7 +272,7 @@ def test_an_input_without_an_axis_of_its_own_refuses_its_state_alone() -> None:
 def test_every_command_judges_each_state_by_itself(verb: str, tmp_path: Path) -> None:
     path = tmp_path / "states.yaml"
     path.write_text(STATES, encoding="utf-8")
-    done = CliRunner().invoke(app, [*verb.split(), str(path)])
+    done = call(*verb.split(), path)
     assert done.exit_code in (0, 1), done.output
     assert "makes a linkage" in " ".join(done.output.split()) or verb == "gearbox"
     if verb in ("check", "solve", "report", "gearbox"):

@@ -8,16 +8,12 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from sampling import first_few
 from shipped import every_train
 from shipped import train as load
 
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
-from geartrain.kinematics.formulas.closed_forms import FactoredPolynomial
-from geartrain.kinematics.formulas.laurent import Laurent, product
 
 PLANETARY = """
 name: set
@@ -196,32 +192,3 @@ def test_an_output_that_is_not_there_or_not_determined_is_refused_in_words() -> 
     free = declared(PLANETARY + "inputs: {sun: 1}\noutputs: {carrier: {}}\n")
     with pytest.raises(GearTrainError, match="inputs do not determine"):
         free.formula("carrier")
-
-
-MONOMIALS = st.tuples(st.integers(0, 2), st.integers(0, 2))
-
-
-@st.composite
-def apart(draw: st.DrawFn) -> list[Laurent]:
-    """Polynomials of two variables each, none in common."""
-    found = []
-    for at in range(draw(st.integers(1, 3))):
-        terms = draw(st.dictionaries(MONOMIALS, st.integers(-4, 4).filter(bool), min_size=1, max_size=4))
-        spread = {(0,) * 2 * at + powers + (0,) * (4 - 2 * at): Fraction(value) for powers, value in terms.items()}
-        found.append(Laurent(6, spread))
-    return found
-
-
-@settings(deadline=None)
-@given(apart())
-def test_factors_without_a_variable_in_common_are_found(parts: list[Laurent]) -> None:
-    whole = product(parts, 6)
-    point = [7, 11, 13, 17, 19, 23]
-    found = FactoredPolynomial.of(whole.sorted_terms(), point)
-    sums = [Laurent.of(terms, 6) for terms in found.sums]
-    powers = Laurent(6, {found.powers: Fraction(found.content)})
-    assert product([powers, *sums], 6) == whole
-    used = [{at for powers in each.terms for at, power in enumerate(powers) if power} for each in sums]
-    assert sum(map(len, used)) == len(set().union(*used)), "no variable stands in two of them"
-    long = sum(len(part.primitive()) > 1 for part in parts)
-    assert len(sums) >= long, "none of those that were put in is left in another"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import os
 import re
@@ -23,19 +22,16 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT
-from rich.console import Console
 
 from geartrain import load
-from geartrain.cli.common import as_json
 from geartrain.report import (
     collect_report,
-    collect_torque_report,
     describe_comparison,
     describe_train,
     to_html,
     to_markdown,
+    to_text,
 )
-from geartrain.report.text import to_terminal
 
 Write = Callable[..., Path]
 Rows = list[list[str]]
@@ -256,11 +252,10 @@ def test_what_is_wider_than_paper_is_printed_in_strips_with_every_cell_once() ->
 
 @pytest.mark.parametrize("name", shipped.every_train())
 def test_json_of_every_shipped_train_has_the_shapes_of_the_schema(name: str) -> None:
-    train, report = shipped.train(name), json.loads(as_json([shipped.report(name)]))
+    train, report = shipped.train(name), json.loads(call("report", name, "--json").stdout)
     holds("report", report)
     holds("solve", json.loads(call("solve", name, "--json").stdout))
-    torques = collect_torque_report(train, [train.torques(state) for state in train.states or (None,)])
-    holds("torques", json.loads(as_json(torques)))
+    holds("torques", json.loads(call("torques", name, "--json").stdout))
     (entry,) = report
     assert [each["state"] for each in entry["states"]] == list(train.states or (None,))
 
@@ -474,10 +469,7 @@ def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name:
 
 
 def terminal(name: str, width: int) -> str:
-    console = Console(file=io.StringIO(), width=width, color_system=None)
-    to_terminal([describe_train(shipped.report(name))], console)
-    assert isinstance(console.file, io.StringIO)
-    return console.file.getvalue()
+    return to_text([describe_train(shipped.report(name))], width)
 
 
 def strips(shown: str) -> Iterator[tuple[str, str]]:

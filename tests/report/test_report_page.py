@@ -17,6 +17,7 @@ from markdown_it import MarkdownIt
 
 from geartrain import load
 from geartrain.report import (
+    Branch,
     Document,
     Picture,
     Section,
@@ -28,7 +29,6 @@ from geartrain.report import (
     to_html,
     to_markdown,
 )
-from geartrain.report.document import Branch
 from geartrain.report.html_page import inline, is_web
 
 SVG = (

@@ -14,7 +14,6 @@ from shipped import train as load
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.parts import frame_plan
 from geartrain.scene.parts.arbor_columns import AxisColumn, FramePlaces
-from geartrain.scene.parts.stack_discs import StackDisc
 
 EFFORT = {"between": Fraction(3), "beyond": Fraction(3, 2), "passes": Fraction(11, 10)}
 CORES = (4.0, 3.0, 2.0, 1.5, 1.0, 0.8)
@@ -84,17 +83,3 @@ def test_the_arbor_is_the_thickest_usual_one_that_passes_all_wheels(monkeypatch:
                     thinned += 1
                     assert column.core == max(fit)
     assert thinned > 0
-
-
-def test_gaps_between_wheels_and_axes_are_not_computed_for_every_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    count, clearance_to = [0], StackDisc.clearance_to
-
-    def counted(disc: StackDisc, *column: Any) -> float:
-        count[0] += 1
-        return clearance_to(disc, *column)
-
-    monkeypatch.setattr(StackDisc, "clearance_to", counted)
-    (axes, discs, seats, *_), _ = searched("freeth-2021", monkeypatch)
-    ways = sum(1 for _ in product(*seats))
-    # once for every way to seat carriers, in three searches, and again for the axes that carriers bear
-    assert count[0] < 20 * ways * len(axes) * len(discs)

@@ -21,9 +21,7 @@ from sampling import few_or_many
 from strategies import driven_trains, requested_trains, rerooted
 
 from geartrain import GearTrain, load
-from geartrain.scene import Scene, lay_out, make_scene
-from geartrain.scene.bodies import find_bodies
-from geartrain.scene.context import SceneContext
+from geartrain.scene import Scene, make_scene
 from geartrain.scene.pose import scene_pose
 
 SAMPLE = few_or_many(20, 40)  # `--slow` draws new trains, and twice as many
@@ -95,7 +93,7 @@ def test_a_body_hangs_on_the_link_that_bears_its_axis_however_coaxial_joints_are
 ) -> None:
     for data in both:
         graph, train = turning_graph(data), GearTrain.declare(data)
-        bodies = find_bodies(SceneContext(train, train.solve(method="exact"), lay_out(train)))
+        bodies = make_scene(train).bodies
         for body in bodies:
             if body.parent is None:
                 assert body.id == "frame"

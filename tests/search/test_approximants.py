@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from sampling import few_or_many
 
 from geartrain.errors import QuestionError, RangeError
-from geartrain.search import TargetRatio, approximants, read_counts, read_ratio
-from geartrain.search.ratio.gear_pair_search import count_pairs, find_pairs
-from geartrain.search.stern_brocot import nearest_first, neighbours, runs
+from geartrain.search import StageFindings, TargetRatio, approximants, find_stages, read_counts, read_ratio
+from geartrain.search.ratio import stage_search
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 ROOT = Fraction(math.isqrt(2 * 10**400), 10**200)  # the square root of two, to 200 decimals
@@ -131,36 +130,28 @@ def test_brocots_example() -> None:
     assert rows[2:] == [(17, 2, 9), (25, 3, 2), (33, 4, -5), (58, 7, -3), (83, 10, -1), (108, 13, 1), (191, 23, 0)]
 
 
-def test_long_targets_cost_as_many_runs_as_terms() -> None:
-    assert len(list(runs(ROOT, 10**190))) < 600
-    (run,) = runs(Fraction(1, 10**9), 10**9)
-    assert (run.length, run.at(run.length), run.at(7)) == (10**9, Fraction(1, 10**9), Fraction(1, 7))
+def test_a_long_target_without_a_kind_is_refused() -> None:
     assert values(Fraction(1, 10**9), 10**12, "convergent") == ["1/1000000000"]
     with pytest.raises(RangeError, match="only the convergents"):
         approximants(Fraction(1, 10**9), 10**9)
-    below, above = neighbours(ROOT, 10**90, 10**90)
-    assert above[0] * below[1] - above[1] * below[0] == 1
-
-
-def box(most_numerator: int, most_denominator: int) -> list[Fraction]:
-    return sorted({Fraction(p, q) for p in range(1, most_numerator + 1) for q in range(1, most_denominator + 1)})
-
-
-@given(positive, st.integers(1, 15), st.integers(1, 15))
-def test_fractions_by_distance_are_complete_and_in_order(a: Fraction, P: int, Q: int) -> None:
-    everything = box(P, Q)
-    assert list(nearest_first(a, P, Q)) == sorted(everything, key=lambda f: (abs(f - a), f))
-    below, above = neighbours(a, P, Q)
-    assert Fraction(*below) == max((f for f in everything if f < a), default=0)
-    assert (above == (1, 0)) == (everything[-1] < a)
-    assert above == (1, 0) or Fraction(*above) == min(f for f in everything if f >= a)
 
 
 def test_numbers_that_are_not_positive_are_refused() -> None:
     with pytest.raises(QuestionError, match="must be positive"):
         approximants(Fraction(0), 10)
-    with pytest.raises(QuestionError, match="must be positive"):
-        neighbours(Fraction(1, 2), 0, 10)
+
+
+def pairs(
+    wanted: TargetRatio,
+    wheels: Sequence[int],
+    pinions: Sequence[int],
+    tolerance: Fraction | None = None,
+    best: int | None = None,
+) -> StageFindings:
+    """One stage, by the search in long ranges whatever their length."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(stage_search, "_LONG", 0)
+        return find_stages(wanted, 1, wheels, pinions, tolerance=tolerance, best=best)  # type: ignore[arg-type]
 
 
 def all_pairs(
@@ -184,7 +175,7 @@ tolerances = st.none() | st.builds(Fraction, st.integers(0, 300), st.integers(1,
 def test_pairs_are_those_of_brute_force(
     value: Fraction, wheels: Sequence[int], pinions: Sequence[int], tolerance: Fraction | None, best: int | None
 ) -> None:
-    found = find_pairs(TargetRatio(value), wheels, pinions, tolerance, best)
+    found = pairs(TargetRatio(value), wheels, pinions, tolerance, best)
     expected = all_pairs(value, wheels, pinions, tolerance)
     assert [stages.pairs[0] for stages in found] == expected[: 20 if best is None and tolerance is None else best]
     for stages in found:
@@ -192,7 +183,7 @@ def test_pairs_are_those_of_brute_force(
         assert stages.ratio == Fraction(stages.top[0], stages.beneath[0])
         assert stages.error == stages.ratio / value - 1
     if tolerance is not None:
-        assert count_pairs(TargetRatio(value), wheels, pinions, tolerance) == len(expected)
+        assert found.count == len(expected)
 
 
 def pairs_by_denominator(
@@ -210,9 +201,10 @@ def pairs_by_denominator(
 def check_ranges(value: Fraction, wheels: range, pinions: range, tolerance: Fraction, best: int) -> None:
     top, beneath = (wheels, pinions) if value >= 1 else (pinions, wheels)
     inside = pairs_by_denominator(value, top, beneath, tolerance)
-    assert [stages.pairs[0] for stages in find_pairs(TargetRatio(value), wheels, pinions, tolerance)] == inside
-    assert count_pairs(TargetRatio(value), wheels, pinions, tolerance) == len(inside)
-    found = [stages.pairs[0] for stages in find_pairs(TargetRatio(value), wheels, pinions, best=best)]
+    within = pairs(TargetRatio(value), wheels, pinions, tolerance)
+    assert [stages.pairs[0] for stages in within] == inside
+    assert within.count == len(inside)
+    found = [stages.pairs[0] for stages in pairs(TargetRatio(value), wheels, pinions, best=best)]
     assert found[: len(inside)] == inside[:best]
     assert len(found) == min(best, len(top) * len(beneath))
 
@@ -242,10 +234,10 @@ def test_so_do_ranges_where_the_tree_is_the_shorter_way(value: str, minimum: int
 @given(st.integers(10**30, 10**32), st.integers(10**7, 10**9))
 def test_in_ranges_of_a_thousand_million_the_best_pair_is_the_nearest_fraction(number: int, most: int) -> None:
     value = Fraction(number, 10**30)
-    (best,) = find_pairs(TargetRatio(value), range(1, 10**12), range(1, most + 1), best=1)
+    (best,) = pairs(TargetRatio(value), range(1, 10**12), range(1, most + 1), best=1)
     # the standard library finds the nearest fraction by its denominator alone
     assert best.ratio == value.limit_denominator(most)
-    (long,) = find_pairs(TargetRatio(value), range(1, 10**12), range(most // 2, most + 1), best=1)
+    (long,) = pairs(TargetRatio(value), range(1, 10**12), range(most // 2, most + 1), best=1)
     assert abs(long.error) >= abs(best.error)
     assert long.beneath[0] >= most // 2
 
@@ -253,30 +245,30 @@ def test_in_ranges_of_a_thousand_million_the_best_pair_is_the_nearest_fraction(n
 def test_the_month_in_a_range_of_a_thousand_million() -> None:
     wanted = read_ratio("year_tropical_J2000 / month_synodic_J2000")
     wheels = read_counts("12:1000000000")
-    found = find_pairs(wanted, wheels, wheels, best=5)
+    found = pairs(wanted, wheels, wheels, best=5)
     assert len(found) == 5
     errors = [abs(stages.error) for stages in found]
     assert errors == sorted(errors)
     assert errors[0] < Fraction(1, 10**16)
-    (metonic,) = find_pairs(wanted, range(12, 300), range(12, 30), best=1)
+    (metonic,) = pairs(wanted, range(12, 300), range(12, 30), best=1)
     assert metonic.pairs == ((235, 19),)
 
 
 def test_a_ratio_below_one_has_its_wheels_beneath() -> None:
-    (found,) = find_pairs(read_ratio("19/235"), range(100, 300), range(12, 60), best=1)
+    (found,) = pairs(read_ratio("19/235"), range(100, 300), range(12, 60), best=1)
     assert (found.top, found.beneath, found.error) == ((19,), (235,), 0)
 
 
 def test_multiples_of_an_exact_fraction_are_all_there() -> None:
-    found = find_pairs(read_ratio("235/19"), range(30, 1000), range(12, 100), Fraction(0))
+    found = pairs(read_ratio("235/19"), range(30, 1000), range(12, 100), Fraction(0))
     assert [stages.pairs[0] for stages in found] == [(235, 19), (470, 38), (705, 57), (940, 76)]
     wheels = read_counts("12:1000000000")
-    assert [stages.pairs[0] for stages in find_pairs(read_ratio("1"), wheels, wheels, best=3)] == [
+    assert [stages.pairs[0] for stages in pairs(read_ratio("1"), wheels, wheels, best=3)] == [
         (12, 12),
         (13, 13),
         (14, 14),
     ]
-    assert count_pairs(read_ratio("1"), wheels, wheels, Fraction(0)) == 10**9 - 11
+    assert pairs(read_ratio("1"), wheels, wheels, Fraction(0), best=1).count == 10**9 - 11
 
 
 @pytest.mark.parametrize(
@@ -292,23 +284,23 @@ def test_multiples_of_an_exact_fraction_are_all_there() -> None:
 def test_a_ratio_out_of_reach_has_its_nearest_pair_at_a_corner(
     value: str, wheels: str, pinions: str, pair: tuple[int, int]
 ) -> None:
-    found = find_pairs(read_ratio(value), read_counts(wheels), read_counts(pinions), best=2)
+    found = pairs(read_ratio(value), read_counts(wheels), read_counts(pinions), best=2)
     assert found[0].pairs == (pair,)
     assert abs(found[1].error) >= abs(found[0].error)
 
 
 def test_a_list_too_long_is_counted_and_refused() -> None:
     wheels = read_counts("12:1000000000")
-    number = count_pairs(read_ratio("13.368267"), wheels, wheels, Fraction(1, 10**6))
+    number = pairs(read_ratio("13.368267"), wheels, wheels, Fraction(1, 10**6), best=1).count
     with pytest.raises(RangeError, match=f"{number} pairs are within the tolerance"):
-        find_pairs(read_ratio("13.368267"), wheels, wheels, Fraction(1, 10**6))
-    assert len(find_pairs(read_ratio("13.368267"), wheels, wheels, Fraction(1, 10**6), best=7)) == 7
+        pairs(read_ratio("13.368267"), wheels, wheels, Fraction(1, 10**6))
+    assert len(pairs(read_ratio("13.368267"), wheels, wheels, Fraction(1, 10**6), best=7)) == 7
 
 
 def test_impossible_questions_are_refused() -> None:
     with pytest.raises(QuestionError, match="give 0 or more"):
-        find_pairs(read_ratio("2"), [30], [15], Fraction(-1, 10))
+        pairs(read_ratio("2"), [30], [15], Fraction(-1, 10))
     with pytest.raises(QuestionError, match="give best >= 1"):
-        find_pairs(read_ratio("2"), [30], [15], best=0)
+        pairs(read_ratio("2"), [30], [15], best=0)
     with pytest.raises(QuestionError, match="no tooth counts"):
-        find_pairs(read_ratio("2"), [], [15])
+        pairs(read_ratio("2"), [], [15])

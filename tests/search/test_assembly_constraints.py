@@ -8,11 +8,13 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import product
 from math import gcd
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from fitters import SIMPLE, box, columns, declared, epicyclic, passed, rules_of
+from commands import call
+from fitters import SIMPLE, box, columns, epicyclic, passed, rules_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sampling import few_or_many
@@ -21,16 +23,17 @@ from teeth3d import best, in_space
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.numerics import Quantity
-from geartrain.search import ConstraintOptions
-from geartrain.search.constraints.assembly_constraints import find_constraints
-from geartrain.search.constraints.constraint_options import read_constraint_options
-from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
+from geartrain.search import ConstraintOptions, search_train
 
 Data = dict[str, Any]
 
 
-def equations(rules: Sequence[CountConstraint]) -> list[CountEquation]:
-    return [rule for rule in rules if isinstance(rule, CountEquation)]
+def equations(rules: Sequence[Any]) -> list[Any]:
+    return [rule for rule in rules if is_equation(rule)]
+
+
+def is_equation(rule: object) -> bool:
+    return hasattr(rule, "coefficients")
 
 
 def length(text: str) -> Quantity:
@@ -168,39 +171,13 @@ def test_bevel_wheels_have_no_sums() -> None:
     assert [rule.name for rule in found] == ["2 equal planets on 'crown': 2 divides l16 + r16"]
 
 
-# ----------------------------------------------------------------------------------------------------------- equations
-
-
-@given(
-    st.dictionaries(st.sampled_from("abcd"), st.integers(-6, 6).filter(bool), min_size=1),
-    st.integers(-40, 40),
-    st.integers(0, 10**6),
-)
-def test_an_equation_solved_for_a_wheel_gives_the_counts_that_meet_it(
-    factors: dict[str, int], constant: int, seed: int
-) -> None:
-    rule = CountEquation("", factors, constant)
-    rng = np.random.default_rng(seed)
-    found = {wheel: rng.integers(1, 30, 40) for wheel in factors}
-    wheel = rng.choice(list(factors))
-    others = {name: column for name, column in found.items() if name != wheel}
-    counts, whole = rule.solve_for(wheel, others)
-    assert counts.dtype == np.int64
-    for at in range(40 if others else 1):
-        rest = constant + sum(factors[name] * int(column[at]) for name, column in others.items())
-        meets = [z for z in range(-abs(rest), abs(rest) + 1) if factors[wheel] * z + rest == 0]
-        assert ([int(counts[at])] if whole[at] else []) == meets
-    wanted = [sum(factors[name] * int(found[name][at]) for name in factors) + constant == 0 for at in range(40)]
-    assert rule.holds(found).tolist() == wanted
-
-
 # ------------------------------------------------------------------------------------------------------- equal planets
 
 
-def planet_rule(data: Data, number: int) -> Condition:
+def planet_rule(data: Data, number: int) -> Any:
     """The condition that so many equal planets can be put in."""
     (rule,) = [rule for rule in rules_of(data, planets=number, coaxial=False) if "equal planets" in rule.name]
-    assert isinstance(rule, Condition)
+    assert not is_equation(rule)
     return rule
 
 
@@ -463,8 +440,7 @@ def test_wheels_without_a_count_get_rules_too() -> None:
     for link, wheel in (("Ls", "s"), ("Lr", "r"), ("P0", "p")):
         own = data["links"][link]["wheels"]
         own[wheel] = {"teeth": {"search": [12, 80]}} | ({"internal": True} if wheel == "r" else {})
-    free = {wheel: tuple(range(12, 81)) for wheel in "spr"}
-    rules = find_constraints(declared(data), free, ConstraintOptions(planets=3, clearance=Fraction(0)))
+    rules = rules_of(data, planets=3, clearance=Fraction(0))
     assert len(rules) == 3
     grid = box(s=range(12, 30), p=range(12, 30), r=range(40, 80))
     kept = np.logical_and.reduce([rule.holds(grid) for rule in rules])
@@ -475,17 +451,17 @@ def test_wheels_without_a_count_get_rules_too() -> None:
 
 def test_rules_can_be_sent_to_other_processes_and_come_cheapest_first() -> None:
     train = load("planets-in-place").declaration
-    requested = read_constraint_options(
-        planets="3", clearance="0.5", undercut="20 deg", interference="20 deg", ring_addendum="0.8", minimum=12,
-        hunting=True, different=True, closure=True,
+    pressure = Quantity.parse("20 deg", "angle", plain=False)
+    rules = rules_of(
+        train, planets=3, clearance=Fraction(1, 2), undercut=pressure, interference=pressure,
+        ring_addendum=Fraction(4, 5), minimum=12, hunting=True, different=True, closure=True,
     )  # fmt: skip
-    rules = find_constraints(train, dict.fromkeys(train.wheels, (20, 21)), requested)
     some = columns(**{wheel: [20, 24, 18] for wheel in train.wheels})
     for rule in rules:
         again = pickle.loads(pickle.dumps(rule))
         assert again.name == rule.name
         assert again.holds(some).tolist() == rule.holds(some).tolist()
-    kinds = [(isinstance(rule, Condition), len(rule.wheels)) for rule in rules]
+    kinds = [(not is_equation(rule), len(rule.wheels)) for rule in rules]
     first = next(at for at, (condition, _) in enumerate(kinds) if not condition)
     last = max(at for at, (condition, _) in enumerate(kinds) if not condition)
     assert all(count == 1 for _, count in kinds[:first])
@@ -493,20 +469,32 @@ def test_rules_can_be_sent_to_other_processes_and_come_cheapest_first() -> None:
     assert "phase closure" in rules[-1].name
 
 
-def test_what_is_requested_is_read_from_texts() -> None:
-    assert read_constraint_options() == ConstraintOptions()
-    found = read_constraint_options(
-        planets="arm=3, inner=4", clearance="1/2", undercut="14.5 deg", largest_radius="60 mm", minimum=9
+PLANETS = """
+extends: planetary-24-18-60
+links:
+  sun: {wheels: {s: {teeth: {value: 24, search: [20, 28]}}}}
+  planet: {wheels: {p: {teeth: {value: 18, search: [15, 20]}}}}
+outputs: {carrier: {targets: [{speed: 2/7, tolerance: 5 %}]}}
+"""
+
+
+@pytest.mark.parametrize("planets", [3, {"carrier": 3}])
+def test_the_command_reads_what_is_requested_from_texts(planets: Any, tmp_path: Path) -> None:
+    (tmp_path / "set.yaml").write_text(PLANETS)
+    texts = ("3" if planets == 3 else "carrier=3", "1/2", "14.5 deg", "60", "9")
+    named = ("planets", "clearance", "undercut", "max-radius", "min-teeth")
+    given = (f"--{name}={text}" for name, text in zip(named, texts, strict=True))
+    found = call("teeth", "train", tmp_path / "set.yaml", "--json", *given)
+    options = ConstraintOptions(
+        planets=planets,
+        clearance=Fraction(1, 2),
+        undercut=Quantity.parse("14.5 deg", "angle", plain=False),
+        largest_radius=length("60"),
+        minimum=9,
     )
-    assert found.planets == {"arm": 3, "inner": 4}
-    assert found.clearance == Fraction(1, 2)
-    assert found.minimum == 9
-    assert read_constraint_options(planets="3").planets == 3
-    plain = json.loads(json.dumps(found.to_dict()))
-    assert plain == {
-        "shift": 0, "planets": {"arm": 3, "inner": 4}, "clearance": "1/2", "undercut": "14.5 deg", "addendum": "1",
-        "minimum": 9, "largest_radius": "60 mm",
-    }  # fmt: skip
+    rules = [[*part.rules] for part in search_train(load(PLANETS).declaration, rules=options).parts]
+    assert sum(map(len, rules)) > 4
+    assert [part["rules"] for part in json.loads(found.stdout)["parts"]] == rules
 
 
 @pytest.mark.parametrize(
@@ -516,15 +504,16 @@ def test_what_is_requested_is_read_from_texts() -> None:
         {"planets": "3,4"},
         {"clearance": "much"},
         {"undercut": "20"},
-        {"largest_radius": "20 deg"},
+        {"max-radius": "20 deg"},
         {"interference": "20 mm", "addendum": "x"},
     ],
 )
 def test_what_cannot_be_read_is_refused_with_advice(texts: dict[str, str]) -> None:
-    with pytest.raises(QuestionError) as caught:
-        read_constraint_options(**texts)
-    assert len(caught.value.problems) == len(texts)
-    assert all(problem.what.startswith("--") and problem.fix for problem in caught.value.problems)
+    given = (f"--{name}={text}" for name, text in texts.items())
+    found = call("teeth", "train", "planetary-24-18-60", *given)
+    problems = str(found.exception).split("\n--")
+    assert len(problems) == len(texts)
+    assert all(f"{name}: " in problem and "fix: " in problem for name, problem in zip(texts, problems, strict=True))
 
 
 @pytest.mark.parametrize("angle", ["0 deg", "90 deg", "-20 deg"])

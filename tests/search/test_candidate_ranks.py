@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from fractions import Fraction
 
 import pytest
-from concrete_trees import explanations, package_arbor, random_problem
+from concrete_trees import concrete, explanations, plain_prior, random_problem
 
 from geartrain.search.reconstruct import (
     ExplanationCount,
@@ -15,17 +14,15 @@ from geartrain.search.reconstruct import (
     describe_reconstruction,
     find_reconstructions,
 )
-from geartrain.search.reconstruct.reconstruction_search import train_key, train_prior
 
 
 @pytest.mark.parametrize("seed", range(60, 100))
 def test_ranks_are_those_among_all_trains(seed: int) -> None:
     problem = random_problem(seed, idlers=True)
-    grown = [package_arbor(tree) for found in explanations(problem) for tree in found.solutions]
-    weights: dict[object, Fraction] = {train_key(arbor): train_prior(arbor, problem) for arbor in grown}
+    weights = {tree: plain_prior(tree, problem) for found in explanations(problem) for tree in found.solutions}
     alike = Counter(weights.values())
     for one in find_reconstructions(problem, listed=1).candidates:
-        own = weights[train_key(one.arbor)]
+        own = weights[concrete(one.arbor)]
         heavier = sum(number for weight, number in alike.items() if weight > own)
         assert one.ranks == (heavier + 1, heavier + alike[own])
 

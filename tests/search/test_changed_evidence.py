@@ -1,4 +1,4 @@
-"""What one fact carried, and why nothing fits: against plain growth of concrete trees, and numbers by hand."""
+"""What one fact carried, and why nothing fits: against other programs, and numbers by hand."""
 
 from __future__ import annotations
 
@@ -6,35 +6,37 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from concrete_trees import exact_dial, explanations, random_problem, sure_arbor
+from concrete_trees import declared, exact_dial, sure_arbor
+from places import TRAINS
 
-from geartrain.errors import Problem, QuestionError
+from geartrain import Problem, QuestionError
 from geartrain.search.reconstruct import (
     Additions,
-    ExplanationCount,
+    ReconstructionAnswer,
     ReconstructionProblem,
-    Reconstructions,
-    SurvivingWheel,
-    evidence_question,
+    ReconstructionRequest,
+    describe_reconstruction,
+    dropped_facts,
+    find_reconstructions,
     read_evidence,
+    reconstruct,
 )
-from geartrain.search.reconstruct.dropped_facts import (
-    LoneDial,
-    changed_counts,
-    explain_missing,
-    without_each_dial,
-    without_each_fact,
-)
-from geartrain.search.reconstruct.reconstruction_problem import MeasuredWheel, PlacedArbor, SurvivingGeometry
+from geartrain.train import Train
 
 
-def grown(problem: ReconstructionProblem) -> Reconstructions:
-    """Plain growth as a search, which lists nothing."""
-    return Reconstructions(tuple(ExplanationCount(*each.counts) for each in explanations(problem)), True, ())
-
-
-def refusing(problem: ReconstructionProblem) -> Reconstructions:
+def refusing(problem: ReconstructionProblem) -> None:
     raise QuestionError(Problem("not today", "", ""))
+
+
+def answered(problem: ReconstructionProblem | Train) -> ReconstructionAnswer:
+    """The answer with the counts without each fact."""
+    evidence = problem if isinstance(problem, Train) else declared(problem)
+    return reconstruct(ReconstructionRequest(evidence, assumptions=True))
+
+
+def counts(problem: ReconstructionProblem | Train) -> dict[str, tuple[int, ...]]:
+    """Change -> numbers of trains."""
+    return {one.change: one.solutions for one in answered(problem).findings.assumptions}
 
 
 TOY = ReconstructionProblem(
@@ -50,7 +52,7 @@ def test_every_hard_fact_is_dropped_once() -> None:
         apart=frozenset({frozenset(("i", "a2"))}),
         coaxial=frozenset({frozenset(("in", "a"))}),
     )
-    assert [one.change for one in without_each_fact(problem)] == [
+    assert list(counts(problem)) == [
         "without the fact that a1 and i mesh",
         "without the fact that a2 and i do not mesh",
         "without the fact that a and in are coaxial",
@@ -66,51 +68,49 @@ def test_every_hard_fact_is_dropped_once() -> None:
 
 def test_all_that_distances_keep_apart_is_one_fact() -> None:
     """Radii 10 and 15 of i and a1 do not reach over 40 mm, 10 and 7.5 of i and a2 neither"""
-    wheels = tuple(MeasuredWheel(name, True, Fraction(1)) for name in ("i", "a1", "a2"))
-    arbors = tuple(PlacedArbor(name, (Fraction(x), Fraction(0))) for name, x in (("in", 0), ("a", 40)))
-    geometry = SurvivingGeometry(wheels, arbors, reach=Fraction(1))
-    apart = frozenset(map(frozenset, (("i", "a1"), ("i", "a2"))))
-    found = without_each_fact(replace(TOY, apart=apart, geometry=geometry))
-    assert found[0].change == "if the distances of axes exclude no meshes"
-    assert not found[0].problem.apart
-    assert found[0].problem.geometry.reach is None
-    assert "apart" not in found[1].change
+    evidence = read_evidence("""
+links: {in: {wheels: {i: {teeth: 20, module: 1 mm}}},
+        a: {wheels: {a1: {teeth: 30, module: 1 mm}, a2: {teeth: 15, module: 1 mm}}}}
+axes: {I: {position: [0 mm, 0 mm, 0 mm]}, A: {position: [40 mm, 0 mm, 0 mm]}}
+revolutes: [{pair: [frame, in], axis: I}, {pair: [frame, a], axis: A}]
+inputs: {in: 1}
+outputs: {p: {of: new, expect: 1}}
+reconstruct: {add: {wheels: 1, teeth: [10, 16]}, geometry: {reach: 1 mm}}
+""")
+    first, *others = counts(evidence)
+    assert first == "if the distances of axes exclude no meshes"
+    assert not any("do not mesh" in change for change in others)
+    assert counts(evidence)[first] == (0, 1)
 
 
 def test_a_fact_that_is_not_there_is_not_dropped() -> None:
     free = replace(
-        TOY, dials=(exact_dial("p", 1, signed=False),), use="some", idlers=True, additions=Additions(0, 1, 1)
+        TOY, dials=(exact_dial("p", 1, signed=False),), use="some", idlers=True, additions=Additions(0, 3, 3)
     )
-    assert without_each_fact(free) == []
-    assert without_each_dial(free) == []
+    assert counts(free) == {}
 
 
-def test_the_sense_is_dropped_as_a_magnitude() -> None:
-    dial = replace(TOY.dials[0], minimum=Fraction(-3), maximum=Fraction(2))
-    found = {one.change: one.problem for one in without_each_fact(replace(TOY, dials=(dial,)))}
-    (free,) = found["without the sense of p"].dials
-    assert (free.minimum, free.maximum, free.signed, free.place) == (0, 3, False, "new")
-    (back,) = without_each_fact(replace(TOY, dials=(replace(dial, maximum=Fraction(-2)),)))[0].problem.dials
-    assert (back.minimum, back.maximum) == (2, 3)
+@pytest.mark.parametrize(("minimum", "most", "magnitudes"), [(-3, 2, (0, 3)), (-3, -2, (2, 3))])
+def test_the_sense_is_dropped_as_a_magnitude(minimum: int, most: int, magnitudes: tuple[int, int]) -> None:
+    dial = replace(TOY.dials[0], minimum=Fraction(minimum), maximum=Fraction(most))
+    low, high = map(Fraction, magnitudes)
+    wide = replace(TOY, dials=(dial,), additions=Additions(1, 3, 45))
+    free = replace(wide, dials=(replace(dial, minimum=low, maximum=high, signed=False),))
+    expected = tuple(count.solutions for count in find_reconstructions(free).counts)
+    assert counts(wide)["without the sense of p"] == expected
+    assert any(expected)
 
 
 def test_what_each_fact_of_the_back_train_carries() -> None:
     """The counts of independent programs: 29 without the senses."""
-    problem = evidence_question(read_evidence("back-train")).problem
-    found = {one.change: one.solutions for one in changed_counts(without_each_fact(problem))}
+    found = counts(read_evidence("back-train"))
     assert found["without the sense of any dial"] == (0, 0, 29)
     assert found["without the fact that the arbor of metonic is lost"] == (0, 0, 4)
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_counts_of_changed_questions_are_those_of_plain_growth(seed: int) -> None:
-    problem = random_problem(seed, wheels=1)
-    changed = without_each_fact(problem)
-    assert list(changed_counts(changed)) == list(changed_counts(changed, search=grown))
-
-
-def test_what_cannot_be_requested_is_said() -> None:
-    (one, *_) = changed_counts(without_each_fact(TOY), search=refusing)
+def test_what_cannot_be_requested_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
+    one, *_ = answered(TOY).findings.assumptions
     assert (one.solutions, one.refused, one.fewest, one.total) == ((), "not today", None, 0)
 
 
@@ -123,10 +123,19 @@ NOTHING = ReconstructionProblem(
 """p wants 20 > 30 and a wheel of 31 stands there; q is 20 > 40 on an added arbor."""
 
 
-@pytest.mark.parametrize("search", [grown, None])
-def test_why_nothing_fits(search: object) -> None:
-    found = explain_missing(NOTHING, **({"search": search} if search else {}))
-    assert found.dials == (LoneDial("p", None), LoneDial("q", 1))
+def dials(found: dropped_facts.MissingExplanation) -> list[tuple[str, int | None, str | None]]:
+    return [(one.dial, one.fewest, one.refused) for one in found.dials]
+
+
+def missing(problem: ReconstructionProblem | Train) -> dropped_facts.MissingExplanation:
+    found = answered(problem).findings.missing
+    assert found is not None
+    return found
+
+
+def test_why_nothing_fits() -> None:
+    found = missing(NOTHING)
+    assert dials(found) == [("p", None, None), ("q", 1, None)]
     assert [(one.change, one.solutions) for one in found.uncertainties] == [("if a1 has 30 teeth", (0, 1))]
     assert found.refused == ()
     assert found.requested == 9 + 2 + 12  # facts and rules, dials, and two wheels by up to three teeth either way
@@ -135,26 +144,47 @@ def test_why_nothing_fits(search: object) -> None:
 def test_the_cheapest_doubt_is_first() -> None:
     """With two wheels to add, p may be on the arbor of 31 by way of an added one: 20 > x, y > 31 with 31 x = 30 y."""
     easy = replace(NOTHING, dials=NOTHING.dials[:1], additions=Additions(2, 10, 15))
-    found = explain_missing(easy).uncertainties
+    found = missing(easy).uncertainties
     assert [one.fewest for one in found] == sorted(one.fewest or 0 for one in found)
     assert found[0].change == "if a1 has 30 teeth"
 
 
 def test_a_misread_count_of_the_back_train_is_found() -> None:
     """With 224 for the wheel of 223 nothing fits; of 72 changes one alone mends it, and gives the four trains."""
-    problem = evidence_question(read_evidence("back-train")).problem
-    e3 = SurvivingWheel("e3", ((224, Fraction(1)),))
-    arbors = tuple(
-        replace(arbor, wheels=tuple(e3 if wheel.name == "e3" else wheel for wheel in arbor.wheels))
-        for arbor in problem.arbors
-    )
-    found = explain_missing(replace(problem, arbors=arbors))
+    text = (TRAINS / "evidence" / "back-train.yaml").read_text(encoding="utf-8")
+    found = missing(read_evidence(text.replace("e3: {teeth: 223", "e3: {teeth: 224")))
     assert [(one.change, one.solutions) for one in found.uncertainties] == [("if e3 has 223 teeth", (0, 0, 4))]
-    assert found.dials == (LoneDial("metonic", 1), LoneDial("saros", 2))
+    assert dials(found) == [("metonic", 1, None), ("saros", 2, None)]
 
 
-def test_a_search_that_refuses_is_told() -> None:
-    found = explain_missing(NOTHING, search=refusing)
-    assert found.dials == (LoneDial("p", None, "not today"), LoneDial("q", None, "not today"))
+def test_a_search_that_refuses_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
+    found = missing(NOTHING)
+    assert dials(found) == [("p", None, "not today"), ("q", None, "not today")]
     assert found.uncertainties == ()
     assert len(found.refused) == found.requested
+
+
+def test_the_page_tells_why_nothing_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+    def tables() -> dict[str, list[tuple[str, ...]]]:
+        page = describe_reconstruction(answered(NOTHING)).sections
+        words = {paragraph for section in page for paragraph in section.paragraphs}
+        rows = {each.title: [tuple(row) for row in each.tables[0].rows] for each in page if each.tables}
+        return rows | {word: [] for word in words}
+
+    found = tables()
+    assert found["Why nothing fits"] == [
+        ("p", "fails: no train with 1 added wheel or fewer"),
+        ("q", "explained with 1 added wheel"),
+    ]
+    assert found["Changes of the evidence that would help"] == [("if a1 has 30 teeth", "1", "1")]
+    assert found["Effect of each assumption"][:2] == [
+        ("all facts", "0", "0", "0"),
+        ("without the sense of p", "0", "0", "0"),
+    ]
+    assert any(text.startswith("23 changes of the evidence tried") for text in found)
+    monkeypatch.setattr(dropped_facts, "find_reconstructions", refusing)
+    found = tables()
+    assert found["Why nothing fits"] == [("p", "not today"), ("q", "not today")]
+    assert found["Effect of each assumption"][1] == ("without the sense of p", "-", "-", "not today")
+    assert "No single change leaves an explanation." in found

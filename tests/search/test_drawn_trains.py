@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from random import Random
+from dataclasses import replace
 
 import pytest
 from concrete_trees import Node, concrete, explanations, random_problem, with_rings
 from sampling import first_few
 
 from geartrain.search.reconstruct import draw_candidates, evidence_question, find_reconstructions, read_evidence
-from geartrain.search.reconstruct.search_tasks import TopologyTrains
 
 DRAWS = 60
 """For each train, on average."""
@@ -18,17 +17,19 @@ DRAWS = 60
 
 @pytest.mark.parametrize("rings", first_few(1, [True, False]))
 def test_each_train_of_a_topology_is_drawn_as_often(rings: bool) -> None:
-    chance, tried = Random(1), 0
+    tried = 0
     for seed in range(300, 340):
         plain = random_problem(seed, idlers=True)
         problem = with_rings(plain, seed) if rings else plain
         grown = {tree for found in explanations(problem) for tree in found.solutions}
-        trains = TopologyTrains(problem, [dial.name for dial in problem.dials])
+        whole, dials = find_reconstructions(problem, listed=0), [dial.name for dial in problem.dials]
         everything: set[Node] = set()
-        for each in find_reconstructions(problem, listed=0).topologies[:20]:
+        for each in whole.topologies[:20]:
             if each.solutions > 12:
                 continue
-            found = Counter(concrete(trains.draw(each.topology, chance)) for _ in range(DRAWS * each.solutions))
+            one = replace(whole, topologies=(each,))
+            drawn = draw_candidates(one, problem, dials, DRAWS * each.solutions, seed)
+            found = Counter(concrete(train.arbor) for train in drawn)
             assert len(found) == each.solutions
             assert set(found) <= grown
             # eight standard deviations of a binomial

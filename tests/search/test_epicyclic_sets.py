@@ -16,10 +16,11 @@ from hypothesis import strategies as st
 from geartrain import GearTrain
 from geartrain.errors import QuestionError, RangeError
 from geartrain.search import EpicyclicSet, find_sets, read_ratio, search_train
-from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, kinds
+from geartrain.search.epicyclic.epicyclic_sets import kinds
 
 F = Fraction
-NAMES = list(kinds())
+KINDS = kinds()
+NAMES = list(KINDS)
 ALL = range(1, 121)
 
 
@@ -36,7 +37,7 @@ def teeth(found: EpicyclicSet, *wheels: str) -> tuple[int, ...]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_ratio_is_that_of_the_declared_train_in_every_mode(name: str) -> None:
-    kind = kinds()[name]
+    kind = KINDS[name]
     for mode in kind.modes:
         for found in find_sets(F(7, 2), kind, [mode], range(12, 40), best=3, spaced=False).solutions:
             train = GearTrain.declare(found.to_train())
@@ -49,14 +50,14 @@ def test_every_ratio_is_that_of_the_declared_train_in_every_mode(name: str) -> N
 
 @pytest.mark.parametrize("name", ["wolfrom", "3k-two-suns"])
 def test_three_k_sets_may_be_requested_with_their_carrier_too(name: str) -> None:
-    kind = kinds()[name]
+    kind = KINDS[name]
     modes = [f"{a}:carrier:{b}" for a, b in product(kind.links[:-1], repeat=2) if a != b]
     for found in find_sets(F(4), kind, modes, range(12, 40), best=12, spaced=False).solutions:
         assert GearTrain.declare(found.to_train()).solve().failures == ()
 
 
 def test_modes_are_all_choices_of_three_members_but_for_mirror_images() -> None:
-    counts = {name: len(kind.modes) for name, kind in kinds().items()}
+    counts = {name: len(kind.modes) for name, kind in KINDS.items()}
     assert counts == {
         "planetary": 6, "stepped-suns": 3, "stepped-sun-ring": 6, "stepped-rings": 3, "meshed-planets": 6,
         "ravigneaux": 24, "bevel": 3, "wolfrom": 6, "3k-two-suns": 6,
@@ -151,7 +152,7 @@ def test_stepped_sets_are_those_of_a_loop_over_closed_forms(name: str) -> None:
             if abs(error) <= tolerance:
                 right.add((z, p, q, y))
     found = find_sets(wanted, name, mode, counts, tolerance=tolerance, best=10**6, spaced=False)
-    first, second = (member.wheel for member in kinds()[name].members)
+    first, second = (member.wheel for member in KINDS[name].members)
     assert {teeth(x, first, "p1", "p2", second) for x in found.solutions} == right
 
 
@@ -234,7 +235,7 @@ def test_a_ravigneaux_set_has_the_ratios_of_a_four_speed_overdrive(mode: str, ra
 # whether it goes together
 
 
-def goes_together(kind: EpicyclicKind, counts: dict[str, int], planets: int) -> bool:
+def goes_together(kind: Any, counts: dict[str, int], planets: int) -> bool:
     """Put equal planets in at multiples of a turn, in every orientation, and see whether all teeth meet.
 
     A mesh is judged by the sum of tooth phases at its line of centres, which must be what it is at the first planet.
@@ -264,7 +265,7 @@ def goes_together(kind: EpicyclicKind, counts: dict[str, int], planets: int) -> 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "bevel"])
 @pytest.mark.parametrize("planets", [2, 3, 4])
 def test_equal_planets_go_in_exactly_where_every_orientation_tried_says_so(name: str, planets: int) -> None:
-    kind = kinds()[name]
+    kind = KINDS[name]
     found = find_sets(F(2), kind, [kind.modes[0]], range(6, 26), planets, best=60, spaced=False, by="total")
     assert found.solutions
     for one in found.solutions:
@@ -279,7 +280,7 @@ def test_known_assembly_rules_hold() -> None:
     assert {x.places for x in bevels.solutions} == {32}
 
 
-def placed(kind: EpicyclicKind, counts: dict[str, int], planets: int) -> float:
+def placed(kind: Any, counts: dict[str, int], planets: int) -> float:
     """Least room between tips of planets of different copies, circles set down in the plane (modules)."""
     centres = []
     for link in kind.planets:
@@ -303,14 +304,14 @@ def placed(kind: EpicyclicKind, counts: dict[str, int], planets: int) -> float:
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "bevel"])
 @pytest.mark.parametrize("planets", [2, 3, 5])
 def test_room_between_neighbours_is_that_of_circles_set_down_in_the_plane(name: str, planets: int) -> None:
-    kind = kinds()[name]
+    kind = KINDS[name]
     for one in find_sets(F(3), kind, [kind.modes[0]], range(8, 36), planets, best=40, spaced=False).solutions:
         assert one.room == pytest.approx(placed(kind, dict(one.teeth), planets), abs=1e-9)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "bevel"])
 def test_a_clearance_keeps_exactly_the_sets_whose_circles_stand_so_far_apart(name: str) -> None:
-    kind, requested = kinds()[name], {"counts": range(8, 30), "planets": 3, "best": 10**6}
+    kind, requested = KINDS[name], {"counts": range(8, 30), "planets": 3, "best": 10**6}
     everything = find_sets(F(3), kind, [kind.modes[0]], **requested, clearance=-1000)
     kept = find_sets(F(3), kind, [kind.modes[0]], **requested, clearance=F(1, 2))
     rooms = {tuple(one.teeth.values()): placed(kind, dict(one.teeth), 3) for one in everything.solutions}
@@ -372,8 +373,8 @@ def test_what_is_removed_and_what_is_left_add_up_to_what_was_considered(name: st
     short = found.shortfall
     assert short.removed is not None
     assert sum(short.removed.values()) + found.count == short.considered
-    free = kinds()[name].free
-    assert short.considered == 28 ** len(free) * len(kinds()[name].modes)
+    free = KINDS[name].free
+    assert short.considered == 28 ** len(free) * len(KINDS[name].modes)
 
 
 @settings(max_examples=15)
@@ -440,7 +441,7 @@ def test_the_search_in_a_declared_train_finds_the_same_sets(name: str, mode: str
     data["outputs"] = {own.solutions[0].mode.output: {"targets": [{"speed": str(1 / wanted), "tolerance": "1/200"}]}}
     found = search_train(GearTrain.declare(data).declaration, best=10**5)
     assert found.complete
-    wheels = kinds()[name].wheels
+    wheels = KINDS[name].wheels
     right = {tuple(one.teeth[wheel] for wheel in wheels) for one in found.solutions if steps_differ(one.teeth)}
     assert {teeth(x, *wheels) for x in own.solutions} == right
     assert own.count == len(right) > 0

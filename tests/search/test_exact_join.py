@@ -1,4 +1,4 @@
-"""The join behind the search in trains: signs, windows, bounds and counts, each against Fractions and plain loops."""
+"""The join behind the search in trains and the posterior: signs, windows, sums and order, against plain loops."""
 
 from __future__ import annotations
 
@@ -6,25 +6,22 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
-from math import prod
+from itertools import pairwise, product
+from math import exp, prod
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from sampling import few_or_many
 
 import geartrain.search.join.exact_join as joining
-import geartrain.search.join.product_lists as items
-import geartrain.search.join.product_lists as rows
-from geartrain.search.constraints.count_conditions import Condition, CountConstraint, CountEquation
-from geartrain.search.join.exact_join import ExactJoin
-from geartrain.search.join.join_plan import JoinProblem, find_join_problem
-from geartrain.search.join.product_lists import Item, ItemRecipe, forecast
-from geartrain.search.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
-from geartrain.search.train.search_passes import AssignmentOrder, BestAssignments, PassWork, do_task, merged
+import geartrain.search.join.product_lists as lists
+from geartrain.search.constraints.count_conditions import CountEquation
+from geartrain.search.join.inside_outside import AssignmentSums, BestFirst, record_join
+from geartrain.search.join.join_plan import find_join_problem
+from geartrain.search.join.wheel_monomials import IntervalConstraint
 
 Terms = tuple[tuple[int, tuple[int, ...]], ...]
 
@@ -51,63 +48,8 @@ def value(terms: Terms, point: Sequence[int]) -> int:
     )
 
 
-# ---------------------------------------------------------------------------------------------------------------- lists
-
-
-@given(st.lists(st.tuples(st.sets(st.integers(1, 40), min_size=1, max_size=6), st.integers(1, 2)), max_size=4))
-def test_an_item_lists_every_product_with_all_its_ways(lots: list[tuple[set[int], int]]) -> None:
-    domains = {f"w{at}": tuple(sorted(counts)) for at, (counts, _) in enumerate(lots)}
-    wheels = tuple((f"w{at}", power) for at, (_, power) in enumerate(lots))
-    ways: dict[Fraction, Counter[tuple[int, ...]]] = {}
-    for counts in product(*domains.values()):
-        tops = [count**power for count, (_, power) in zip(counts[::2], wheels[::2], strict=True)]
-        bottoms = [count**power for count, (_, power) in zip(counts[1::2], wheels[1::2], strict=True)]
-        ways.setdefault(Fraction(prod(tops), prod(bottoms)), Counter())[counts] += 1
-    item = Item(ItemRecipe(wheels[::2], wheels[1::2]), domains, {}, np.int64)
-    assert (np.diff(item.x) >= 0).all()
-    bottoms = np.ones(len(item), dtype=np.int64) if item.bottoms is None else item.bottoms
-    listed = [Fraction(int(top), int(bottom)) for top, bottom in zip(item.tops, bottoms, strict=True)]
-    found: dict[Fraction, Counter[tuple[int, ...]]] = {}
-    owner, columns = item.ways(np.arange(len(item)))
-    for at, row in zip(owner.tolist(), zip(*(columns[wheel].tolist() for wheel in domains), strict=True), strict=False):
-        found.setdefault(listed[at], Counter())[tuple(row)] += 1
-    if domains:
-        assert found == ways
-    assert item.sums[-1] == item.times.sum() == sum(counter.total() for counter in ways.values())
-    assert np.bincount(owner, minlength=len(item)).tolist() == item.times.tolist()
-
-
-def test_long_lists_are_made_in_blocks_and_forecast_within_a_factor_of_three(monkeypatch: pytest.MonkeyPatch) -> None:
-    domains = {wheel: tuple(range(15, 81)) for wheel in "abcd"}
-    wheels = tuple((wheel, 1) for wheel in "abcd")
-    ones = [(1,) * 66] * 4
-    whole = items.ProductLists([domains[wheel] for wheel in "abcd"], ones, np.int64)
-    monkeypatch.setattr(items, "_LONGEST", 5000)
-    parts = items.ProductLists([domains[wheel] for wheel in "abcd"], ones, object)
-    assert (whole.levels[-1] == parts.levels[-1]).all()
-    assert (whole.times == parts.times).all()
-    assert whole.times.sum() == 66**4
-    items._forecast.cache_clear()
-    monkeypatch.setattr(items, "_TRIED", 10_000)
-    guessed, _ = forecast(wheels, domains)
-    assert 1 / 3 < guessed / len(whole.times) < 3
-
-
-# ---------------------------------------------------------------------------------------------------------------- joins
-
-
-@dataclass(frozen=True)
-class Even:
-    """The sum of some wheels' counts is even."""
-
-    wheels: tuple[str, ...]
-
-    def __call__(self, columns: Any, /) -> Any:
-        return sum(columns[wheel] for wheel in self.wheels) % 2 == 0
-
-
 @st.composite
-def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountConstraint]]:
+def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountEquation]]:
     """Functions of any shape that share wheels, asked for values they have; and rules."""
     names = tuple("abcdef"[: draw(st.integers(2, 6))])
     domains = {name: tuple(sorted(draw(st.sets(st.integers(1, 9), min_size=1, max_size=3)))) for name in names}
@@ -127,14 +69,11 @@ def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalCon
             st.sampled_from([((low, high),), ((low, high), (high + 1, None)), ((None, low),), ((low, None),)])
         )
         requested.append(IntervalConstraint(f"demand {number}", used(function), intervals, draw(st.booleans())))
-    rules: list[CountConstraint] = []
+    rules: list[CountEquation] = []
     if draw(st.booleans()):
         pair = draw(st.lists(st.sampled_from(names), min_size=2, max_size=3, unique=True))
         start = sum(factor * domains[wheel][0] for factor, wheel in zip((1, -1, 2), pair, strict=False))
         rules.append(CountEquation("sum", dict(zip(pair, (1, -1, 2), strict=False)), -start))
-    if draw(st.booleans()):
-        pair = draw(st.lists(st.sampled_from(names), min_size=2, max_size=3, unique=True))
-        rules.append(Condition("even", tuple(pair), Even(tuple(pair))))
     return domains, requested, rules
 
 
@@ -157,7 +96,7 @@ def used(function: Quotient) -> Quotient:
 
 
 def solutions(
-    domains: dict[str, tuple[int, ...]], requested: list[IntervalConstraint], rules: list[CountConstraint]
+    domains: dict[str, tuple[int, ...]], requested: list[IntervalConstraint], rules: list[CountEquation]
 ) -> list[tuple[int, ...]]:
     found = []
     for counts in product(*domains.values()):
@@ -176,43 +115,102 @@ def fits(requested: IntervalConstraint, teeth: dict[str, int]) -> bool:
     return any((low is None or speed >= low) and (high is None or speed <= high) for low, high in requested.intervals)
 
 
-def keeps(rule: CountConstraint, teeth: dict[str, int]) -> bool:
-    if isinstance(rule, CountEquation):
-        return sum(factor * teeth[wheel] for wheel, factor in rule.coefficients.items()) + rule.constant == 0
-    return sum(teeth[wheel] for wheel in rule.wheels) % 2 == 0
+def keeps(rule: CountEquation, teeth: dict[str, int]) -> bool:
+    return sum(factor * teeth[wheel] for wheel, factor in rule.coefficients.items()) + rule.constant == 0
 
 
-def answered(question: JoinProblem, tasks: int = 1) -> tuple[int, list[tuple[int, ...]], tuple[int, ...]]:
-    """Count, solutions and tallies of a question cut into some tasks."""
-    work = PassWork(question, AssignmentOrder("total", 10**6, (), {}), 10**6)
-    each = [{"parts": [[question.plan.item, at, tasks]], "budget": 1e12, "pieces": 2} for at in range(tasks)]
-    tally = merged(work, (do_task(work.packed(), task) for task in each))
-    assert tally.listed
-    assert not tally.cut
-    return tally.count, sorted(tuple(one.teeth.values()) for one in tally.best), tally.removed
+Asked = tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountEquation]]
+LONG = 10**30
 
 
-@pytest.mark.parametrize("block", [1 << 18, 7])
-@settings(deadline=None, max_examples=few_or_many(25, 35))
-@given(question=joins(), guess=st.sampled_from([1.0, 1e-3, 1e-9]), tasks=st.integers(1, 4))
-def test_a_join_of_any_functions_and_rules_finds_what_loops_find(
-    block: int,
-    question: tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountConstraint]],
-    guess: float,
-    tasks: int,
-) -> None:
-    domains, requested, rules = question
+@st.composite
+def weighed(draw: st.DrawFn, largest: int) -> tuple[Asked, dict[str, tuple[int, ...]]]:
+    """A question, and whole weights of the counts of some wheels."""
+    requested = draw(joins())
+    some = draw(st.sets(st.sampled_from(sorted(requested[0]))))
+    number = st.integers(0, 5) if largest < 10 else st.integers(1, largest)
+    weights = {wheel: tuple(draw(number) for _ in requested[0][wheel]) for wheel in sorted(some)}
+    assume(all(map(any, weights.values())))
+    return requested, weights
+
+
+def weight_of(counts: tuple[int, ...], domains: dict[str, tuple[int, ...]], weights: dict[str, tuple[int, ...]]) -> int:
+    places = {wheel: at for at, wheel in enumerate(domains)}
+    return prod(own[domains[wheel].index(counts[places[wheel]])] for wheel, own in weights.items())
+
+
+@pytest.mark.parametrize("largest", [5, LONG])
+@pytest.mark.parametrize("block", [1 << 18, 3])
+def test_sums_over_a_recorded_join_are_those_of_loops(largest: int, block: int) -> None:
+    @settings(deadline=None, max_examples=few_or_many(20, 60))
+    @given(case=weighed(largest), guess=st.sampled_from([1.0, 1e-6]))
+    def holds(case: tuple[Asked, Any], guess: float) -> None:
+        (domains, requested, rules), some = case
+        problem = find_join_problem(
+            domains, requested, rules, dict.fromkeys([one.name for one in (*requested, *rules)], guess)
+        )
+        assume(not problem.late)
+        truth = solutions(domains, requested, rules)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(joining, "BLOCK", block)
+            patch.setattr(lists, "BLOCK", block)
+            patch.setattr(lists, "_LONGEST", block)
+            root, _ = record_join(problem, np.inf, {})
+        dtype: Any = np.int64 if largest < 10 else object
+        weights = {w: np.array(some.get(w, (1,) * len(counts)), dtype=dtype) for w, counts in domains.items()}
+        sums = AssignmentSums(root, graded=False)
+        own = [weight_of(counts, domains, some) for counts in truth]
+        assert sums.total(weights) == sum(own)
+        assert sorted(tuple(one.teeth[wheel] for wheel in domains) for one in BestFirst(root, domains)) == truth
+        if not truth:
+            return
+        marginals = sums.marginals(weights)
+        assert marginals.keys() == domains.keys()
+        for at, (wheel, counts) in enumerate(domains.items()):
+            expected = [
+                sum(weight for row, weight in zip(truth, own, strict=True) if row[at] == count) for count in counts
+            ]
+            assert marginals[wheel].tolist() == expected
+        _check_covariances(sums, domains, truth)
+
+    holds()
+
+
+def _check_covariances(sums: AssignmentSums, domains: dict[str, tuple[int, ...]], truth: list[tuple[int, ...]]) -> None:
+    floats = {wheel: np.full(len(counts), 1 / len(counts)) for wheel, counts in domains.items()}
+    names = list(domains)
+    for (first, second), value in sums.covariances(floats, domains).items():
+        x, y = ([row[names.index(wheel)] for row in truth] for wheel in (first, second))
+        assert value == pytest.approx(float(np.cov(x, y, bias=True)[0, 1]), abs=1e-9)
+
+
+@settings(deadline=None, max_examples=few_or_many(40, 60))
+@given(case=joins(), wanted=st.lists(st.fractions(-3, 3, max_denominator=4), min_size=3, max_size=3))
+def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[Fraction]) -> None:
+    domains, requested, rules = case
+    graded = [IntervalConstraint(one.name, one.function, one.intervals, one.strict, graded=True) for one in requested]
+    problem = find_join_problem(domains, graded, rules, {})
+    assume(not problem.late)
     truth = solutions(domains, requested, rules)
-    chances = dict.fromkeys([one.name for one in (*requested, *rules)], guess)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(rows, "BLOCK", block)
-        patch.setattr(joining, "BLOCK", block)
-        made = find_join_problem(domains, requested, rules, chances)
-        count, found, removed = answered(made, tasks)
-    assert found == truth
-    assert count == len(truth)
-    assert sum(removed) + count == made.total
-    assert sorted(made.order) == list(range(len(made.reasons)))
+    ends = [float(one) for one in wanted]
+    root, _ = record_join(
+        problem, np.inf, {at: lambda values, end=end: (values - end) ** 2 for at, end in enumerate(ends)}
+    )  # type: ignore[misc]
+
+    def misfit(row: tuple[int, ...]) -> float:
+        teeth = dict(zip(domains, row, strict=True))
+        speeds = [one.function.value(teeth) for one in requested if isinstance(one.function, Quotient)]
+        return sum((float(speed or 0) - end) ** 2 for speed, end in zip(speeds, ends, strict=False))
+
+    ones = {wheel: np.ones(len(counts)) for wheel, counts in domains.items()}
+    total = AssignmentSums(root, graded=True).total(ones)
+    assert total == pytest.approx(sum(exp(-misfit(row) / 2) for row in truth), rel=1e-9, abs=1e-300)
+    found = list(BestFirst(root, domains))
+    assert sorted(tuple(one.teeth[wheel] for wheel in domains) for one in found) == truth
+    for one in found:
+        assert one.misfit == pytest.approx(misfit(tuple(one.teeth[wheel] for wheel in domains)), rel=1e-9, abs=1e-12)
+    misfits = [one.misfit for one in found]
+    assert all(later >= earlier * (1 - 1e-12) - 1e-12 for earlier, later in pairwise(misfits))
 
 
 sizes = st.one_of(st.integers(1, 12), st.integers(10**8, 10**9))
@@ -259,59 +257,7 @@ def test_joins_are_exact_however_large_the_numbers_and_near_the_ends(
     question: tuple[dict[str, tuple[int, ...]], list[IntervalConstraint]], guess: float
 ) -> None:
     domains, requested = question
-    truth = solutions(domains, requested, [])
-    count, found, removed = answered(find_join_problem(domains, requested, [], {one.name: guess for one in requested}))
-    assert found == truth
-    assert count == len(truth)
-    assert sum(removed) + count == prod(map(len, domains.values()))
-
-
-def test_numbers_of_assignments_beyond_a_machine_word_are_exact() -> None:
-    names = [f"w{at}" for at in range(20)]
-    domains = {name: tuple(range(11, 20)) for name in names}
-    function = Quotient(tuple(names), ((1, (1,) * 10 + (0,) * 10),), ((1, (0,) * 10 + (1,) * 10),))
-    requested = [IntervalConstraint("half or more", function, ((Fraction(1), None),))]
-    question = find_join_problem(domains, requested, [], {"half or more": 0.5})
-    join = ExactJoin(question)
-    counts, removed = join.count(question.plan, join.start())
-    assert question.total == 9**20 > 2**62
-    ways: Counter[int] = Counter({1: 1})
-    for _ in range(10):
-        grown: Counter[int] = Counter()
-        for product_, number in ways.items():
-            for count in range(11, 20):
-                grown[product_ * count] += number
-        ways = grown
-    below, truth = 0, 0
-    for product_ in sorted(ways):
-        below += ways[product_]
-        truth += ways[product_] * below
-    assert counts[0] == truth
-    assert sum(int(numbers[0]) for numbers in removed.values()) + truth == 9**20
-
-
-def test_wheels_that_all_functions_see_through_one_monomial_are_bundled() -> None:
-    wheels = ("a", "b", "c", "d", "e")
-    first = Quotient(wheels[:4], ((1, (1, 0, 1, 0)),), ((1, (0, 1, 0, 1)),))
-    second = Quotient(("a", "b", "e"), ((1, (1, 0, 0)),), ((1, (0, 1, 1)),))
-    requested = [IntervalConstraint("first", first, ()), IntervalConstraint("second", second, ())]
-    bundles = [dict(bundle.powers) for bundle in find_wheel_monomials(wheels, requested, frozenset())]
-    assert bundles == [{"a": 1, "b": -1}, {"c": 1, "d": -1}, {"e": 1}]
-    assert [dict(one.powers) for one in find_wheel_monomials(wheels, requested, frozenset("a"))] == [
-        {"a": 1},
-        {"b": 1},
-        {"c": 1, "d": -1},
-        {"e": 1},
-    ]
-
-
-def test_a_pool_keeps_the_best_of_many_in_exact_order() -> None:
-    draw = np.random.default_rng(1)
-    order = AssignmentOrder("distinct", 7, (), {})
-    pool, offered = BestAssignments(order, ("a", "b", "c")), []
-    for _ in range(30):
-        table = draw.integers(1, 40, (3, 2000))
-        pool.add(dict(zip("abc", table, strict=True)))
-        offered += table.T.tolist()
-    offered.sort(key=lambda counts: (len(set(counts)), sum(counts), max(counts), counts))
-    assert pool.best() == offered[:7]
+    problem = find_join_problem(domains, requested, [], {one.name: guess for one in requested})
+    root, _ = record_join(problem, np.inf, {})
+    found = sorted(tuple(one.teeth[wheel] for wheel in domains) for one in BestFirst(root, domains))
+    assert found == solutions(domains, requested, [])

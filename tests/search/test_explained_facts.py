@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from math import log2
 
 import pytest
-from concrete_trees import concrete, meshes, random_problem
+from concrete_trees import concrete, declared, meshes, random_problem
 
+from geartrain.report import Document, Section, to_markdown
 from geartrain.search.reconstruct import (
     Additions,
     Arbor,
     Candidate,
+    ExplanationCount,
     PlacedWheel,
+    ReconstructionAnswer,
     ReconstructionProblem,
+    Reconstructions,
     SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
+    describe_reconstruction,
+    explained_facts,
     find_reconstructions,
-)
-from geartrain.search.reconstruct.candidate_names import NamedArbor, name_train
-from geartrain.search.reconstruct.explained_facts import (
-    ExplainedFacts,
-    Fact,
-    WeighedTrains,
-    grow_family_tree,
 )
 
 
@@ -54,31 +54,32 @@ def arbor(name: str, driven: tuple[str, int], driving: tuple[str, int], below: A
     return Arbor(name, PlacedWheel(*driven), (), ((PlacedWheel(*driving), (below,)),))
 
 
-def named(first: Arbor) -> NamedArbor:
-    whole = Arbor("in", None, (), ((PlacedWheel("i", 10), (first,)),))
-    return name_train(whole, ("sun",), {"in", "a", "c"}, {"i", "a1", "a2", "c1", "c2"})
+def whole(first: Arbor) -> Arbor:
+    return Arbor("in", None, (), ((PlacedWheel("i", 10), (first,)),))
 
 
-def through_a_and_c(count: int, last: int) -> NamedArbor:
-    return named(arbor("a", ("a1", 20), ("a2", 30), arbor("c", ("c1", count), ("c2", 15), sun(last))))
+def through_a_and_c(count: int, last: int) -> Arbor:
+    return whole(arbor("a", ("a1", 20), ("a2", 30), arbor("c", ("c1", count), ("c2", 15), sun(last))))
 
 
-WEIGHED = WeighedTrains.of(
-    [
-        through_a_and_c(40, 53),
-        through_a_and_c(41, 53),
-        named(arbor("c", ("c1", 40), ("c2", 15), arbor("a", ("a1", 20), ("a2", 30), sun(53)))),
-        named(arbor("a", ("a2", 30), ("a1", 20), sun(50))),
-    ],
-    [4, 2, 1, 1],
+FOUR = (
+    through_a_and_c(40, 53),
+    through_a_and_c(41, 53),
+    whole(arbor("c", ("c1", 40), ("c2", 15), arbor("a", ("a1", 20), ("a2", 30), sun(53)))),
+    whole(arbor("a", ("a2", 30), ("a1", 20), sun(50))),
 )
+
+
+def findings(
+    problem: ReconstructionProblem, arbors: Sequence[Arbor], weights: Sequence[float]
+) -> explained_facts.CandidateFindings:
+    """What is said of candidates of these weights, whatever the search would say that they weigh."""
+    listed = (Candidate(one, 0, weight, (1, 1)) for one, weight in zip(arbors, weights, strict=True))
+    return explained_facts.find_facts(declared(problem), problem, Reconstructions((), True, tuple(listed)))
+
+
+FOUND = findings(PROBLEM, FOUR, [0.5, 0.25, 0.125, 0.125])
 """Weights 1/2, 1/4, 1/8, 1/8: in > a > c twice, in > c > a, and in > a the other way round without c."""
-
-
-def test_weights_are_brought_to_whole_numbers() -> None:
-    assert (WEIGHED.weights, WEIGHED.whole) == ((4, 2, 1, 1), 8)
-    halves = WeighedTrains.of(WEIGHED.trains, [0.5, Fraction(1, 4), 0.125, Fraction(1, 8)])
-    assert (halves.weights, halves.whole) == ((4, 2, 1, 1), 8)
 
 
 @pytest.mark.parametrize(
@@ -98,19 +99,18 @@ def test_weights_are_brought_to_whole_numbers() -> None:
     ],
 )
 def test_marginals(kind: str, subject: str, answers: list[tuple[str, str, int]]) -> None:
-    found = {(one.kind, one.subject): one for one in ExplainedFacts(WEIGHED, PROBLEM).marginals()}
+    found = {(one.kind, one.subject): one for one in FOUND.marginals}
     told = [(answer.answer, answer.share, answer.solutions) for answer in found[kind, subject].answers]
     assert told == [(answer, Fraction(share), count) for answer, share, count in answers]
 
 
 def test_what_all_agree_in_is_first_and_wheels_that_all_use_are_left_out() -> None:
-    found = ExplainedFacts(WEIGHED, PROBLEM).marginals()
+    found = FOUND.marginals
     assert [one.subject for one in found if one.kind == "used"] == ["c1", "c2"]
     meshes = [one for one in found if one.kind == "mesh"]
     assert [one.share("yes") for one in meshes] == sorted((one.share("yes") for one in meshes), reverse=True)
     assert {one.kind for one in found} == {"mesh", "driver", "pointer", "count", "added", "needed", "used"}
-    fewer = WeighedTrains.of(WEIGHED.trains[3:], [1])
-    unused = [one for one in ExplainedFacts(fewer, PROBLEM).marginals() if one.kind == "used"]
+    unused = [one for one in findings(PROBLEM, FOUR[3:], [1]).marginals if one.kind == "used"]
     assert [(one.subject, one.share("no")) for one in unused] == [("c1", 1), ("c2", 1)]
 
 
@@ -119,7 +119,7 @@ def bits(*shares: float) -> float:
 
 
 def test_the_most_telling_fact_is_first_and_those_that_divide_alike_stand_together() -> None:
-    found = ExplainedFacts(WEIGHED, PROBLEM).next_facts()
+    found = FOUND.next_facts
     assert [(one.fact.kind, one.fact.subject) for one in found] == [
         ("count", "c1"),
         ("driver", "c"),
@@ -136,23 +136,22 @@ def test_the_most_telling_fact_is_first_and_those_that_divide_alike_stand_togeth
             bits(7 / 8, 1 / 8),
         ]
     )
-    assert found[2].same == (Fact("pair", "a2 and c1"),)
-    assert Fact("driver", "a") in found[3].same
-    assert Fact("added", "new_sun1") in found[4].same
+    assert found[2].same == (("pair", "a2 and c1"),)
+    assert ("driver", "a") in found[3].same
+    assert ("added", "new_sun1") in found[4].same
 
 
 def test_nothing_is_to_be_looked_for_where_there_is_one_candidate() -> None:
-    assert ExplainedFacts(WeighedTrains.of(WEIGHED.trains[:1], [1]), PROBLEM).next_facts() == ()
+    assert findings(PROBLEM, FOUR[:1], [1]).next_facts == ()
 
 
 def test_one_fact_is_certain() -> None:
-    found = ExplainedFacts(WEIGHED, PROBLEM).marginals()
-    pointer = next(one for one in found if one.kind == "pointer")
+    pointer = next(one for one in FOUND.marginals if one.kind == "pointer")
     assert pointer.bits == 0
 
 
 def test_the_family_tree() -> None:
-    tree = grow_family_tree(WEIGHED, ["c1"])
+    tree = FOUND.family
     told = [(one.parent, one.meshes, one.share, one.solutions) for one in tree]
     assert told == [
         (None, (), 1, 4),
@@ -170,44 +169,92 @@ def test_the_family_tree() -> None:
 
 
 def test_a_stem_is_one_branch_and_no_candidates_have_no_tree() -> None:
-    tree = grow_family_tree(WeighedTrains.of(WEIGHED.trains[:2], [1, 1]))
+    tree = findings(PROBLEM, (FOUR[0], through_a_and_c(40, 54)), [1, 1]).family
     assert [(one.parent, one.meshes) for one in tree] == [(None, ("i > a1", "a2 > c1", "c2 > new_sun1 (sun)"))]
-    assert [train.counts for train in tree[0].trains] == [{"new_sun1": 53}, {"new_sun1": 53}]
-    assert grow_family_tree(WeighedTrains((), ())) == ()
+    assert [train.counts for train in tree[0].trains] == [{"new_sun1": 53}, {"new_sun1": 54}]
+    assert findings(PROBLEM, (), ()).family == ()
+
+
+def sections_of(found: explained_facts.CandidateFindings) -> dict[str, Section]:
+    answer = ReconstructionAnswer("toy", PROBLEM, (ExplanationCount(2, 4, 4, 4),), True, (), (), findings=found)
+    return {section.title: section for section in describe_reconstruction(answer).sections}
+
+
+def test_the_page_tells_what_is_shared_where_trains_differ_and_what_to_look_for() -> None:
+    page = sections_of(FOUND)
+    assert list(page["What all of them share"].paragraphs) == [
+        "In all of them: the pointer of sun is on an added arbor."
+    ]
+    meshes, answers, needed = (list(table.rows) for table in page["Where they differ"].tables)
+    assert meshes[:4] == [
+        ("a2 > c1", "75 %", "2"),
+        ("c2 > new_sun1", "75 %", "2"),
+        ("i > a1", "75 %", "2"),
+        ("a1 > new_sun1", "12.5 %", "1"),
+    ]
+    assert ("the count of c1", "40: 62.5 % (2), 41: 25 % (1), not used: 12.5 % (1)", "1.3") in answers
+    assert needed == [("53", "87.5 %", "3"), ("50", "12.5 %", "1")]
+    assert list(page["The next fact to look for"].tables[0].rows)[2:4] == [
+        ("whether a1 and i mesh", "0.811", "yes: 75 % (2), no: 25 % (2)", "whether a2 and c1 mesh"),
+        (
+            "whether a1 and c2 mesh",
+            "0.544",
+            "no: 87.5 % (3), yes: 12.5 % (1)",
+            "whether c1 and i mesh; which arbor drives a",
+        ),
+    ]
+    shown = to_markdown([Document("Trains", (), [page["The family tree"]])])
+    assert [line for line in shown.splitlines() if line.lstrip().startswith("- ")] == [
+        "- the input: 100 %, 4 trains",
+        "  - i > a1, a2 > c1, c2 > new_sun1 (sun): 75 %, 2 trains",
+        "    - 50 %, rank 1 with new_sun1 53, c1 40",
+        "    - 25 %, rank 2 with new_sun1 53, c1 41",
+        "  - i > c1, c2 > a1, a2 > new_sun1 (sun): 12.5 %, rank 3 with new_sun1 53, c1 40",
+        "  - i > a2, a1 > new_sun1 (sun): 12.5 %, rank 4 with new_sun1 50",
+    ]
+
+
+def test_what_all_share_is_told_in_sentences() -> None:
+    page = sections_of(findings(PROBLEM, FOUR[:2], [1, 1]))
+    meshes, needed, besides = page["What all of them share"].paragraphs
+    assert meshes == "In all of them: a2 > c1, c2 > new_sun1, i > a1."
+    assert needed == "All of them need a wheel of 53."
+    assert besides == "Besides: the pointer of sun is on an added arbor; new_sun1 is added with 53 teeth."
+
+
+def test_a_wide_family_is_cut_and_says_what_is_left_out() -> None:
+    many = [whole(arbor("a", ("a1", 20), ("a2", 30), sun(teeth))) for teeth in range(10, 19)]
+    (branch,) = sections_of(findings(PROBLEM, many, [1] * 9))["The family tree"].branches
+    assert [each.text for each in branch.below][-1] == "3 more"
 
 
 # ---- random questions, against concrete trees
 
-Question = tuple[ReconstructionProblem, tuple[Candidate, ...], WeighedTrains, list[Fraction]]
+Question = tuple[tuple[Candidate, ...], explained_facts.CandidateFindings, list[Fraction]]
 
 
 @cache
 def question(seed: int) -> Question:
-    """A random question, its candidates, and shares that are not those of the search: 1, 2, 3, ... over their sum."""
+    """Candidates of a random question, and what shares of 1, 2, 3, ... over their sum, not those of the search, say."""
     problem = random_problem(seed, idlers=True)
     found = find_reconstructions(problem).candidates
-    arbors = (problem.input, *problem.arbors)
-    wheels = {wheel.name for arbor in arbors for wheel in arbor.wheels}
-    names = {arbor.name for arbor in arbors}
-    dials = [dial.name for dial in problem.dials]
-    weights = [Fraction(at) for at in range(1, len(found) + 1)]
-    trains = (name_train(one.arbor, dials, names, wheels) for one in found)
-    whole = sum(weights)
-    return problem, found, WeighedTrains.of(trains, weights), [weight / whole for weight in weights]
+    weights = range(1, len(found) + 1)
+    said = findings(problem, [one.arbor for one in found], weights)
+    return found, said, [Fraction(weight, sum(weights)) for weight in weights]
 
 
 SEEDS = [seed for seed in range(14, 60) if seed not in (28, 29, 50, 55)]  # which have no answer, or over 300
 
 
 def test_most_random_questions_have_an_answer() -> None:
-    assert [seed for seed in range(14, 60) if 0 < len(question(seed)[1]) <= 300] == SEEDS
+    assert [seed for seed in range(14, 60) if 0 < len(question(seed)[0]) <= 300] == SEEDS
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_bits_are_the_mean_of_what_each_answer_tells(seed: int) -> None:
     """By the weights of candidates one by one: what is known of them after each answer against before."""
-    problem, found, weighed, shares = question(seed)
-    facts = ExplainedFacts(weighed, problem).next_facts()
+    found, said, shares = question(seed)
+    facts = said.next_facts
     assert [one.fact.bits for one in facts] == sorted((one.fact.bits for one in facts), reverse=True)
     for one in (each for each in facts if each.fact.kind == "pair"):
         pair = frozenset(one.fact.subject.split(" and "))
@@ -225,8 +272,8 @@ def test_bits_are_the_mean_of_what_each_answer_tells(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_family_tree_holds_every_candidate_once(seed: int) -> None:
-    _, found, weighed, shares = question(seed)
-    tree = grow_family_tree(weighed)
+    found, said, shares = question(seed)
+    tree = said.family
     ends = {train.rank: train.share for branch in tree for train in branch.trains}
     assert [ends[rank] for rank in range(1, len(found) + 1)] == shares
     assert sum(len(branch.trains) for branch in tree) == len(found)

@@ -5,16 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import islice
 
-import numpy as np
 import pytest
 from concrete_trees import exact_dial, explanations, package_arbor, random_problem, sure_arbor, with_rings
 from sampling import all_but
 from studies.followed_train import is_reached
 
 from geartrain.search.reconstruct import Additions, ReconstructionProblem
-from geartrain.search.reconstruct.path_choice import PathChoice
-from geartrain.search.reconstruct.path_lists import PathGrowth, PathList
-from geartrain.search.reconstruct.path_trees import PathTrees
 
 # a drives an added arbor (30, 18), whose wheel of 18 drives b and an added arbor with a pointer of its own
 QUESTION = ReconstructionProblem(
@@ -41,18 +37,3 @@ def test_it_comes_to_a_train_that_parts_at_an_added_wheel() -> None:
     assert is_reached(TRAIN, QUESTION)
     assert not is_reached(TRAIN, replace(QUESTION, additions=Additions(2, 10, 40)))
     assert not is_reached(TRAIN, replace(QUESTION, additions=Additions(3, 10, 35)))
-
-
-def test_a_search_that_loses_a_path_a_choice_or_a_tree_does_not_come_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    losses = [
-        (PathGrowth, "along", lambda growth, *_: growth.kept(np.zeros(len(growth.codes), dtype=bool))),
-        (PathList, "_may_be_quotient", lambda *_: np.zeros(1, dtype=bool)),
-        (PathChoice, "_closes", lambda _, __, ___, near: np.zeros(len(near.rows), dtype=bool)),
-        (PathTrees, "_forest", lambda *_: iter(())),
-        (PathList, "wanted_quotients", lambda *_: (1, 1)),
-    ]
-    for kind, name, lost in losses:
-        with monkeypatch.context() as patched:
-            patched.setattr(kind, name, lost)
-            assert not is_reached(TRAIN, QUESTION), name
-    assert is_reached(TRAIN, QUESTION)

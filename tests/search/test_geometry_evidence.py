@@ -14,7 +14,15 @@ from places import TRAINS
 
 from geartrain import GearTrainError
 from geartrain.errors import QuestionError
-from geartrain.search.reconstruct import Arbor, PlacedWheel, evidence_question, find_reconstructions, read_evidence
+from geartrain.search.reconstruct import (
+    Arbor,
+    Candidate,
+    PlacedWheel,
+    candidate_train,
+    evidence_question,
+    find_reconstructions,
+    read_evidence,
+)
 from geartrain.search.reconstruct.geometry_likelihood import can_close, candidate_likelihood, order_exists
 from geartrain.search.reconstruct.reconstruction_problem import (
     MeasuredWheel,
@@ -22,7 +30,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingGeometry,
     find_unreachable,
 )
-from geartrain.search.reconstruct.train_construction import TrainConstruction
+from geartrain.train import Train
 
 P, V, W, X = PlacedWheel("p", 20), PlacedWheel("v", 30), PlacedWheel("w", 40), PlacedWheel("x", 60)
 
@@ -381,13 +389,18 @@ FOUR = [
 """Meshes of surviving wheels, the driven one first, of the four trains with two added wheels."""
 
 
+def meshes_of(evidence: Train, candidate: Candidate) -> list[tuple[str, str]]:
+    """Driving and driven wheel, mesh by mesh."""
+    return [gear.pair for gear in candidate_train(evidence, candidate.arbor, "one").gears]
+
+
 def test_modules_do_not_single_out_the_train_of_2006() -> None:
     """They tell how E stands, at nine to one, and hardly whether l drives m or f: that even weighs a little more."""
     evidence = read_evidence("back-train-modules")
     problem = evidence_question(evidence).problem
     found = {}
     for candidate in find_reconstructions(problem, listed=20_000).candidates:
-        mates = {driven: driver for driver, driven in TrainConstruction.of(evidence, candidate.arbor).meshes}
+        mates = {driven: driver for driver, driven in meshes_of(evidence, candidate)}
         surviving = frozenset(pair for pair in mates.items() if set(pair) <= evidence.wheels.keys())
         found[surviving] = candidate_likelihood(candidate.arbor, problem.geometry)
     right = {
@@ -419,7 +432,7 @@ def test_which_train_modules_prefer_hangs_on_how_their_errors_are_spread(spreads
     problem = evidence_question(evidence).problem
     weights = {}
     for candidate in find_reconstructions(problem, listed=20_000).candidates:
-        pairs = {pair[::-1] for pair in TrainConstruction.of(evidence, candidate.arbor).meshes}
+        pairs = {pair[::-1] for pair in meshes_of(evidence, candidate)}
         at = next(at for at, meshes in enumerate(FOUR) if meshes <= pairs)
         weights[at] = candidate_likelihood(candidate.arbor, problem.geometry)
     assert [weights[at] / sum(weights.values()) for at in range(4)] == pytest.approx(shares, abs=0.01)
@@ -434,7 +447,7 @@ def test_places_of_axes_would_single_it_out() -> None:
     evidence = read_evidence(text)
     problem = evidence_question(evidence).problem
     (only,) = find_reconstructions(problem, listed=20_000).candidates
-    assert {pair[::-1] for pair in TrainConstruction.of(evidence, only.arbor).meshes} >= FOUR[0]
+    assert {pair[::-1] for pair in meshes_of(evidence, only)} >= FOUR[0]
     assert candidate_likelihood(only.arbor, problem.geometry) > 0
     teeth = {name: wheel.count for name, (_, wheel) in evidence.wheels.items()}
     arbors = {name: link for name, (link, _) in evidence.wheels.items()}

@@ -2,37 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
+from typing import Any
 
 import pytest
-from concrete_trees import added_wheels, concrete, explanations, nodes, package_arbor, random_problem
+from concrete_trees import concrete, declared, explanations, nodes, package_arbor, plain_prior, random_problem
 from sampling import all_but, few_or_many
 
-from geartrain import GearTrainError, load, shipped
+from geartrain import GearTrainError, load
 from geartrain.search.reconstruct import (
     Arbor,
     PlacedWheel,
+    ReconstructionAnswer,
     ReconstructionProblem,
-    Reconstructions,
+    ReconstructionRequest,
     SearchedDial,
     SurvivingArbor,
+    candidate_train,
     evidence_question,
-    find_reconstructions,
     read_evidence,
+    reconstruct,
 )
-from geartrain.search.reconstruct.candidate_rules import admitting_question, broken_rules, check_same, find_known_train
-from geartrain.search.reconstruct.known_rank import (
-    RankedQuestion,
-    find_place,
-    find_telling_facts,
-    rank_known_train,
-)
-from geartrain.search.reconstruct.reconstruction_search import train_key
-from geartrain.search.reconstruct.spur_tree import find_spur_tree, lost_evidence
-from geartrain.search.reconstruct.train_construction import TrainConstruction
-from geartrain.train import declare
+from geartrain.search.reconstruct.candidate_rules import admitting_question, broken_rules, find_known_train
+from geartrain.train import Train, declare
 
 
 def loosened(problem: ReconstructionProblem, part: int) -> ReconstructionProblem:
@@ -92,31 +87,18 @@ def test_a_driven_wheel_that_is_added_breaks_a_rule() -> None:
 # places
 
 
-def plain_prior(tree: tuple, problem: ReconstructionProblem) -> Fraction:
-    """The product of what every part of a concrete tree weighs."""
-    factors, limits = problem.factors, problem.additions
-    weights = {one.name: dict(one.counts) for arbor in (problem.input, *problem.arbors) for one in arbor.wheels}
-    weight, unused = Fraction(1), set(weights)
-    for name, driven, _, drives in nodes(tree):
-        weight /= factors.arbor if name == "" else 1
-        for wheel, teeth in [one for one in (driven, *(wheel for wheel, _ in drives)) if one]:
-            if wheel in weights:
-                weight *= weights[wheel][teeth]
-                unused.discard(wheel)
-    weight /= (factors.wheel * (limits.maximum - limits.minimum + 1)) ** added_wheels(tree)
-    return weight / factors.unused ** len(unused)
-
-
 def test_a_place_is_that_among_all_trains_of_plain_growth() -> None:
     placed = 0
     for seed in range(760, 800):
-        problem = random_problem(seed)
+        evidence = declared(random_problem(seed))
+        problem = evidence_question(evidence).problem
         trees = [(found.counts.added, tree) for found in explanations(problem) for tree in found.solutions]
         weights = {tree: plain_prior(tree, problem) for _, tree in trees}
-        found = find_reconstructions(problem, listed=0)
-        assert sum(one.solutions for one in found.weights) == len(trees)
-        for added, tree in trees[:20]:
-            place = find_place(package_arbor(tree), problem, found)
+        known = tuple(candidate_train(evidence, package_arbor(tree), "known") for _, tree in trees[:20])
+        found = reconstruct(ReconstructionRequest(evidence, counts_only=True, known=known))
+        assert found.total == len(trees)
+        for (added, tree), one in zip(trees, found.known, strict=False):
+            place = one.place
             assert place is not None
             alike = [weights[other] for own, other in trees if own == added]
             for ranks, some in ((place.ranks, list(weights.values())), (place.ranks_alike, alike)):
@@ -132,52 +114,32 @@ def test_a_place_is_that_among_all_trains_of_plain_growth() -> None:
 # trains
 
 
-def test_a_shipped_train_is_read_as_its_own_tree() -> None:
-    """Of each that has one on the frame, with any arbor lost."""
-    read = 0
-    for name in shipped():
-        try:
-            tree = find_spur_tree(load(name).declaration)
-        except GearTrainError:
-            continue
-        if tree.base.is_carrier:
-            continue
-        for lost in combinations(list(tree.driven)[:6], 1):
-            problem = evidence_question(lost_evidence(tree, lost)).problem
-            known = find_known_train(tree.train, problem)
-            assert train_key(known.arbor) == train_key(tree.arbor(lost)), (name, lost)
-            assert not broken_rules(known.arbor, problem)
-            assert set(known.added) == {wheel for link in lost for wheel in tree.wheels_of(link)}
-            read += 1
-    assert read > 60
-
-
 PRICE = {"E4": "e3", "E3": "e4", "G2": "g1", "E2i": "e2", "four years": "metonic"}
 
 
-def sure_back(wheels: int = 3) -> ReconstructionProblem:
-    return evidence_question(read_evidence("back-wheels-sure"), wheels).problem
+def sure_back() -> ReconstructionProblem:
+    return evidence_question(read_evidence("back-wheels-sure"), 3).problem
 
 
-def search(problem: ReconstructionProblem) -> Reconstructions:
-    return find_reconstructions(problem, listed=0)
-
-
-def sure_question() -> RankedQuestion:
-    problem = sure_back()
-    return RankedQuestion(read_evidence("back-wheels-sure"), problem, search(problem), search)
+def ranked(
+    train: Train, same: Mapping[str, str] | None = None, name: str = "back-wheels-sure", **options: Any
+) -> ReconstructionAnswer:
+    """Answer in which the train is the known one; no other is listed."""
+    request = {"wheels": 3, "counts_only": True} | options
+    return reconstruct(ReconstructionRequest(read_evidence(name), known=(train,), same=same or {}, **request))
 
 
 def test_the_train_of_2008_is_one_of_21() -> None:
-    found = rank_known_train(load("freeth-2008").declaration, sure_question())
+    (found,) = ranked(load("freeth-2008").declaration).known
     assert found.wheels == {"m3": 27, "n1": 53, "nO": 57}
     assert (found.arbors, found.broken, found.admitted) == (1, (), ())
     assert found.place is not None
     assert (found.place.ranks, found.place.trains, found.place.dearer) == ((1, 21), 21, 1)
+    assert found.telling is None, "none of 21 is listed"
 
 
 def test_the_train_of_2006_has_another_dial_on_o() -> None:
-    found = rank_known_train(load("freeth-2006").declaration, sure_question())
+    (found,) = ranked(load("freeth-2006").declaration).known
     (speed,) = found.broken
     assert (speed.rule, speed.subject, speed.values) == ("speed", ("games",), (Fraction(-1, 76),))
     as_it_has, without = found.admitted
@@ -189,7 +151,7 @@ def test_the_train_of_2006_has_another_dial_on_o() -> None:
 
 @pytest.mark.slow
 def test_prices_train_breaks_many_rules() -> None:
-    found = rank_known_train(load("price-1974").declaration, sure_question(), PRICE)
+    (found,) = ranked(load("price-1974").declaration, PRICE).known
     assert {(one.rule, *one.subject) for one in found.broken} >= {
         ("speed", "metonic"),
         ("dial", "saros"),
@@ -224,15 +186,14 @@ def test_names_are_found_whatever_their_capitals_unless_told_otherwise() -> None
     plain = {wheel.name for wheel in find_known_train(train, problem).arbor.wheels()}
     assert "e2" not in plain
     with pytest.raises(GearTrainError, match="is not a wheel or an output"):
-        check_same({"E44": "e3"}, [train], problem)
+        ranked(train, {"E44": "e3"})
     with pytest.raises(GearTrainError, match="is not a wheel or a dial"):
-        check_same({"E4": "e33"}, [train], problem)
+        ranked(train, {"E4": "e33"})
 
 
 def test_a_train_without_the_input_or_with_a_loop_is_refused() -> None:
-    problem = sure_back()
     with pytest.raises(GearTrainError, match="no wheel of 'b'"):
-        find_known_train(load("vitruvius-hodometer").declaration, problem)
+        ranked(load("vitruvius-hodometer").declaration)
     looped = declare(
         {
             "name": "loop",
@@ -248,7 +209,7 @@ def test_a_train_without_the_input_or_with_a_loop_is_refused() -> None:
         }
     )
     with pytest.raises(GearTrainError, match="close a loop"):
-        find_known_train(looped, problem)
+        ranked(looped)
 
 
 def test_wheels_that_are_on_other_arbors_are_not_taken_for_those_that_survive() -> None:
@@ -307,17 +268,16 @@ def plainly_left(fact: tuple, facts: list[set[tuple]]) -> frozenset[int]:
 def test_what_singles_a_train_out_is_what_plain_sets_of_trains_say(name: str) -> None:
     """Each fact, and all sets of facts that leave as few; counts of wheels by their names are looked up in the list."""
     evidence = read_evidence(name)
-    problem = evidence_question(evidence).problem
-    found = find_reconstructions(problem)
+    found = reconstruct(ReconstructionRequest(evidence, best=None))
     facts = []
-    for one in found.candidates:
-        train = TrainConstruction.of(evidence, one.arbor)
-        counts = {("added", wheel, str(teeth)) for wheel, teeth in train.added.items()}
-        counts |= {("count", wheel, str(teeth)) for wheel, teeth in train.doubtful.items()}
+    for listed, one in zip(found.best, found.candidates, strict=True):
+        counts = {("added", wheel, str(teeth)) for wheel, teeth in listed.wheels.items()}
+        counts |= {("count", wheel, str(teeth)) for wheel, teeth in listed.doubtful.items()}
         facts.append(plain_facts(concrete(one.arbor)) | counts)
+    known = tuple(candidate_train(evidence, one.arbor, "known") for one in found.candidates)
     sizes = set[int]()
-    for which, one in enumerate(found.candidates):
-        told = find_telling_facts(evidence, problem, found, one.arbor)
+    for which, one in enumerate(reconstruct(ReconstructionRequest(evidence, best=None, known=known)).known):
+        told = one.telling
         assert told is not None
         left = {fact: plainly_left(fact, facts) for fact in facts[which]}
         left = {fact: trains for fact, trains in left.items() if len(trains) < len(facts)}
@@ -337,8 +297,3 @@ def test_what_singles_a_train_out_is_what_plain_sets_of_trains_say(name: str) ->
         sizes |= {len(some) for some in told.sets}
     assert sizes <= {1, 2, 3}
     assert max(sizes) > 1 or name == "back-train"
-
-
-def test_too_many_trains_single_none_out() -> None:
-    question = sure_question()  # of which none is listed
-    assert rank_known_train(load("freeth-2008").declaration, question).telling is None

@@ -15,7 +15,6 @@ from geartrain import load
 from geartrain.analysis import GearTrain
 from geartrain.errors import QuestionError, RangeError
 from geartrain.search import Orrery, find_orrery, read_ratio
-from geartrain.search.orrery.arbor_trees import TreeEnumeration, fewest_wheels, pair_ratios, reach, read_period_targets
 
 HILLIS = {
     "moon": "29.53058853",
@@ -72,12 +71,6 @@ def shown(periods: list[Fraction], aims: list[Fraction], slack: Fraction) -> Ite
     return (places for places in product(*fits) if len(set(places)) == len(places))
 
 
-def useless(links: list[Link], places: tuple[int, ...]) -> bool:
-    """True if an arbor drives nothing and shows nothing."""
-    parents = {parent for parent, _ in links}
-    return any(at not in parents and at not in places for at in range(1, len(links) + 1))
-
-
 def wheels_needed(links: list[Link], counts: list[int]) -> int:
     """Fewest wheels over all choices of teeth: every choice is counted."""
     choices = [[(a, b) for a, b in product(counts, repeat=2) if Fraction(b, a) == ratio] for _, ratio in links]
@@ -97,47 +90,6 @@ def small(draw: st.DrawFn) -> tuple[list[int], list[Fraction], Fraction]:
     slack = draw(st.sampled_from([Fraction(0), Fraction(1, 100), Fraction(1, 20)]))
     aims = draw(st.lists(periods, min_size=1, max_size=2))
     return counts, aims, slack
-
-
-@settings(max_examples=15, deadline=None)
-@given(small())
-def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], list[Fraction], Fraction]) -> None:
-    counts, aims, slack = question
-    ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
-    names = [f"p{at}" for at in range(len(aims))]
-    requested = read_period_targets(dict(zip(names, aims, strict=True)), slack)
-    for extra in range(4):
-        if len(aims) + extra > (4 if len(ratios) <= 3 else 3):
-            continue
-        expected = set()
-        for links, periods in all_trees(ratios, len(aims) + extra):
-            for places in shown(periods, aims, slack):
-                if not useless(links, places):
-                    expected.add(likeness([parent for parent, _ in links], periods, places))
-        found = set()
-        for tree in TreeEnumeration(pair_ratios(counts), requested, extra).trees():
-            periods = [arbor.period for arbor in tree]
-            places = tuple(next(at for at, arbor in enumerate(tree) if arbor.target == aim) for aim in range(len(aims)))
-            found.add(likeness([arbor.parent for arbor in tree[1:]], periods, places))
-        assert found == expected
-
-
-def likeness(parents: list[int], periods: list[Fraction], places: tuple[int, ...]) -> str:
-    """Equal for trees that differ only in the order of their arbors: a name built from the leaves up."""
-    names = [""] * len(periods)
-    order = sorted(range(len(periods)), key=lambda at: -depth(parents, at))
-    for at in order:
-        children = sorted(names[child] for child, parent in enumerate(parents, start=1) if parent == at)
-        aims = [aim for aim, place in enumerate(places) if place == at]
-        names[at] = f"({periods[at]}|{aims}|{''.join(children)})"
-    return names[0]
-
-
-def depth(parents: list[int], at: int) -> int:
-    steps = 0
-    while at:
-        at, steps = parents[at - 1], steps + 1
-    return steps
 
 
 @settings(max_examples=25, deadline=None)
@@ -183,34 +135,6 @@ def checked(found: Orrery, periods: dict[str, Fraction], slack: Fraction, counts
     for name in periods:
         assert answer[name] == senses[name] / has[name]
         assert all(target.met for target in answer.outputs[name].targets)
-
-
-@settings(max_examples=40, deadline=None)
-@given(st.data())
-def test_no_choice_of_teeth_has_fewer_wheels(data: st.DataObject) -> None:
-    counts = sorted(data.draw(st.sets(st.integers(4, 30), min_size=3, max_size=8)))
-    teeth = st.sampled_from(counts)
-    links = [(data.draw(st.integers(0, at)), Fraction(data.draw(teeth), data.draw(teeth))) for at in range(4)]
-    edges = [(parent, at, ratio.numerator, ratio.denominator) for at, (parent, ratio) in enumerate(links, start=1)]
-    wheels, meshes, proved = fewest_wheels(pair_ratios(counts), edges)
-    assert proved
-    assert wheels == wheels_needed(links, counts)
-    assert [Fraction(b, a) for a, b in meshes] == [ratio for _, ratio in links]
-
-
-def test_every_way_of_two_pairs_is_within_reach() -> None:
-    counts = range(10, 25)
-    ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
-    aims = read_period_targets({"x": Fraction(22, 7), "y": Fraction("1.2345")}, Fraction(1, 1000))
-    pairs = pair_ratios(counts)
-    found = reach(pairs, aims, 0.0, 0b11)
-    seen = {Fraction(*pairs.terms(at)): int(bits) for at, bits in zip(found.first, found.sets, strict=True)}
-    for first in ratios:
-        bits = sum(
-            any(abs(aim / (first * second) - 1) <= Fraction(1, 1000) for second in ratios) << at
-            for at, aim in enumerate((Fraction(22, 7), Fraction("1.2345")))
-        )
-        assert seen.get(first, 0) == bits
 
 
 # ---- the clock of 10000 years

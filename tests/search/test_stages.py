@@ -11,7 +11,6 @@ from math import comb, gcd, prod
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -21,8 +20,6 @@ from geartrain.errors import QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
 from geartrain.search import StageConstraints, StageFindings, TargetRatio, find_stages
 from geartrain.search.ratio import search_segments as stages_work
-from geartrain.search.ratio.product_windows import cuts, errors
-from geartrain.search.ratio.stage_problem import best_pairing, suited
 
 Set = tuple[int, ...]
 MONTH = Fraction("13.368267")
@@ -285,40 +282,6 @@ def test_many_solutions_are_listed_as_well_as_few() -> None:
 # exact windows --------------------------------------------------------------------------------------------------------
 
 
-@given(
-    st.lists(st.integers(1, 2**52 - 1), min_size=1, max_size=8),
-    st.lists(st.integers(1, 2**52 - 1), min_size=1, max_size=8),
-    st.data(),
-    st.sampled_from([np.int64, object]),
-)
-@settings(max_examples=few_or_many(50, 100))
-def test_windows_are_cut_as_fractions_cut_them(
-    tops: list[int], beneaths: list[int], data: st.DataObject, dtype: type
-) -> None:
-    tops = sorted(tops)
-    ratio = Fraction(data.draw(st.sampled_from(tops)), data.draw(st.sampled_from(beneaths)))
-    near = st.fractions(-Fraction(1, 10**15), Fraction(1, 10**15))
-    edges = [
-        ratio,
-        ratio * (1 + data.draw(near)),
-        data.draw(st.fractions(0, 10**7)),
-        ratio * Fraction(10**30, 10**30 + 1),
-    ]
-    low, high = sorted([data.draw(st.sampled_from(edges)), data.draw(st.sampled_from(edges))])
-    first, last = cuts(np.array(tops, dtype=dtype), np.array(beneaths, dtype=dtype), low, high)
-    for beneath, start, stop in zip(beneaths, first, last, strict=True):
-        inside = [at for at, top in enumerate(tops) if low * beneath <= top <= high * beneath]
-        assert list(range(start, stop)) == inside
-
-
-@given(st.integers(1, 2**52 - 1), st.integers(1, 2**52 - 1), st.fractions(-1, 1), st.integers(0, 40))
-def test_errors_are_right_to_thirty_places(top: int, beneath: int, off: Fraction, places: int) -> None:
-    value = Fraction(top, beneath) * (1 + off / 2 / 10**places)
-    exact = Fraction(top, beneath) / value - 1
-    found = errors(np.array([top]), np.array([beneath]), value)[0]
-    assert abs(Fraction(float(found)) - exact) <= 1e-29 + abs(exact) * Fraction(1, 10**10)
-
-
 def test_products_past_float64_are_found_exactly() -> None:
     top = tuple(range(10**9, 10**9 + 16))
     beneath = tuple(range(10**9 + 7, 10**9 + 20))
@@ -333,33 +296,6 @@ def test_products_past_float64_are_found_exactly() -> None:
 
 
 # pairings -------------------------------------------------------------------------------------------------------------
-
-
-@given(st.data(), st.integers(1, 4))
-def test_pairings_are_judged_as_one_by_one(data: st.DataObject, size: int) -> None:
-    one = st.lists(st.integers(1, 12), min_size=size, max_size=size).map(sorted)
-    top, beneath, fit = tuple(data.draw(one)), tuple(data.draw(one)), data.draw(fits(size))
-    ways = pairings(top, beneath, fit)
-    found = suited(np.array([top]), np.array([beneath]), fit)
-    assert bool(found.possible[0]) == bool(ways)
-    best = best_pairing(top, beneath, fit)
-    assert (best is None) == (not ways)
-    if best is None:
-        return
-    assert found.coprime[0] == max(sum(gcd(a, b) == 1 for a, b, _ in way) for way in ways)
-    assert found.centres[0] == min(len(distances(way)) for way in ways)
-    assert sum(gcd(a, b) == 1 for a, b in best) == found.coprime[0]
-    spreads = [
-        max(Fraction(a, b) for a, b, _ in way) / min(Fraction(a, b) for a, b, _ in way)
-        for way in ways
-        if sum(gcd(a, b) == 1 for a, b, _ in way) == found.coprime[0]
-    ]
-    ratios = [Fraction(a, b) for a, b in best]
-    assert max(ratios) / min(ratios) == min(spreads)
-    close = best_pairing(top, beneath, fit, centres=True)
-    border = size - fit.internal
-    assert close is not None
-    assert len(distances([(a, b, at >= border) for at, (a, b) in enumerate(close)])) == found.centres[0]
 
 
 # what an empty answer says --------------------------------------------------------------------------------------------

@@ -225,6 +225,12 @@ def test_ten_free_wheels_on_one_output_are_still_complete() -> None:
     assert found.complete
 
 
+def test_numbers_of_assignments_beyond_a_machine_word_are_exact() -> None:
+    found = find(chain([(11, 14)] * 32, target("1", "1/2")), best=1)
+    assert found.count == quotients_within(range(11, 15), 16, Fraction(1), Fraction(1, 2))
+    assert found.considered == 4**32 > 2**62
+
+
 def test_wheels_driven_and_driving_are_idlers_whose_counts_do_not_matter() -> None:
     meshes = [("A", "a", "B", "b"), ("B", "b", "C", "c")]
     found = find(train(meshes, {"a": free(20, 30), "b": free(10, 12), "c": free(40, 60)}, {"C": target("1/2", 0)}))

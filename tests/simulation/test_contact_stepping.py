@@ -37,7 +37,6 @@ from geartrain.simulation.steps.contact_solution import (
     solve_guess,
 )
 from geartrain.simulation.steps.simulation import SimulatedRun, StepPlan, empty_equations, simulate, start_state
-from geartrain.simulation.steps.time_steps import run_steps
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
 from geartrain.teeth.transmission import ConstantLag, ExactRatio
 
@@ -229,7 +228,7 @@ def test_a_wheel_that_rests_between_beats_is_stepped_at_once_and_all_figures_sta
         springs=[Spring("spring", {0: 1.0}, 0.2, 20.0)],
     )
     quick = run(of, 1e-3, 4.2, samples=kept)
-    monkeypatch.setattr(simulation, "run_steps", run_steps.replaced(find_idle_steps=never_idle))
+    monkeypatch.setattr(simulation, "run_steps", simulation.run_steps.replaced(find_idle_steps=never_idle))
     slow = run(of, 1e-3, 4.2, samples=kept)
     assert quick.numbers == slow.numbers
     for name in ("angles", "speeds", "energy", "impacts"):

@@ -10,9 +10,7 @@ import pytest
 import sorge
 
 import geartrain
-from geartrain.simulation.strength.tooth_forces import bevel_force
 
-FLAT = "A: {position: [0 mm, 0 mm, 0 mm]}, B: {position: [%s mm, 0 mm, 0 mm]}"
 SKEW = "A: {direction: [0, 0, 1], position: [0 mm, 0 mm, 0 mm]}, B: {direction: %s, position: [%s mm, 0 mm, 0 mm]}"
 
 
@@ -105,10 +103,6 @@ def test_bevels_push_each_other_away_from_their_apex() -> None:
     assert abs(one.tangential) == pytest.approx(abs(other.tangential))
     assert one.radius == pytest.approx(20 - 4 * sin(atan(0.5)))
     assert one.axial > 0
-
-
-def test_bevels_that_face_the_other_way_are_pushed_that_way() -> None:
-    assert bevel_force(5.0, 0.4, 0.3, -1).axial == -bevel_force(5.0, 0.4, 0.3).axial
 
 
 def test_the_helical_pinion_of_shigleys_example_13_7() -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from math import acos, asin, atan, degrees, sqrt
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -16,11 +17,8 @@ from scipy.spatial import ConvexHull
 
 from geartrain import GearTrainError
 from geartrain.spherical import GraphSet, from_graph, from_polyhedron
-from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_rows, tangency
-from geartrain.spherical.circle_packing import SpherePacking, pack_circles
+from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_rows
 from geartrain.spherical.configuration import regions
-from geartrain.spherical.graph_set import separating_pair
-from geartrain.spherical.pitch_cones import angle_rows, moved
 
 Floats = NDArray[np.float64]
 Edge = tuple[str, str]
@@ -66,15 +64,15 @@ def faces_and_vertices_of_hull(points: int, seed: int) -> list[Edge]:
     return [(f"v{vertex}", f"f{at}") for at, face in enumerate(hull.simplices) for vertex in face]
 
 
-def packing_of(edges: Iterable[tuple[object, object]]) -> tuple[SpherePacking, list[str]]:
+def packing_of(edges: Iterable[tuple[object, object]]) -> tuple[Any, list[str]]:
     found = from_graph(edges)  # type: ignore[arg-type]
     return found.packing, list(found.configuration.names)
 
 
-def solid_packing(name: str) -> SpherePacking:
-    """The packing of a solid's faces, from the regions between them."""
+def solid_packing(name: str) -> Any:
+    """The packing of the graph of a solid's faces."""
     configuration = from_polyhedron(name)
-    return pack_circles(len(configuration.axes), regions(configuration))
+    return from_graph([(int(i), int(j)) for i, j in configuration.meshes]).packing
 
 
 def angle(a: Floats, b: Floats) -> float:
@@ -94,7 +92,7 @@ def overlaps(axes: Floats, cones: Floats) -> int:
     return int((apart < cones[i] + cones[j] - 1e-9).sum())
 
 
-def check_in_space(packing: SpherePacking, digits: float = 1e-14) -> None:
+def check_in_space(packing: Any, digits: float = 1e-14) -> None:
     """Gears touch, regions pass through the points where they do, nothing overlaps, and the centre is right."""
     for i, j in packing.meshes:
         assert angle(packing.axes[i], packing.axes[j]) == pytest.approx(packing.cones[i] + packing.cones[j], abs=digits)
@@ -184,54 +182,6 @@ def test_a_thousand_gears_pack_and_close() -> None:
 
 
 # derivatives and rank ------------------------------------------------------------------------------------------------
-
-
-def test_all_derivatives_are_those_of_differences() -> None:
-    packing, names = packing_of(faces_and_vertices(ASYM))
-    z = np.linspace(10, 50, len(names))
-    corners = corners_of(packing.regions, np.ones(len(names), dtype=np.int64))
-    h = 1e-6
-    functions: list[Callable[[Floats], tuple[Floats, object]]] = [
-        lambda axes: angle_rows(axes, packing.meshes),
-        lambda axes: loop_sums(axes, corners, z),
-        lambda axes: pitch_rows(axes, packing.meshes, z),
-    ]
-    for function in functions:
-        slopes = function(packing.axes)[1].toarray()  # type: ignore[attr-defined]
-        for k in range(2 * len(names)):
-            step = np.zeros(2 * len(names))
-            step[k] = h
-            there, back = (function(moved(packing.axes, s * step.reshape(-1, 2)))[0] for s in (1, -1))
-            assert np.allclose((there - back) / (2 * h), slopes[:, k], atol=3e-8)
-
-
-@pytest.mark.parametrize(
-    ("solid", "unknowns", "meshes", "rank"),
-    [
-        ("octahedron", 14, 12, 12),
-        ("cuboctahedron", 26, 24, 23),
-        ("icosidodecahedron", 62, 60, 57),
-        ("rhombicuboctahedron", 50, 48, 45),
-        ("rhombicosidodecahedron", 122, 120, 111),
-        ("4-antiprism", 18, 16, 16),
-        ("6-antiprism", 26, 24, 24),
-    ],
-)
-def test_tangencies_of_symmetric_solids_depend_on_each_other(solid: str, unknowns: int, meshes: int, rank: int) -> None:
-    packing = solid_packing(solid)
-    error, J = tangency(packing.axes, packing.meshes, np.sin(packing.cones), 1.0)
-    assert np.abs(error).max() < 1e-14
-    dense = J.toarray()
-    assert dense.shape == (meshes, 2 * len(packing.axes) + 1)
-    # three rotations change no angle
-    assert dense.shape[1] - 3 == unknowns
-    assert np.linalg.matrix_rank(dense, tol=1e-9) == rank
-
-
-def test_tangencies_without_symmetry_are_independent() -> None:
-    packing, _ = packing_of(faces_and_vertices(ASYM))
-    _, J = tangency(packing.axes, packing.meshes, np.sin(packing.cones), 1.0)
-    assert np.linalg.matrix_rank(J.toarray(), tol=1e-9) == len(packing.meshes)
 
 
 # gears from graphs ---------------------------------------------------------------------------------------------------
@@ -442,26 +392,6 @@ def test_kuratowski_of_five() -> None:
     graph = [pair for a, b in nx.complete_graph(5).edges() for pair in ((a, f"{a}{b}"), (f"{a}{b}", b))]
     with pytest.raises(GearTrainError, match="not planar: 0, 1, 2, 3, 4"):
         from_graph(graph)
-
-
-def test_separating_pairs_agree_with_connectivity() -> None:
-    for seed in range(30):
-        points = np.random.default_rng(seed).normal(size=(9, 3))
-        hull = ConvexHull(points / np.linalg.norm(points, axis=1)[:, None])
-        graph = nx.Graph([(int(a), int(b)) for face in hull.simplices for a, b in zip(face, np.roll(face, 1))])  # noqa: B905
-        edges = list(graph.edges())
-        np.random.default_rng(seed).shuffle(edges)
-        graph.remove_edges_from([tuple(edge) for edge in edges[: seed % 7]])
-        if not nx.is_biconnected(graph):
-            continue
-        _, drawn = nx.check_planarity(graph)
-        seen: set[tuple[int, int]] = set()
-        walks = [drawn.traverse_face(*edge, seen) for edge in drawn.edges() if edge not in seen]
-        pair = separating_pair(walks)
-        assert (pair is None) == (nx.node_connectivity(graph) >= 3)
-        if pair is not None:
-            graph.remove_nodes_from(pair)
-            assert not nx.is_connected(graph)
 
 
 def test_teeth_of_all_gears_must_be_given_and_aims_are_two() -> None:

@@ -18,8 +18,7 @@ from geartrain import GearTrain, GearTrainError, load
 from geartrain.drawing.tooth_contact import tooth_pair_pose
 from geartrain.teeth import Triangular
 from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth, find_window
-from geartrain.workshop import ToothSizes
-from geartrain.workshop.sizes.best_sizes import confirm_by_outlines
+from geartrain.workshop import ToothSizes, find_tooth_sizes
 
 # driver; teeth of pinion and ring; ratio of the radii over that of the teeth (None: equal depth); half angles (deg);
 # excess; tip radius of the ring, centre distance, reach of the driver (deg); window of excess; verdict, play (deg)
@@ -256,7 +255,8 @@ def test_the_inverse_pair_undoes_the_pair() -> None:
 
 
 def test_the_contact_of_drawn_outlines_confirms_a_design_with_a_ring() -> None:
-    found = confirm_by_outlines(ToothSizes((20, 60), 0.95, 0.5, (pi / 6, pi / 6), 0.2, 1, 2))
+    design = ToothSizes((20, 60), 0.95, 0.5, (pi / 6, pi / 6), 0.2, 1, 2)
+    found = find_tooth_sizes(design, free={"radii": (0.95, 0.951)}).outlines
     assert found.turns
     assert found.difference < 1e-4
 

@@ -6,14 +6,13 @@ import itertools
 from pathlib import Path
 
 import pytest
+from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
 from shipped import every_train
-from typer.testing import CliRunner
 
 import geartrain
 from geartrain import shipped
-from geartrain.cli import app
 from geartrain.errors import DeclarationError
 from geartrain.train import with_long_forms, with_short_forms
 
@@ -137,19 +136,19 @@ outputs: {arm: {expect: -6/5}}
 
 
 def test_the_command_rewrites_checks_and_leaves_broken_files_alone(tmp_path: Path) -> None:
-    file, runner = tmp_path / "set.yaml", CliRunner()
+    file = tmp_path / "set.yaml"
     file.write_text(LONG, encoding="utf-8")
-    assert runner.invoke(app, ["format", "--check", str(file)]).exit_code == 1
+    assert call("format", "--check", file).exit_code == 1
     assert file.read_text(encoding="utf-8") == LONG
-    assert runner.invoke(app, ["format", str(file)]).exit_code == 0
+    assert call("format", file).exit_code == 0
     assert file.read_text(encoding="utf-8") == SHORT
-    assert runner.invoke(app, ["format", "--check", str(file)]).exit_code == 0
+    assert call("format", "--check", file).exit_code == 0
     broken = LONG.replace("[s, p]", "[s, x]")
     file.write_text(broken, encoding="utf-8")
-    assert runner.invoke(app, ["format", str(file)]).exit_code == 2
+    assert call("format", file).exit_code == 2
     assert file.read_text(encoding="utf-8") == broken
     file.write_text(LONG, encoding="utf-8")
-    printed = runner.invoke(app, ["format", str(file), "-o", "-"])
+    printed = call("format", file, "-o", "-")
     assert printed.stdout == SHORT
     assert file.read_text(encoding="utf-8") == LONG
 

@@ -19,7 +19,6 @@ from shapely.affinity import affine_transform
 import geartrain
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
-from geartrain.teeth.contact.outline_mesh import OutlineMesh
 from geartrain.workshop import export_files, notices, wheel_file
 
 TRAINS = sorted(geartrain.shipped())
@@ -110,7 +109,7 @@ class Meshed:
         if mesh is not None and mesh.form == "triangular":
             first, second, self.transmission = mesh.driver, mesh.driven, mesh.transmission
         self.uneven = ()  # laws of both flanks of teeth that are not conjugate
-        if isinstance(mesh, OutlineMesh):
+        if hasattr(getattr(mesh, "transmission", None), "gears"):
             first, second, self.uneven = mesh.driver, mesh.driven, (mesh.transmission, mesh.coast)
         if work.blanks.wheels[first].kind == "ring":
             first, second = second, first

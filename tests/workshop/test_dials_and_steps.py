@@ -16,7 +16,6 @@ from shipped import train as load
 
 from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.workshop import assembly_steps, export_files, parts_list
-from geartrain.workshop.export.assembly_guide import step_pictures
 
 
 def model(name: str) -> SolidModel:
@@ -177,6 +176,6 @@ def test_a_clock_is_made_with_its_barrel_its_pendulum_and_its_weight() -> None:
         if np.hypot(*((contour.points.mean(axis=0) + plate.place[:2]) - cock.place[:2])) < 1e-6
     ]
     assert radii == [pytest.approx(1.2, abs=0.05)], "a hole in one plate for its tenon"
-    pictures = [draw().decode() for _, _, draw in step_pictures(work)]
+    pictures = [each.make().decode() for each in export_files(work, ["svg"]) if re.match("assembly/.*svg", each.path)]
     heights = [int(re.search(r'height="(\d+)"', each).group(1)) for each in pictures]  # type: ignore[union-attr]
     assert max(heights) < 1200

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from math import cos, pi, radians, sin
-from pathlib import Path
 
 import numpy as np
 import pytest
 from sampling import first_few
-from studies.cut_pair_transmission import CutPairLaw
 
 import geartrain
 from geartrain import GearTrainError
@@ -21,11 +19,8 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, TwoFlankContact, solve
 from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
-from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
 from geartrain.workshop.cutting.displaced_pair import DisplacedPair, DisplacedWheel
-from geartrain.workshop.cutting.file_strokes import FileableCutPair, file_to_fit
-from geartrain.workshop.monte_carlo.random_streams import RandomStreams
-from geartrain.workshop.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
+from geartrain.workshop.cutting.file_strokes import file_to_fit
 
 INVOLUTE = Involute(form="involute", backlash="0.2")
 PAIRS = {
@@ -326,85 +321,6 @@ def test_strokes_are_those_of_a_plain_loop_that_files_one_at_a_time() -> None:
     assert strokes == np.ceil((0.1 * at.pitches[0] - 1.5 * at.backlash) * 12 * cos(radians(20)) / stroke)
 
 
-PAIR = """
-name: pair
-links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {w: 37}}}
-revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
-gears: [{pair: [p, w]}]
-inputs: {a: 1}
-outputs: {b: {}}
-tooth_form: {form: FORM, backlash: 0.2}
-cutting: {pitch_deviation: {normal: 1 %}}
-fitting: {filing: {stroke: 1 %}}
-"""
-
-
-@pytest.mark.parametrize("form", ["involute", "cycloidal"])
-def test_a_train_is_cut_filed_and_composed(form: str, tmp_path: Path) -> None:
-    (tmp_path / "pair.yaml").write_text(PAIR.replace("FORM", form))
-    plan = find_trial_plan(geartrain.load(tmp_path / "pair.yaml"))
-    found = run_trials(plan, 300)
-    pair, train = found.filings
-    assert pair.filed.count == train.filed.count > 0
-    assert pair.jams.count == found.train.events["jam"].count == 0
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
-    turns = np.linspace(0, 3, 40)
-    errors = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
-    cut = drawn.pair(0)
-    lag, _ = cut.minimum_lag(np.arange(40), np.mod(turns * 2 * pi, cut.count * 2 * pi / 24))
-    # an external pair turns backwards: a lag is a positive error
-    assert errors == pytest.approx(lag, abs=1e-10)
-    # to first order sigma on each wheel, and a mean lag of none: the spread of an error of one couple
-    sigma = 0.01 * 2 * pi / 37 * 2**0.5
-    assert 0.6 * sigma < found.pointers[0].deviation.value < 1.05 * sigma
-
-
-def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting(tmp_path: Path) -> None:
-    text = PAIR.replace("FORM, backlash: 0.2", "cycloidal, backlash: 0.2, centre_distance: 30.55")
-    (tmp_path / "pair.yaml").write_text(text)
-    train = geartrain.load(tmp_path / "pair.yaml")
-    plan = find_trial_plan(train, read_error_overrides(["pitch_deviation=0.0001 %"]))
-    transmission, pitch, S = train.meshes[0].transmission, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
-    lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).minimum_lag(np.zeros(50, int), S)[0]
-    # to first order in 0.05 modules, the ripple of the outlines' own law
-    assert np.ptp(transmission.error(S)) > 0.001 * pitch
-    assert -lag == pytest.approx(transmission.error(S), abs=1e-3 * pitch)
-    assert abs(run_trials(plan, 200).pointers[0].mean.value) < 1e-4 * pitch
-
-
-def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the_other() -> None:
-    wheel = CutWheel.even(16, 10.0, 0.5).widened(RNG.uniform(-0.05, 0.05, 16)).placed(RNG.uniform(-0.02, 0.02, 16))
-    leading, trailing = RNG.uniform(0, 0.05, (2, 16))
-    filed = wheel.filed(leading, trailing)
-
-    def lines(each: CutWheel) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Of both flanks the distance from the axle and the direction of the normal, ahead counted up."""
-        tip = each.r * np.exp(-1j * each.theta)
-        ways = (each.half_angle + each.leading, 1j), (each.half_angle + each.trailing, -1j)
-        normals = [tip / abs(tip) * side * np.exp(-side * lean) for lean, side in ways]
-        return [((tip / normal).real, np.angle(normal)) for normal in normals]
-
-    for (far, way), (then, turned), low in zip(lines(wheel), lines(filed), (leading, trailing), strict=True):
-        assert turned == pytest.approx(way, abs=1e-14)
-        assert far - then == pytest.approx(low, abs=1e-13)
-
-
-@pytest.mark.parametrize("wheel", [0, 1])
-@pytest.mark.parametrize("side", [0, 1])
-def test_the_triangular_flank_that_stands_out_is_the_one_that_is_filed(wheel: int, side: int) -> None:
-    """One tooth a third of a pitch ahead jams by its leading flank, one as far behind by its trailing flank."""
-    form = "{form: triangular, half_angle: 30 deg, window: 0.3}"
-    text = PAIR.replace("{form: FORM, backlash: 0.2}", form).partition("cutting")[0]
-    sizes = geartrain.load(text).meshes[0].transmission.sizes
-    wheels = [CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)]
-    place = np.zeros((2, wheels[wheel].z))  # two trials: the second is without errors
-    place[0, 7] = (-1, 1)[side] * 0.35 * wheels[wheel].pitch
-    wheels = [each.placed(place if at == wheel else np.zeros((2, each.z))) for at, each in enumerate(wheels)]
-    work = file_to_fit(FileableCutPair(CutGearPair(sizes, *wheels)), 0.002 * sizes.R1, 1.0)
-    assert work.strokes[0] > 0 == work.strokes[1]
-    assert [np.argwhere(low).tolist() for low in work.low] == [[[0, side, 7]] if at == wheel else [] for at in (0, 1)]
-
-
 def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
     """Tooth by tooth, and in mesh: what the driven wheel leads by on its back is what it lags by in the mirror."""
     at = displaced_contact(PAIRS["involute"], 1)
@@ -422,37 +338,6 @@ def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
     pair, mirror = DisplacedPair(at, first, second), DisplacedPair(at, first.mirrored(), second.mirrored(1))
     S, rows = angles(pair), np.zeros(60, int)
     assert mirror.minimum_lag(rows, -S)[0] == pytest.approx(pair.minimum_lag(rows, S, back=True)[0], abs=1e-15)
-
-
-def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
-    # 15 % of such pairs jam, as docs/cut-by-hand.md prints
-    text = PAIR.replace("p: 24", "p: 64").replace("w: 37", "w: 38").replace("normal: 1 %", "normal: 5.16 %")
-    form = "{form: triangular, half_angle: 30 deg, clearance_factor: 1.02}"
-    (tmp_path / "pair.yaml").write_text(text.replace("{form: FORM, backlash: 0.2}", form))
-    plan = find_trial_plan(geartrain.load(tmp_path / "pair.yaml"))
-    bare = replace(plan, pairs=tuple(replace(pair, stroke=0.0) for pair in plan.pairs))
-    before, after = run_trials(bare, 40), run_trials(plan, 40)
-    assert before.train.events["jam"].count == after.filings[-1].filed.count > 0
-    assert after.train.events["jam"].count == 0
-    # wheel by wheel, by the law of one pair
-    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
-    at = int(np.argmax([work.strokes.sum() for work in drawn.filing.values()]))
-    pair, trial = drawn.pair(at), int(drawn.filing[at].strokes.argmax())
-    transmission = CutPairLaw.of(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
-    assert transmission.events.backlash >= 0
-
-
-def test_settings_and_wheels_of_other_forms() -> None:
-    settings = read_error_overrides(
-        ["pitch_deviation=0.2 %", "eccentricity=1 %", "aperture_deviation=1 %", "tip=1 %", "centre=1 %"]
-    )
-    for name in ("planetary-24-18-60-involute", "lantern-mill", "longcase-clock-cycloidal"):
-        plan = find_trial_plan(geartrain.load(name), settings)
-        found = run_trials(plan, 16)
-        assert np.isfinite(found.errors).all()
-        assert np.ptp(found.errors) > 0
-    plan = find_trial_plan(geartrain.load("bevel-differential-involute"), settings, state="straight")
-    assert np.isfinite(run_trials(plan, 16).errors).all()
 
 
 @BOTH

@@ -20,7 +20,6 @@ from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.scene.solids.bearing_plates import around
 from geartrain.workshop import export_files, notices, train_file, wheel_file
 from geartrain.workshop.export.cut_sheets import file_names
 
@@ -228,15 +227,6 @@ def test_slots_are_as_long_as_the_pin_wanders() -> None:
     assert ends == pytest.approx((8.5 - 1.1, 10.7 + 1.1), abs=2e-3)
     assert slot.area == pytest.approx(np.pi * 1.1**2 + 2.2 * 2.2, rel=1e-3)
     assert not [each for each in export_files(work, ["svg"]) if "plates/slot" in each.path], "no disc of its own"
-
-
-@given(st.lists(st.tuples(st.integers(-30, 30), st.integers(-30, 30)), min_size=1, max_size=9), st.integers(1, 9))
-def test_the_line_around_points_is_their_hull_made_thicker(points: list[tuple[int, int]], radius: int) -> None:
-    contour = around([(float(x), float(y)) for x, y in points], radius)
-    drawn = shapely.Polygon(unrolled([tuple(p) for p in contour.points], contour.bulges.tolist()))
-    true = shapely.MultiPoint(points).convex_hull.buffer(radius, quad_segs=64)
-    assert drawn.is_valid
-    assert drawn.symmetric_difference(true).area < 5e-3 * true.area
 
 
 @pytest.mark.parametrize("name", ["CON", "aux", "com1.x", "NUL.svg", "../x", "..", "a/b\\c:d", "/etc/passwd", "."])

@@ -15,11 +15,10 @@ from geartrain import load
 from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
-from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.workshop.cutting.cut_wheel import CutWheel
 from geartrain.workshop.cutting.meshing_cycle import batch_verdicts
-from geartrain.workshop.cutting.minimum_backlash import even_tooth_pair, jamming_bound, nominal_backlash
+from geartrain.workshop.cutting.minimum_backlash import jamming_bound, nominal_backlash
 
 THIRTY = radians(30)
 
@@ -380,18 +379,6 @@ def test_shifted_axles_are_another_centre_distance() -> None:
     assert np.abs(each.backlash - true.backlash).max() < 1e-5 * sizes.p2
 
 
-@pytest.mark.parametrize("ring", [0, 1, 2])
-@pytest.mark.parametrize("phase", [APPROACH, RECESS])
-def test_the_derivatives_of_a_contact_are_those_of_its_angle(phase: str, ring: Literal[0, 1, 2]) -> None:
-    """Newton's method finds the least play by them."""
-    sizes = with_ring(24, 15, ring)
-    tooth_pair = even_tooth_pair(sizes.at(find_window(sizes).at(0.5)))
-    x, step = np.linspace(-0.9, 0.9, 7) * tooth_pair.reach, 1e-5
-    for function, derivative in ((tooth_pair.angle, tooth_pair.speed), (tooth_pair.speed, tooth_pair.slope)):
-        low, high = function(phase, x - step, np), function(phase, x + step, np)
-        assert derivative(phase, x, np) == pytest.approx((high - low) / (2 * step), rel=1e-6, abs=1e-8)
-
-
 # ----------------------------------------------------------------------------------------------- printed figures
 
 
@@ -427,6 +414,24 @@ def test_the_bound_of_the_table_is_about_one_in_a_hundred(z1: int, z2: int, exce
 
 
 # ---------------------------------------------------------------------------------------------- eccentric wheels
+
+
+def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the_other() -> None:
+    rng = np.random.default_rng(20)
+    wheel = CutWheel.even(16, 10.0, 0.5).widened(rng.uniform(-0.05, 0.05, 16)).placed(rng.uniform(-0.02, 0.02, 16))
+    leading, trailing = rng.uniform(0, 0.05, (2, 16))
+    filed = wheel.filed(leading, trailing)
+
+    def lines(each: CutWheel) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Of both flanks the distance from the axle and the direction of the normal, ahead counted up."""
+        tip = each.r * np.exp(-1j * each.theta)
+        ways = (each.half_angle + each.leading, 1j), (each.half_angle + each.trailing, -1j)
+        normals = [tip / abs(tip) * side * np.exp(-side * lean) for lean, side in ways]
+        return [((tip / normal).real, np.angle(normal)) for normal in normals]
+
+    for (far, way), (then, turned), low in zip(lines(wheel), lines(filed), (leading, trailing), strict=True):
+        assert turned == pytest.approx(way, abs=1e-14)
+        assert far - then == pytest.approx(low, abs=1e-13)
 
 
 def test_eccentric_wheels_jam_when_their_errors_use_up_the_clearance() -> None:

@@ -133,6 +133,16 @@ def test_wilsons_interval_covers_each_probability_as_often_as_it_says(p: float) 
     assert 0.94 < binomial(TRIALS, p)[held].sum() < 0.96
 
 
+@pytest.mark.parametrize(("count", "of"), [(3, 40), (0, 25), (17, 17), (500, 1000)])
+def test_wilsons_interval_ends_where_the_deviation_is_z(count: int, of: int) -> None:
+    low, high = wilson(count, of)
+    z = 1.959963984540054
+    for p in (low, high):
+        if 0 < p < 1:
+            assert (count / of - p) ** 2 == pytest.approx(z**2 * p * (1 - p) / of, rel=1e-9)
+    assert low <= count / of <= high
+
+
 @pytest.mark.parametrize("percent", PERCENTILES)
 @pytest.mark.parametrize("n", [30, 100, 256, 1000])
 def test_the_interval_of_a_percentile_covers_it_in_95_percent_and_hardly_more(n: int, percent: float) -> None:

@@ -13,8 +13,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.errors import QuestionError
-from geartrain.workshop import BestTrainSizes, SizeLimit, find_train_sizes
-from geartrain.workshop.sizes.train_size_search import declared_sizes, sizeable_meshes
+from geartrain.workshop import BestTrainSizes, SizeLimit, ToothSizes, find_train_sizes
 
 NARROW = {"radii": (0.99, 1.06)}
 TWO = """
@@ -120,7 +119,7 @@ def test_pairs_that_share_a_wheel_are_given_one_half_angle(aim: str) -> None:
         if aim == "loss":
             scanned.append(1 - float(train.driven("c", "a").efficiency or 0))
         else:
-            sizes = (declared_sizes(mesh) for mesh in sizeable_meshes(train.mechanics.meshes_in()).values())
+            sizes = (ToothSizes(counts, 1.0, 0.5, (radians(angle / 2),) * 2, 0.2) for counts in ((24, 36), (36, 48)))
             scanned.append(-min(each.jam for each in sizes))
     assert (found.together if aim == "loss" else -found.together) <= min(scanned) + 1e-9
     declared = {gear["tooth_form"]["half_angle"] for gear in found.declaration["gears"]}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -18,10 +18,7 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingWheel,
     find_unreachable,
 )
-from geartrain.search.reconstruct.reconstruction_search import Reconstructions, find_reconstructions
-
-Search = Callable[[ReconstructionProblem], Reconstructions]
-"""Function that finds all explanations of a problem."""
+from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 _MINIMUM_TEETH = 3  # lower end of the widened range of added tooth counts
 
@@ -60,23 +57,19 @@ class ChangedCount(Result):
         return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
-def changed_counts(
-    questions: list[ChangedQuestion], execution: Execution | None = None, search: Search = find_reconstructions
-) -> Iterator[ChangedCount]:
+def changed_counts(questions: list[ChangedQuestion], execution: Execution | None = None) -> Iterator[ChangedCount]:
     """Yield the counts of changed problems in their order, as soon as each is complete.
 
-    An interrupted search is omitted, so no journal stores a partial result. `search` must be a function at module
-    level, because it is sent to other processes.
+    An interrupted search is omitted, so no journal stores a partial result.
     """
-    answers = (execution or Execution()).run(_count, [(question.problem, search) for question in questions])
+    answers = (execution or Execution()).run(_count, [question.problem for question in questions])
     for question, (solutions, complete, refused) in zip(questions, answers, strict=True):
         yield ChangedCount(question.change, tuple(solutions), complete, refused)
 
 
-def _count(task: tuple[ReconstructionProblem, Search]) -> tuple[list[int], bool, str | None]:
-    problem, search = task
+def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]:
     try:
-        found = search(problem)
+        found = find_reconstructions(problem)
     except QuestionError as error:
         return [], False, error.problems[0].what
     if not found.complete:  # an interrupted search returns a partial result
@@ -203,29 +196,24 @@ class MissingExplanation(Result):
     """Changes that could not be searched."""
 
 
-def explain_missing(
-    problem: ReconstructionProblem, execution: Execution | None = None, search: Search = find_reconstructions
-) -> MissingExplanation:
-    """Search for the reasons why a problem has no explanation.
-
-    `search` must be a function at module level, because it is sent to other processes.
-    """
-    dials = tuple(_lone_dial(problem, at, search) for at in range(len(problem.dials)))
+def explain_missing(problem: ReconstructionProblem, execution: Execution | None = None) -> MissingExplanation:
+    """Search for the reasons why a problem has no explanation."""
+    dials = tuple(_lone_dial(problem, at) for at in range(len(problem.dials)))
     changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread_counts(problem)]
-    counts = tuple(changed_counts(changed, execution, search))
+    counts = tuple(changed_counts(changed, execution))
     cheap = sorted((one for one in counts if one.total), key=lambda one: one.fewest or 0)
     refused = tuple(one.change for one in counts if one.refused is not None)
     return MissingExplanation(dials, tuple(cheap), len(changed), refused)
 
 
-def _lone_dial(problem: ReconstructionProblem, at: int, search: Search) -> LoneDial:
+def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
     """Search an explanation of one dial by itself. Surviving arbors that do not lead to it may be unused."""
     dial = problem.dials[at]
     # known meshes may belong to arbors of other dials
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
     for wheels in range(problem.additions.wheels + 1):
         try:
-            found = search(replace(lone, additions=replace(problem.additions, wheels=wheels)))
+            found = find_reconstructions(replace(lone, additions=replace(problem.additions, wheels=wheels)))
         except QuestionError as error:
             return LoneDial(dial.name, None, error.problems[0].what)
         if any(count.solutions for count in found.counts):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
@@ -18,7 +18,6 @@ from geartrain.search.reconstruct.candidate_rules import (
     broken_rules,
     find_known_train,
 )
-from geartrain.search.reconstruct.dropped_facts import Search
 from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
     lost_pointers,
@@ -36,6 +35,9 @@ from geartrain.search.reconstruct.reconstruction_search import (
 )
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
+
+Search = Callable[[ReconstructionProblem], Reconstructions]
+"""Function that finds all explanations of a problem."""
 
 # Facts that distinguish one train from all other explanations: single facts, and the smallest sets of facts.
 

@@ -481,7 +481,7 @@ class PointerErrorCourse(Result):
         Returns
         -------
         numpy.ndarray
-          Minimum, 2.5, 25, 50, 75 and 97.5 % quantiles and maximum, shape (7, n) [rad].
+            Minimum, 2.5, 25, 50, 75 and 97.5 % quantiles and maximum, shape (7, n) [rad].
         """
         found: Floats = np.quantile(self.errors, (0, 0.025, 0.25, 0.5, 0.75, 0.975, 1), axis=0)
         return found

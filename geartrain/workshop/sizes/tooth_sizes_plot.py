@@ -101,13 +101,13 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
     Parameters
     ----------
     found : BestTrainSizes
-      Result of `geartrain.workshop.find_train_sizes`.
+        Result of `geartrain.workshop.find_train_sizes`.
 
     Returns
     -------
     matplotlib.figure.Figure
-      Figure with a line for each pair from its declared value to the value that is best for the train; the title has
-      the objective of the train before and after.
+        Figure with a line for each pair from its declared value to the value that is best for the train; the title has
+        the objective of the train before and after.
 
     Examples
     --------

@@ -26,6 +26,7 @@ class FrozenDict(dict[K, V]):
     __slots__ = ()
 
     def _refuse(self, *_: object, **__: object) -> NoReturn:
+        """Raise `TypeError` for any modification of the mapping."""
         raise TypeError("this mapping is immutable: copy it with dict(...) and change the copy")
 
     __setitem__ = __delitem__ = __ior__ = _refuse

@@ -21,9 +21,9 @@ GROUPS = {
 }
 LEAD = """# Gallery
 
-All shipped trains with the speeds of their first outputs; all are determined unless noted. The [site](contributing.md#documentation)
-shows the plan, the dials, the animated page and the report of each; `geartrain view NAME -o x.html` writes the page. The
-files are in `trains/`; each cites its sources.
+All shipped trains with the speeds of their first outputs; all are determined unless noted. The
+[site](contributing.md#documentation) shows the plan, the dials, the animated page and the report of each; `geartrain
+view NAME -o x.html` writes the page. The files are in `trains/`; each cites its sources.
 """
 MOST = 1
 

@@ -36,7 +36,7 @@ def write_template(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Write a small commented declaration that runs without changes: KIND.yaml in this folder, or the file of -o.
+    """Write a small commented declaration that runs without changes, to KIND.yaml in this folder or to the file of -o.
 
     Example: `geartrain init planetary -o first.yaml`.
     """
@@ -59,7 +59,7 @@ def write_style(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Rewrite turning pairs by axis and gear pairs as `a ~ b`, or all of them in long form; comments are kept.
+    """Group turning pairs by axis and write gear pairs as `a ~ b`, or write all in long form; comments are kept.
 
     The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
     changed.

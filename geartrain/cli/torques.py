@@ -47,33 +47,40 @@ def run(
     turns: Annotated[
         str | None,
         typer.Option(
-            "--turns", help="Compute torque over this many revolutions of the driving link, or over the 'period'."
+            "--turns",
+            help="Compute the torque over this number of revolutions of the driving link, or over one 'period'.",
         ),
     ] = None,
     samples: Annotated[
         int,
-        typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions, besides kinks and jumps."),
+        typer.Option(
+            "--samples", min=2, max=MOST_COUNT, help="Number of input positions, in addition to kinks and jumps."
+        ),
     ] = 20_000,
     link: Annotated[
-        str | None, typer.Option("--of", help="With --turns: link whose torque is computed; default the crank.")
+        str | None, typer.Option("--of", help="With --turns: link whose torque is computed; default: the crank.")
     ] = None,
     trials: Annotated[
-        int | None, typer.Option("--trials", help="Number of runs with random friction by its declared deviation.")
+        int | None,
+        typer.Option(
+            "--trials",
+            help="With --turns: number of trials with random friction, drawn with its declared standard deviation.",
+        ),
     ] = None,
     seed: Seed = 1,
     workers: Workers = None,
     resume: Resume = False,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", help="Draw the power flow of one state, or with --turns its torque, to this file."),
+        typer.Option("--plot", help="Draw the power flow of one state to this file; with --turns, plot its torque."),
     ] = None,
     theme: Theme = "light",
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute torques on links and pairs under the declared loads, power flow, losses, efficiency and crank torque.
+    """Compute torques of links and pairs, power flow, losses, efficiency and crank torque under the declared loads.
 
-    With -o x.csv and --turns, write the torque at every position.
+    With --turns and -o x.csv, write the torque at every position.
 
     Example: `geartrain torques norton-compound --plot power.svg`.
     """
@@ -114,7 +121,7 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Compute the torque over some revolutions in the one state with loads."""
+    """Compute the torque over the requested revolutions in the requested state, or in the only state with loads."""
     state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
@@ -176,9 +183,9 @@ def _table(found: TorqueCycle) -> str:
 
 
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
-    """Draw the torque over the requested revolutions, or the power flow.
+    """Draw the torque over the requested revolutions, or the power flow if no revolutions are requested.
 
-    The power flow is that under the declared loads, or without loads that of a unit of power from input to output.
+    The power flow is computed for the declared loads; without loads, for a unit of power from input to output.
     """
     from geartrain.drawing import power_figure, torque_cycle_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit

@@ -128,8 +128,8 @@ def check_size(z: int) -> None:
     """Raise `GearTrainError` for a wheel of more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
         what, why = (
-            f"the teeth of a wheel of {z} are not modelled",
-            f"wheels of at most {MOST_TEETH} teeth are modelled",
+            f"a wheel of {z} teeth has too many teeth",
+            f"teeth are modelled for wheels of at most {MOST_TEETH} teeth",
         )
         raise GearTrainError(Problem(what, why, "use a plain disc to represent it"))
 

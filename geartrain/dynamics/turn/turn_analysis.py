@@ -97,7 +97,7 @@ def find_torque_cycle(
     on_done   progress function, called with the number of positions computed since the last call
     """
     if not 0 < turns <= MOST_TURNS:
-        what, why = f"turns = {turns:g}", "a run has a positive number of turns"
+        what, why = f"turns = {turns:g}", f"a run has more than 0 and at most {MOST_TURNS:g} turns"
         raise QuestionError(Problem(what, why, f"pass turns above 0, up to {MOST_TURNS:g}"))
     if samples < 2:
         raise QuestionError(
@@ -106,7 +106,7 @@ def find_torque_cycle(
     if of is not None and of in setting.case.loads:
         why = f"'{of}' carries a load of {setting.case.loads[of]}"
         fix = "request the torque at a link without a load"
-        raise QuestionError(Problem(f"the torque at '{of}' is requested, but it is known", why, fix))
+        raise QuestionError(Problem(f"the torque at '{of}' is already known", why, fix))
     train = find_turn_balance(setting, problem, of)
     if isinstance(train, TorqueVerdict):
         return TorqueCycle(setting.case.state, train, of or "")

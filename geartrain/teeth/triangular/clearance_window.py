@@ -418,7 +418,7 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
     if not minimum <= backlash <= most:
         raise refused(
             f"no clearance gives a backlash of {text}",
-            f"these teeth have from {max(minimum, 0):.6g} to {most:.6g} (in m, or the plain unit)",
+            f"the possible backlash of these teeth is {max(minimum, 0):.6g} to {most:.6g} (in m, or without a unit)",
             "give a backlash in this range",
         )
     return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

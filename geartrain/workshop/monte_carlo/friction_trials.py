@@ -200,9 +200,9 @@ def find_friction_plan(
     """
     plan = FrictionPlan(train.declaration, state, turns, samples, of)
     if not plan.spreads:
-        why = "trials draw coefficients of friction from their declared standard deviation"
+        why = "each trial draws friction coefficients from distributions with declared standard deviations"
         fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
-        raise QuestionError(Problem(f"'{train.name}' declares no spread of friction", why, fix))
+        raise QuestionError(Problem(f"'{train.name}' declares no random friction", why, fix))
     return plan
 
 

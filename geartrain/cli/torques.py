@@ -175,7 +175,7 @@ def _table(found: TorqueCycle) -> str:
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
         raise GearTrainError(
-            Problem("there is no torque to write", found.verdict.text, "declare loads that the input can move")
+            Problem("the torque cannot be written", found.verdict.text, "declare loads that the input can move")
         )
     columns = [found.turns, found.torque, found.standing, *found.losses.values]
     header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]

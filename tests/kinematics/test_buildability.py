@@ -302,7 +302,9 @@ def test_three_axes_keep_the_triangle_inequality() -> None:
 @pytest.mark.parametrize("ring", [3, 16, 20])
 def test_a_ring_is_larger_than_its_planet(ring: int) -> None:
     assert found(RING.format(planet=20, ring=ring, more="")) == [("R1", "error")]
-    assert f"ring 'r' ({ring} teeth) is too small for wheel 'p' (20 teeth)" in words(RING.format(planet=20, ring=ring, more=""))
+    assert f"ring 'r' ({ring} teeth) is too small for wheel 'p' (20 teeth)" in words(
+        RING.format(planet=20, ring=ring, more="")
+    )
 
 
 @pytest.mark.parametrize(

@@ -663,7 +663,12 @@ def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str
         ({"form": "uniform_temperature", "depth": "30"}, (30, 60), {}, "no value of `heat` gives"),
         ({"form": "uniform_temperature", "depth": "0.1"}, (24, 36), {}, "even the maximum `heat` gives deeper teeth"),
         ({"form": "uniform_temperature", "reading": "a", "heat": "2.5"}, (30, 60), {}, "exceeds the maximum"),
-        ({"form": "least_friction", "margin": "0.38"}, (24, 36), {}, "too long for a contact speed margin of 0.38 and a pressure angle of 25 deg"),
+        (
+            {"form": "least_friction", "margin": "0.38"},
+            (24, 36),
+            {},
+            "too long for a contact speed margin of 0.38 and a pressure angle of 25 deg",
+        ),
         ({"form": "least_friction", "arcs": [3, 0]}, (24, 36), {}, "too long for a margin"),
         ({"form": "lantern"}, (30, 60), {"internal": True}, "ring of pins"),
         ({"form": "lantern"}, (30, 60), {"shaft_angle": RIGHT}, "bevel lantern"),

@@ -267,13 +267,13 @@ class _RunResults:
             return TorqueVerdict("self-locking", text)
         if shared := self.run.train.shared:
             text = (
-                f"how {', '.join(shared)} share their load is not determined: they are redundant, and `share` is not "
+                f"the load sharing of {', '.join(shared)} is not determined: they are redundant, and `share` is not "
                 "declared"
             )
-            return TorqueVerdict("indeterminate", f"{text}; the minimum-norm torques are given", shared)
+            return TorqueVerdict("indeterminate", f"{text}; minimum-norm torques are reported", shared)
         if ambiguous:
             text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
-            return TorqueVerdict("ambiguous", f"{text}; the one with minimum loss is given")
+            return TorqueVerdict("ambiguous", f"{text}; the pattern with minimum loss is reported")
         if neglected:
             what = ", ".join(map(str, neglected))
             return TorqueVerdict("incomplete", f"the torque at every position is determined; not included: {what}")

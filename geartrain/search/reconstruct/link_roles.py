@@ -177,7 +177,7 @@ def carrier_axis(evidence: Train, carrier: str) -> str | None:
 def _carrier_pointer_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     for name, output in evidence.outputs.items():
         if output.of == carrier:
-            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is given"
+            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is an input already"
             place = evidence.place("outputs", name)
             yield Problem(what, why, "remove the output, or correct its `of`", place)
 

@@ -117,7 +117,7 @@ class WheelPair(Shown):
             )
         if max(self.z1, self.z2) > MOST_TEETH:
             raise refused(
-                f"a wheel of {max(self.z1, self.z2)} teeth has too many teeth",
+                f"a wheel cannot have {max(self.z1, self.z2)} conjugate teeth",
                 "a tooth would be smaller than the rounding error of the radius",
                 f"give at most {MOST_TEETH:g} teeth",
             )

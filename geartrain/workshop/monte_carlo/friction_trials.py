@@ -137,7 +137,7 @@ class FrictionPlan(Shown):
         found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
         if found.turns is None:
             what = "the torque cannot be determined"
-            fix = "declare `loads: {LINK: -1 N m}` or the missing bearings"
+            fix = "declare `loads: {LINK: -1 N m}`, or the `bearing` friction of a link"
             raise QuestionError(Problem(what, found.verdict.text, fix))
         return CycleFigures(found.mean, found.maximum_torque, found.starting_torque, found.efficiency)
 

@@ -106,9 +106,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     """
     if picture not in PICTURES:
         raise QuestionError(
-            Problem(
-                f"'{picture}' is not the name of a figure", "each figure has a fixed name", f"use {', '.join(PICTURES)}"
-            )
+            Problem(f"'{picture}' is not a kind of picture", "the kinds are predefined", f"use {', '.join(PICTURES)}")
         )
     times = "" if picture == "map" else f" {len(findings.trials.marks):,} times"
     return headed(_picture(findings, picture), f"{findings.trials.plan.name}, cut by hand{times}")

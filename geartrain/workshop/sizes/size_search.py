@@ -175,7 +175,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
             raise QuestionError(
                 Problem(
                     what,
-                    "the lower bound must be below the upper one, and both in range",
+                    "the lower bound must be below the upper bound, and both must be in the permitted range",
                     f"give bounds from {minimum:g} to {most:g}",
                 )
             )

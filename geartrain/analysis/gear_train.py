@@ -185,9 +185,9 @@ class GearTrain:
             Accuracy of tables of the transmission functions [pitch]; interpolation is several times faster than
             evaluation.
         fast : bool, optional
-            True to use compiled kernels, equal to 1e-12 rad and about ten times as fast. By default they are used if
-            numba is installed and there are enough positions to justify loading it. Pairs that depend on each other
-            never use them.
+            True to use compiled kernels, which agree to 1e-12 rad and are about ten times as fast. By default they are
+            used if numba is installed and there are enough positions to justify loading it. Pairs that depend on each
+            other never use them.
 
         Returns
         -------

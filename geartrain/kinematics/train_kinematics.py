@@ -153,7 +153,7 @@ class TrainKinematics(Shown):
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return whether all axes between two links are parallel, which makes their relative speed a rotation.
+        """Return True if all axes between two links are parallel, which makes their relative speed a rotation.
 
         Parameters
         ----------

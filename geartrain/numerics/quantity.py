@@ -197,7 +197,7 @@ class Figure:
         return self.text
 
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
-        """Return whether a number agrees with the written one.
+        """Return True if a number agrees with the written one.
 
         Parameters
         ----------

@@ -123,7 +123,7 @@ class ErrorSamples(NamedTuple):
     With a pin and slot it includes the designed deviation from uniform motion (anomaly).
     """
     rate: Floats
-    """Speed of each output minus its mean, over the speed of the input [1], shape (outputs, n)."""
+    """Speed of each output minus its mean, divided by the input speed [1], shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
     """Names of pairs whose driver turns against its mean motion at some of these positions.
 

@@ -101,13 +101,13 @@ class TransmissionErrorCurve(Tabular, Result):
     name: str
     """Name of the output."""
     ratio: Fraction
-    """Exact mean speed over the speed of the input [1]."""
+    """Exact mean speed divided by the input speed [1]."""
     angle: Floats
     """Angle of the input [rad], shape (n,)."""
     error: Floats
     """Angle of the output minus its mean motion [rad], shape (n,)."""
     speed: Floats
-    """Speed of the output over the speed of the input [1], shape (n,)."""
+    """Speed of the output divided by the input speed [1], shape (n,)."""
 
     def _summary(self) -> str:
         figures = f"p-p {degrees(self.peak_to_peak):.4g} deg, rms {degrees(self.rms):.4g} deg"
@@ -120,7 +120,7 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @property
     def mean(self) -> float:
-        """Mean speed over the speed of the input [1]."""
+        """Mean speed divided by the input speed [1]."""
         return mean_speed(self.name, self.ratio)
 
     @cached_property
@@ -149,8 +149,7 @@ class Motion(Shown):
 
     Transmission functions are composed along the order of solution of the train: equations (2) and (3) of
     docs/motion.md. At position 0 every tooth and pin has its declared `phase`, and every link the position that it
-    would
-    have with ideal teeth (section 3 of that page).
+    would have with ideal teeth (section 3 of that page).
 
     Parameters
     ----------
@@ -163,8 +162,7 @@ class Motion(Shown):
         evaluated directly.
     fast : bool, optional
         True to use compiled kernels, which agree to 1e-12 rad. By default they are used if numba is installed and there
-        are enough
-        positions to justify loading it.
+        are enough positions to justify loading it.
 
     Raises
     ------

@@ -229,7 +229,7 @@ class MotionRun(Tabular, Pictured):
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
     """First-order estimates of peaks by output."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
-    """Spectral lines by output, sorted by falling amplitude."""
+    """Spectral lines by output, in descending order of amplitude."""
     done: int = 0
     """Number of positions evaluated so far; less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
@@ -260,8 +260,7 @@ class MotionRun(Tabular, Pictured):
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Table with a row for each evaluated output.
 
-        Its columns are the mean speed over the speed of the input [1], the error [rad], and the speed over its mean
-        [1].
+        Its columns are the mean speed divided by the input speed [1], the error [rad], and the speed over its mean [1].
         """
         return {
             "output": [each.name for each in self.statistics],

@@ -240,7 +240,7 @@ class PowerFlow(Result):
     losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
     """Pair or bearing -> lost power, for losses other than 0, in the same unit."""
     loops: tuple[RecirculatingPower, ...] = ()
-    """Power loops, sorted by falling power."""
+    """Power loops, in descending order of power."""
 
     @property
     def nodes(self) -> tuple[PowerNode, ...]:

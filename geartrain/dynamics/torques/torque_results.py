@@ -416,7 +416,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output over power input; a float if pairs have mean efficiencies over teeth.
+        """Power output divided by power input; a float if pairs have mean efficiencies over teeth.
 
         It is None if no power enters, or if a requested torque or the speed of a loaded link is undetermined.
         """

@@ -105,7 +105,7 @@ class CycleEnergy(Result):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output over energy input; None if the net energy input is not positive."""
+        """Energy output divided by energy input; None if the net energy input is not positive."""
         if self.net_in > 0:
             return max(self.net_out, 0.0) / (self.net_in + max(-self.net_out, 0.0))
         return -self.net_in / -self.net_out if self.net_out < 0 else None
@@ -218,13 +218,13 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     standing: Floats | None = None
     """Breakaway torque at each position, with static friction in every contact [N m, or plain number], shape (n,)."""
     speeds: LabelledArray | None = None
-    """Speeds of links over the speed of the input, axes (link, position)."""
+    """Speeds of links divided by the input speed, axes (link, position)."""
     powers: LabelledArray | None = None
-    """Power of each external torque over the speed of the input, positive into the train, axes (link, position) [N m,
-    or plain number].
+    """Power of each external torque divided by the input speed, positive into the train, axes (link, position) [N m, or
+    plain number].
     """
     losses: LabelledArray | None = None
-    """Lost power over the speed of the input, axes (part, position) [N m, or plain number]."""
+    """Lost power divided by the input speed, axes (part, position) [N m, or plain number]."""
     mean: float | None = None
     """Mean torque over the run [N m, or plain number]; None if the train locks."""
     maximum: TorqueExtreme | None = None
@@ -315,7 +315,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output over energy input of the run; None if the train locks or has no net energy input."""
+        """Energy output divided by energy input of the run; None if the train locks or has no net energy input."""
         return None if self.energy is None else self.energy.efficiency
 
     @property

@@ -75,8 +75,7 @@ class Circuit(NamedTuple):
         """Links with non-zero coefficients of the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
-        pair
-        without losses, and the row modulo 1 gives the phases of its teeth.
+        pair without losses, and the row modulo 1 gives the phases of its teeth.
         """
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)

@@ -46,7 +46,7 @@ class Tree(FrozenFields):
         return self.parent[link][0] if link in self.parent else None
 
     def bears(self, carrier: str, link: str) -> bool:
-        """Return whether `carrier` carries the axis of `link`."""
+        """Return True if `carrier` carries the axis of `link`."""
         return self.top.get(link) == carrier
 
     def axis_seen_from(self, carrier: str, link: str) -> str:
@@ -307,15 +307,15 @@ class Axes:
         return frozenset(sums)
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return whether all joint axes between two links are parallel, which makes their relative speed a rotation."""
+        """Return True if all joint axes between two links are parallel, which makes their relative speed a rotation."""
         return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """Return whether all these axes have the same or the opposite direction while all angles are 0."""
+        """Return True if all these axes have the same or the opposite direction while all angles are 0."""
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """Return whether two axes with declared positions are collinear; axes without positions are treated as
+        """Return True if two axes with declared positions are collinear; axes without positions are treated as
         different lines.
         """
         here, there = self.positions.get(one), self.positions.get(other)
@@ -439,8 +439,7 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
 
     A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. A case gets
     `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`
-    if
-    every case has problems.
+    if every case has problems.
     """
     lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
     closed = [_closed_case(train, lines, sums, case) for case in cases]

@@ -373,8 +373,7 @@ class Formulas(Mapping[str, Formula], Result):
     """Outputs of a train in one state as functions of its free wheels. As a mapping, it contains `outputs`.
 
     A loop with ratio product 1 can turn; any other loop locks its wheels. Loops with free wheels are assumed to turn,
-    so
-    a train that moves although such a loop is locked has no formulas. Loops of fixed counts may be of either kind.
+    so a train that moves although such a loop is locked has no formulas. Loops of fixed counts may be of either kind.
     """
 
     outputs: Mapping[str, Formula]
@@ -403,7 +402,7 @@ class Formulas(Mapping[str, Formula], Result):
         return len(self.outputs)
 
     def turns(self, counts: Mapping[str, int]) -> bool:
-        """Return whether at these tooth counts every condition is 0 and no exclusion is 0."""
+        """Return True if at these tooth counts every condition is 0 and no exclusion is 0."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 

@@ -80,7 +80,7 @@ class DivisibilityRule(Result):
         return " and ".join(sums) or "always"
 
     def holds(self, teeth: Mapping[str, int]) -> bool:
-        """Return whether all loops close with these tooth counts.
+        """Return True if all loops close with these tooth counts.
 
         Parameters
         ----------
@@ -435,7 +435,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def missing(self) -> tuple[int, ...]:
-        """Indices of the loops that do not close, sorted by falling error."""
+        """Indices of the loops that do not close, in descending order of error."""
         found = [(-abs(float(one.miss)), at) for at, one in enumerate(self.problem.conditions) if one.kind == "misses"]
         return tuple(at for _, at in sorted(found))
 

@@ -507,7 +507,7 @@ def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limi
 
 
 def is_regular(system: WillisSystem) -> bool:
-    """Return whether float64 proves that the system determines all speeds; False also means that this is undecided.
+    """Return True if float64 proves that the system determines all speeds; False also means that this is undecided.
 
     The factors of a singular matrix are those of a regular one that differs by roundings, so their condition number is
     about 1 / eps. The limit is a thousand times lower.

@@ -54,8 +54,7 @@ def run(
     ----------
     work : callable
         Function at the top level of a module, so that other processes can import it. Its results are plain JSON data
-        and
-        depend only on the task.
+        and depend only on the task.
     tasks : iterable
         Any number of tasks. They are read when needed, and only results ahead of a missing one are stored (at most 64
         per worker).
@@ -66,8 +65,7 @@ def run(
         Stored results, which are not computed again; new results are added.
     tell : callable, optional
         Progress function, called with (tasks done, total number of tasks, 0 if `tasks` has no length), at most ten
-        times
-        a second and at the end.
+        times a second and at the end.
 
     Yields
     ------

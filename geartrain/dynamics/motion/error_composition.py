@@ -108,7 +108,7 @@ class SeenLink(NamedTuple):
 
 
 class ErrorSamples(NamedTuple):
-    """Transmission errors of outputs at positions of the input.
+    """Transmission errors and speed deviations of outputs at given positions of the input.
 
     See Also
     --------
@@ -125,9 +125,9 @@ class ErrorSamples(NamedTuple):
     rate: Floats
     """Speed of each output minus its mean, divided by the input speed [1], shape (outputs, n)."""
     reversing_drivers: frozenset[str] = frozenset()
-    """Names of pairs whose driver turns against its mean motion at some of these positions.
+    """Names of pairs whose driver temporarily turns against its mean motion at these positions.
 
-    The contact then changes to the other flanks, but the transmission function of the drive flanks is used, without
+    There the contact changes to the coast flanks, but the transmission function of the drive flanks is used, without
     backlash.
     """
 

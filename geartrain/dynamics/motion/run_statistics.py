@@ -50,7 +50,7 @@ class SpeedSpan(NamedTuple):
 
 @dataclass
 class RunningStatistics(Result):
-    """Peaks and moments of error and speed of one output over the positions evaluated so far (Welford, Chan et al.).
+    """Running peak values and moments of error and speed of one output (algorithm of Welford, Chan et al.).
 
     See Also
     --------
@@ -89,11 +89,11 @@ class RunningStatistics(Result):
     """
     speed_within: float | None = 0.0
     """Upper bound on the difference between the true extremes of the speed and `slow`, `fast`, divided by the input
-    speed; 0 or None as for `error_within`.
+    speed. It is 0 or None as for `error_within`.
     """
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Add positions to the statistics: peaks and moments.
+        """Add positions to the peak values and moments.
 
         Parameters
         ----------
@@ -140,12 +140,14 @@ class RunningStatistics(Result):
 
     @property
     def speed_span(self) -> SpeedSpan:
-        """Minimum and maximum speed relative to the mean, with the mean speed divided by the input speed."""
+        """Minimum and maximum deviation of the speed relative to the mean speed, with the mean speed divided by the
+        input speed.
+        """
         return SpeedSpan(*self.speeds, self.mean)
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Minimum and maximum speed over the mean speed, or divided by the input speed if the mean is 0."""
+        """Minimum and maximum speed divided by the mean speed, or by the input speed if the mean is 0."""
         scale = self.mean or 1.0
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high

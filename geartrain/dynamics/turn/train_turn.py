@@ -166,7 +166,7 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
     Parameters
     ----------
     train : TrainMechanics
-        Mechanics of the train, `GearTrain.mechanics`.
+        Train to analyse, `GearTrain.mechanics`.
     state : str, optional
         Name of a declared state. None is allowed only for a train without states.
     of : str, optional
@@ -175,8 +175,8 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
     Returns
     -------
     Fraction or None
-        Period [revolutions of the input]. None if torques are unknown, or if the torque is constant because no pair
-        that transmits it has a variable ratio or friction.
+        Period [revolutions of the input]. None if torques are unknown, or if the torque is constant because each pair
+        that transmits it has a constant ratio and constant friction losses.
 
     Examples
     --------

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Lever(Shown):
-    """Lever analogy of one epicyclic gear set: each member m is a point x_m on a line, with speed w_m = w_k + x_m u.
+    """Lever diagram of one epicyclic gear set: each member m is a point x_m on a line, with speed w_m = w_k + x_m u.
 
     See Also
     --------

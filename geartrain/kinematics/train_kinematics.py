@@ -218,7 +218,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Locked parts of the train, and a smallest set of meshes to remove; fast if the train is not locked."""
+        """Locked parts of the train, and meshes whose removal frees it; fast if the train is not locked."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)

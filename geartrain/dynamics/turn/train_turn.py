@@ -175,8 +175,8 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
     Returns
     -------
     Fraction or None
-        Period [revolutions of the input]. None if torques are unknown, or if the torque is constant because each pair
-        that transmits it has a constant ratio and constant friction losses.
+        Period [revolutions of the input]. None if torques are unknown, or if the torque is constant because no pair
+        that transmits it has a variable ratio or variable friction losses.
 
     Examples
     --------

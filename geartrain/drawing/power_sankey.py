@@ -42,26 +42,26 @@ _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a qua
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """Draw the power flow as a Sankey diagram: bands as wide as their powers, recirculating power running back above.
+    """Draw the power flow as a Sankey diagram, with recirculating power in bands that return above the others.
 
     Parameters
     ----------
     flow : PowerFlow or Torques
-        Power flow, or the torques that cause it; powers are absolute (docs/torques.md, 7).
+        Power flow, or the torques that cause it. Power is torque times absolute speed (docs/torques.md, 7).
     title : str
         Title above the picture.
     watts : float, optional
-        Watts per unit of power, if known; otherwise powers are printed as shares of the power put in.
+        Watts per unit of power, if known. By default powers are printed as fractions of the power input.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Figure as large as its bands need.
+        Figure whose size depends on the number of bands.
 
     Raises
     ------
     GearTrainError
-        If no power flows, or if it passes too many nodes to be legible.
+        If no power flows, or if there are too many nodes for a legible figure.
 
     Examples
     --------

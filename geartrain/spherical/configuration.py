@@ -93,8 +93,7 @@ class Configuration(Shown):
         ----------
         i, j : int
             Indices of the gears. The direction about i is measured from the first vector of `frame(i)`,
-            counterclockwise seen
-            from outside.
+            counterclockwise seen from outside.
         """
         first, second = self.frame(i)
         return float(np.arctan2(self.axes[j] @ second, self.axes[j] @ first))

@@ -280,8 +280,8 @@ class SphereSizing(Result):
 
     @cached_property
     def collisions(self) -> tuple[TipCollision, ...]:
-        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, sorted by rising
-        distance.
+        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, in ascending
+        order of distance.
         """
         room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
         # each pair once; the tolerance keeps gears that just clear

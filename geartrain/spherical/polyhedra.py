@@ -109,8 +109,8 @@ class Polyhedron(Shown):
     vertices: Floats
     """Vertices as given, in any unit, shape (vertices, 3)."""
     faces: tuple[tuple[int, ...], ...]
-    """Indices of the vertices of each face, counterclockwise seen from outside. Faces are sorted by falling height (z),
-    and at equal heights counterclockwise from x.
+    """Indices of the vertices of each face, counterclockwise seen from outside. Faces are in descending order of height
+    (z), and at equal heights counterclockwise from x.
     """
     normals: Floats = field(repr=False)
     """Outward unit normals of the faces, shape (faces, 3)."""

@@ -88,8 +88,7 @@ def from_polyhedron(
     ------
     GearTrainError
         If the solid, a kind, a gear or a mesh does not exist, or if no axes with one pitch are found near the axes of
-        the
-        solid.
+        the solid.
 
     Examples
     --------

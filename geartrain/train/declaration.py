@@ -53,7 +53,7 @@ class Epoch(Declared):
 
     See Also
     --------
-    Train : has it as `epoch`
+    Train : its field `epoch`
 
     Examples
     --------

@@ -88,7 +88,7 @@ class BearingFriction(Declared):
 
     See Also
     --------
-    Link : has it as `bearing`
+    Link : its field `bearing`
 
     Examples
     --------
@@ -311,7 +311,7 @@ class Source(Declared):
 
     See Also
     --------
-    Train : has them as `sources`, by key
+    Train : its field `sources`, by key
     """
 
     cite: str = Field(description="Bibliographic citation")
@@ -448,7 +448,7 @@ class Link(Declared):
 
     See Also
     --------
-    Train : has them as `links`, by name
+    Train : its field `links`, by name
     """
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
@@ -486,7 +486,7 @@ class Axis(Declared):
 
     See Also
     --------
-    Train : has them as `axes`, by label
+    Train : its field `axes`, by label
     """
 
     direction: tuple[Figure, Figure, Figure] = Field(
@@ -529,7 +529,7 @@ class Revolute(Declared):
 
     See Also
     --------
-    Train : has them as `revolutes`
+    Train : its field `revolutes`
     """
 
     pair: tuple[Id, Id] = Field(description="Two links that turn about each other")

@@ -35,7 +35,7 @@ class Tree(FrozenFields):
     parent: Mapping[str, tuple[str, str]]
     """Link -> parent link (its neighbour towards the frame) and label of the axis between them, as declared."""
     top: Mapping[str, str]
-    """Link -> link that carries its axis: the first one on the path to the frame that is not on the same axis."""
+    """Link -> link that carries its axis: the first link on the path to the frame that is not on the same axis."""
 
     def axis(self, link: str) -> str | None:
         """Return the axis label of the joint between a link and its parent; None for the frame."""
@@ -46,7 +46,7 @@ class Tree(FrozenFields):
         return self.parent[link][0] if link in self.parent else None
 
     def bears(self, carrier: str, link: str) -> bool:
-        """Return whether `carrier` carries the axis of `link`."""
+        """Return True if `carrier` carries the axis of `link`."""
         return self.top.get(link) == carrier
 
     def axis_seen_from(self, carrier: str, link: str) -> str:
@@ -256,8 +256,8 @@ _Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
 class Axes:
     """Directions of the axes of a train, and the signs of speeds and meshes that follow from them.
 
-    Speeds of parallel axes are added with their signs. Over non-parallel joints the sum of joint speeds is used, as the
-    scalar equation requires (Freudenstein, Longman and Chen 1984).
+    Speeds of parallel axes are added with their signs. Speeds of non-parallel joints are also added, as the scalar
+    equation requires (Freudenstein, Longman and Chen 1984).
     """
 
     def __init__(self, train: Train, tree: Tree) -> None:
@@ -294,8 +294,8 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links separated from the frame by non-parallel joints. Their "speed" is a sum of joint speeds, not a
-        rotation.
+        """Links separated from the frame by non-parallel joints. Their "speed" is a sum of joint speeds, not the speed
+        of a rotation.
         """
         if self.plain:
             return frozenset()
@@ -307,25 +307,25 @@ class Axes:
         return frozenset(sums)
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return whether all joint axes between two links are parallel, which makes their relative speed a rotation."""
+        """Return True if all joint axes between two links are parallel, so that their relative speed is the speed of a
+        rotation.
+        """
         return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
-        """Return whether all these axes have the same or the opposite direction while all angles are 0."""
+        """Return True if all these axes have the same or opposite directions in the pose in which all angles are 0."""
         return self.plain or len({self._lines.get(label or "", 0) for label in labels}) < 2
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """Return whether two axes with declared positions are collinear; axes without positions are treated as
-        different lines.
-        """
+        """Return True if two axes with declared positions are collinear. Axes without positions are never collinear."""
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the non-zero components of the screw of an axis (direction, velocity of the origin); None without a
-        position.
+        """Return the non-zero components of the screw of an axis (direction, and velocity of the origin); None if no
+        position is declared.
         """
         here = self.positions.get(label)
         if here is None:
@@ -437,12 +437,12 @@ class Rigid:
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """Return the cases with each brake on a link that turns on the frame, and each lock between two coaxial links.
+    """Return the cases with brakes and locks joint by joint: brakes on links that turn on the frame, locks between
+    coaxial links.
 
     A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. A case gets
     `problems` if a lock forms a linkage, or if an input link has no single axis in the frame. Raises `DeclarationError`
-    if
-    every case has problems.
+    if every case has problems.
     """
     lines, sums = JointLines(train, tree), Axes(train, tree).joint_sums
     closed = [_closed_case(train, lines, sums, case) for case in cases]
@@ -462,9 +462,10 @@ def _closed_case(train: Train, lines: JointLines, sums: frozenset[str], case: St
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """Yield the brakes and locks that no device on one axis can realise, because they close two or more joints.
+    """Yield the brakes and locks that cannot be realised by a device on one axis, because they close two or more
+    joints.
 
-    Joints that other brakes and locks close are not counted.
+    Joints that are closed by other brakes and locks are not counted.
     """
     lines = JointLines(train, tree)
     bodies = _Bodies(lines, case)
@@ -593,7 +594,7 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
 
 
 def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
-    """Return the path in the declaration at which a brake or lock is declared."""
+    """Return the path of the declaration keys that declare a brake or lock."""
     if links in case.clutches:
         return ("clutches", case.clutches[links])
     key = "fixed" if len(links) == 1 else "locks"

@@ -188,12 +188,13 @@ Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Draw a corner plot of uncertain tooth counts: posteriors, priors, and joint posteriors of each pair of wheels.
+    """Draw a corner plot of uncertain tooth counts: posterior and prior of each wheel, and joint posterior of each pair
+    of wheels.
 
     Parameters
     ----------
     found : ToothCountPosterior
-        Posterior of the counts.
+        Posterior of the tooth counts.
     pairs : mapping
         Joint probability of each pair of counts, by pair of wheels in the order of declaration; see `joint_posterior`.
 

@@ -186,7 +186,7 @@ _MOST_COUNTS = 10_000
 
 @dataclass(frozen=True)
 class EvidenceQuestion(Shown):
-    """Reconstruction problem of declared evidence, with its base and the unused declarations.
+    """Reconstruction problem derived from declared evidence, with its base link and the unused declarations.
 
     See Also
     --------
@@ -196,11 +196,11 @@ class EvidenceQuestion(Shown):
     problem: ReconstructionProblem
     """Reconstruction problem, the input of the search."""
     base: BaseLink
-    """Link that carries the arbors. Speeds of the problem are relative to it."""
+    """Link that carries the arbors. The speeds of the problem are relative to this link."""
     joined: Joined
-    """Links that given couplings join to each arbor."""
+    """Arbor -> links that are joined to it by given couplings."""
     unused: tuple[str, ...]
-    """Declarations that do not affect the answer, one line for each."""
+    """Declarations that do not affect the result, one line for each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
@@ -211,7 +211,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     evidence : Train
         Declaration with `reconstruct`.
     wheels : int, optional
-        Maximum number of added wheels. It replaces the number in the evidence.
+        Maximum number of added wheels, which replaces the number in the evidence.
     idlers : bool
         True if a driven wheel may also drive, even if the evidence does not allow it.
 
@@ -222,7 +222,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Raises
     ------
     DeclarationError
-        For every declaration that is unsupported or does not define a problem, with its place.
+        If declarations are unsupported or do not define a problem. The message gives the location of each.
 
     Examples
     --------

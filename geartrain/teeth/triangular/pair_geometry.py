@@ -58,9 +58,8 @@ class TriangularSizes(Shown):
     """Geometry of a pair of wheels with triangular teeth, the first driving. All lengths are in the same arbitrary
     unit.
 
-    At `deepest_distance` a tip touches the bottom between two teeth. It is the minimum distance
-    R1 + R2 - (the smaller depth) of an external pair, and the maximum R_ring - R_pinion + (the smaller depth) of an
-    internal one.
+    At `deepest_distance` a tip touches the bottom between two teeth. It is the minimum distance R1 + R2 - (the smaller
+    depth) of an external pair, and the maximum R_ring - R_pinion + (the smaller depth) of an internal one.
 
     Raises
     ------

@@ -76,7 +76,7 @@ def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]
         return (state,)
     for case in train.kinematics.cases.values():
         for problem in case.problems:
-            tell(f"note: state {case.state} is left out: {problem}")
+            tell(f"note: state '{case.state}' is omitted: {problem}")
     return train.kinematics.usable_states
 
 
@@ -149,7 +149,7 @@ def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: s
         return STANDARD
     if is_standard(out):
         if option != "-o":
-            why = "standard output receives the result"
+            why = "standard output is reserved for the result of the command"
             raise GearTrainError(Problem(f"{option} cannot write to standard output", why, "give a file name", option))
         return Sink(plain=True, form=suffix_of(out, allowed, option))
     from geartrain.numerics.files import destination
@@ -179,7 +179,9 @@ def check_distinct_outputs(*sinks: Sink) -> None:
         real = destination(each.path, each.force)
         if real in taken:
             why = "the second would overwrite the first"
-            raise GearTrainError(Problem("two results have the same file", why, "give two files", str(each.path)))
+            raise GearTrainError(
+                Problem("two results are written to the same file", why, "give two different files", str(each.path))
+            )
         taken.add(real)
 
 

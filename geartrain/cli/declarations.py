@@ -66,8 +66,10 @@ def write_style(
 
     Example: `geartrain format --check train.yaml`.
     """
-    if out is not None and (len(files) > 1 or check):
-        raise option_error("-o", "one file is written", "give one FILE, and omit --check")
+    if out is not None and check:
+        raise option_error("-o", "--check writes no file", "omit -o or --check")
+    if out is not None and len(files) > 1:
+        raise option_error("-o", f"{len(files)} files are given", "give one FILE, or omit -o", "-o writes one file")
     to = None if out is None else sink(out, force)
     worst = GOOD
     for file in files:
@@ -93,7 +95,7 @@ def _format(file: Path, long: bool, check: bool, to: Sink | None) -> int:
         complain(error)
         return NOT_USABLE
     lines = len(text.splitlines()), len(new.splitlines())
-    tell(f"{'would rewrite' if check else 'rewrote'} {file}: {lines[0]} lines, {lines[1]} now")
+    tell(f"{'would rewrite' if check else 'rewrote'} {file}: {lines[0]} lines before, {lines[1]} after")
     return VERDICT if check else GOOD
 
 

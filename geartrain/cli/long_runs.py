@@ -109,7 +109,7 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
         if journal is not None:
             journal.finish()
     elif journal is not None and len(journal):
-        tell(f"stopped; finished work is in {journal.path}: repeat the command with --resume to continue")
+        tell(f"stopped; finished work is in {journal.path}; repeat the command with --resume to continue")
     else:
         tell("stopped before any work was finished")
 

@@ -276,7 +276,9 @@ def run(
     if vary:
         for option, given in {"--at": at, "--profile": profile}.items():
             if given is not None:
-                raise option_error(option, "only one pair can be drawn", "omit --vary")
+                raise option_error(
+                    option, "it applies to one pair", f"omit {option} or --vary", "--vary evaluates several"
+                )
         sweep(pair, vary, picture, json, to)
         return
     mesh, operation = pair.mesh(), None

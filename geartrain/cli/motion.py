@@ -124,7 +124,7 @@ def _turns(text: str, motion: Motion) -> float:
         return float(read_turns("--turns", text))
     if motion.period is None:
         raise option_error(
-            "--turns", "a common period does not exist", "give a number of revolutions", "no speed ripples"
+            "--turns", "the speeds have no common period", "give a number of revolutions", "they are constant"
         )
     return float(motion.period)
 
@@ -191,7 +191,7 @@ def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> 
                     table.write(rows)
                     bar.advance(len(rows))
     except KeyboardInterrupt:
-        tell(f"stopped after {table.rows} of {requested.samples} positions: {table.partial}")
+        tell(f"stopped after {table.rows} of {requested.samples} positions; these are in {table.partial}")
         tell("repeat the command with --resume to continue")
         raise typer.Exit(INTERRUPTED) from None
     tell(f"wrote {out}")

@@ -42,7 +42,7 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
     except PydanticCustomError as error:
         raise value_error(error, place) from None
     if found.value and dimension != "fraction" and not 1 / _MOST < abs(found.si) < _MOST:
-        fix = f"give one between {1 / _MOST:g} and {_MOST:g} in SI units"
+        fix = f"give a magnitude between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise GearTrainError(Problem(f"{text} is out of range", "its square would overflow or underflow", fix, place))
     if minimum == "above 0" and found.value <= 0:
         raise GearTrainError(Problem(f"{text} is not above 0", "", f"give a {dimension} above 0", place))
@@ -89,7 +89,7 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
             f" from {low:g} to {high:g}" if inf not in (-low, high) else f" of {low:g} or more" if low > -inf else ""
         )
         raise GearTrainError(
-            Problem(f"'{text}' is not a valid {what}", "", f"give one{bounds}, such as {such_as}", place)
+            Problem(f"'{text}' is not a valid {what}", "", f"give a value{bounds}, such as {such_as}", place)
         )
     return found
 
@@ -116,7 +116,9 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: in
     found = exact(place, text, what, such_as, low, high)
     if found.denominator != 1:
         raise GearTrainError(
-            Problem(f"'{text}' is not a valid {what}", "it is not an integer", f"give one such as {such_as}", place)
+            Problem(
+                f"'{text}' is not a valid {what}", "it is not an integer", f"give an integer such as {such_as}", place
+            )
         )
     return int(found)
 

@@ -144,7 +144,7 @@ def _value(field: FieldInfo, given: str) -> Any:
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
     """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError`."""
     if internal and angle is not None:
-        why, fix = "a ring and its pinion have parallel axes", "give --internal or --shaft-angle"
+        why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise GearTrainError(Problem("a ring is not a bevel wheel", why, fix, "--shaft-angle"))
     return None if angle is None else quantity("--shaft-angle", angle, "angle")
 
@@ -155,11 +155,12 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
         raise GearTrainError(
-            Problem("bevel wheels have no helix angle", why, "give --shaft-angle or --helix", "--helix")
+            Problem("bevel wheels have no helix angle", why, "omit --shaft-angle or --helix", "--helix")
         )
     if not 0 <= angle < pi / 2:
-        what = f"a helix angle of {helix} is outside 0 to 90 deg"
-        raise GearTrainError(Problem(what, "it is measured from the axis", "give for example --helix 20deg", "--helix"))
+        what = f"a helix angle of {helix} is out of range"
+        why = "it is measured from the axis, and must be at least 0 and less than 90 deg"
+        raise GearTrainError(Problem(what, why, "give for example --helix 20deg", "--helix"))
     return angle
 
 
@@ -322,7 +323,7 @@ class PairFrictionOption:
             missing = {"--rate": ("the speed of the driver", rate), "--module": ("the module", radius)}
             lacking = {option: word for option, (word, value) in missing.items() if value is None}
             what = f"the friction law '{self.law.law}' depends on the sliding speed"
-            why = f"unknown: {' and '.join(lacking.values())}"
+            why = f"it cannot be computed without {' and '.join(lacking.values())}"
             raise GearTrainError(Problem(what, why, f"give {' and '.join(lacking)}", "--friction"))
         if mesh.driver != mesh.gear.pair[0]:
             first, second = mesh.wheels.counts

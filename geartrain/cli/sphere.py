@@ -99,8 +99,10 @@ def run(
     if survey:
         _survey(json, to)
         return
-    if (solid is None) == (graph is None):
-        raise option_error("SOLID", "the gears are not given, or twice", "give a solid, --graph or --survey")
+    if solid is None and graph is None:
+        raise option_error("SOLID", "no gears are given", "give a solid, --graph or --survey")
+    if solid is not None and graph is not None:
+        raise option_error("SOLID", "a solid and --graph are given", "omit one of them", "both place the gears")
     made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
@@ -122,9 +124,9 @@ def run(
 def _check_listed(to: Sink, picture: Sink) -> None:
     """Reject -o x.yaml and --plot if a list is requested, because they need a single sphere."""
     if to.suffix in _YAML:
-        raise option_error("-o", "a list of tooth sets cannot be written as a train", "use .md, .html or .json")
+        raise option_error("-o", "a list of results cannot be written as a train", "use .md, .html or .json")
     if picture.path is not None:
-        raise option_error("--plot", "a list of spheres cannot be drawn", "omit --plot, --suggest and --survey")
+        raise option_error("--plot", "a list of results cannot be drawn", "omit --plot, or --suggest and --survey")
 
 
 def _survey(json: bool, to: Sink) -> None:
@@ -177,7 +179,7 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
         pairs = (part.partition("=") for part in text.split(","))
         return {kind.strip(): int(count) for kind, _, count in pairs}
     except ValueError:
-        raise option_error("--teeth", f"'{text}' is not a list of tooth counts", "write it as 5=20,3=12") from None
+        raise option_error("--teeth", f"'{text}' is not a list of tooth counts", "write 20, or 5=20,3=12") from None
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:

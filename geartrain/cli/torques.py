@@ -96,7 +96,7 @@ def run(
     tabled = to.suffix == ".csv"
     if turns is None and (tabled or link is not None or trials is not None):
         which = "-o" if tabled else "--of" if link is not None else "--trials"
-        raise option_error(which, "no revolutions are given", "give --turns too")
+        raise option_error(which, "the number of revolutions is missing", "give --turns too")
     if resume and trials is None:
         raise option_error("--resume", "only friction trials can be resumed", "give --trials too")
     train = load(file)
@@ -132,7 +132,10 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
         period = find_torque_period(train.mechanics, state, link)
         if period is None:
             raise option_error(
-                "--turns", "a common period does not exist", "give a number of revolutions", "no torque ripples"
+                "--turns",
+                "the torque has no period",
+                "give a number of revolutions",
+                "it is constant, or cannot be determined",
             )
         span = float(period)
     else:
@@ -167,7 +170,9 @@ def _friction_trials(
 def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
     """Return the state that was requested, or the only one with loads."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
-    if len(loaded) != 1:
+    if not loaded:
+        raise option_error(option, "no state has loads", "declare `loads`", "torques follow from loads")
+    if len(loaded) > 1:
         names = ", ".join(train.states)
         done = {"--plot": "drawn", "--turns": "simulated"}[option]
         raise option_error(option, f"only one state can be {done}", f"give --state with one of {names}")
@@ -179,7 +184,9 @@ def _table(found: TorqueCycle) -> str:
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
-        raise GearTrainError(Problem("the torque cannot be written", found.verdict.text, "declare loads"))
+        raise GearTrainError(
+            Problem("the torque cannot be written", found.verdict.text, "declare loads that the input can move")
+        )
     columns = [found.turns, found.torque, found.standing, *found.losses.values]
     header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]
     return csv_text(header, zip(*(column.tolist() for column in columns), strict=True)).rstrip("\n")

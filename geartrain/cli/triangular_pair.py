@@ -102,7 +102,7 @@ def _number(text: str) -> tuple[float, str]:
     except ValueError:
         value = math.nan
     if match is None or not math.isfinite(value):
-        raise option_error("--vary", f"'{text}' is not a number", "write it as 1.01, or with a unit as 30deg")
+        raise option_error("--vary", f"'{text}' is not a number", "write a number such as 1.01, or with a unit 30deg")
     return value, match[2] or ""
 
 

@@ -103,7 +103,7 @@ def view(
         tell("no browser could be started; open the file manually")
     for run in runs:
         if run is not None and not run.complete:
-            tell(f"stopped after {run.turns[-1]:.4g} revolutions; the page shows these")
+            tell(f"stopped after {run.turns[-1]:.4g} revolutions; the page shows these revolutions")
             raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if all(is_sound(train, each) for train, each in taken) else VERDICT)
 
@@ -115,7 +115,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
     to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
     if shown == "embed" and to.path is not None:
         frame = frame_of(to.path.name, scenes[0].title or scenes[0].name)
-        tell(f"copy it next to your page, and add to your page:\n{frame}")
+        tell(f"copy the file next to your page, and add this element to your page:\n{frame}")
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
@@ -138,7 +138,7 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
     """Raise `QuestionError` for options of --dynamics without it, and for --dynamics with two trains."""
     if not dynamics and request != TimeRequest():
         what, why = (
-            "options of --dynamics are given without it",
+            "options of --dynamics are given without --dynamics",
             "without --dynamics the page shows the kinematics only",
         )
         raise QuestionError(Problem(what, why, "add --dynamics, or omit these options"))
@@ -191,13 +191,14 @@ def watch(
 
     path = Path(file)
     if not path.is_file():
-        what, fix = f"file '{file}' does not exist", "give an existing file, such as one of `geartrain init planetary`"
+        what = f"file '{file}' does not exist"
+        fix = "give an existing file; `geartrain init planetary` creates an example"
         raise QuestionError(Problem(what, "only a saved file can be watched", fix))
     server = LiveServer(lambda: _pages(path), lambda: _files(path), port)
     server.refresh()
-    tell(server.error or f"{file} is shown at {server.address} until Ctrl-C ends it")
+    tell(server.error or f"{file} is shown at {server.address}; press Ctrl-C to stop")
     if server.error:
-        tell(f"it is shown at {server.address} once the file is corrected, until Ctrl-C ends it")
+        tell(f"it will be shown at {server.address} when the file is corrected; press Ctrl-C to stop")
     if open_it and not webbrowser.open(server.address):
         tell("no browser could be started; open the address manually")
     server.run(lambda error: tell(error or f"{file} is updated"))

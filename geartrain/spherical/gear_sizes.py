@@ -69,7 +69,7 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
     if missing:
         raise QuestionError(
             Problem(
-                f"no tooth number for {', '.join(missing)}",
+                f"no tooth number is given for {', '.join(missing)}",
                 "sizes depend on the teeth of every kind of gear",
                 f"give teeth={{{missing[0]!r}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
             )
@@ -280,8 +280,8 @@ class SphereSizing(Result):
 
     @cached_property
     def collisions(self) -> tuple[TipCollision, ...]:
-        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, sorted by rising
-        distance.
+        """Pairs of gears that do not mesh and have less than two modules between their pitch circles, in ascending
+        order of distance.
         """
         room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
         # each pair once; the tolerance keeps gears that just clear

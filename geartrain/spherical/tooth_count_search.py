@@ -66,8 +66,7 @@ def suggest_tooth_counts(
         Number of sets to return.
     order : {"mismatch", "teeth", "front"}
         Order of the results. `mismatch`: rising |mismatch|; `teeth`: rising total; `front`: only Pareto-optimal sets,
-        whose
-        mismatch is less than in every set with no more teeth, by rising total.
+        whose mismatch is less than in every set with no more teeth, by rising total.
     mismatch : float
         Maximum logarithm of the quotient of two pitches of a set.
     tolerance : float

@@ -117,7 +117,7 @@ class TransmissionError(Result):
 
 @dataclass(frozen=True, slots=True)
 class SlidingEfficiency(Result):
-    """Output power over input power of a pair with friction, computed from its transmission function on request.
+    """Output power divided by input power of a pair with friction, computed from its transmission function on request.
 
     The torques of both sides cannot be constant over a turn at the same time. `mean` is the efficiency at constant
     torque of the driver, `at_constant_load` the efficiency at constant torque of the driven side. All values are None
@@ -159,7 +159,9 @@ class SlidingEfficiency(Result):
 
     @property
     def at_constant_load(self) -> float | None:
-        """Work output over work input at constant load torque; None if friction locks the pair or no work is done."""
+        """Work output divided by work input at constant load torque; None if friction locks the pair or no work is
+        done.
+        """
         return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property

@@ -323,7 +323,7 @@ class SlotToPinTransmission(PinTransmission):
         return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input at constant torque on the pin; NaN if friction locks."""
+        """Return the work output divided by the work input at constant torque on the pin; NaN if friction locks."""
         return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
 
     def efficiency_minimum(self) -> float:

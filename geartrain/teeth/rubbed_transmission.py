@@ -173,7 +173,8 @@ class RubbedTransmission(DerivedTransmission):
         return nan if self.locks else float(self._period_nodes.weights @ self._period_nodes.efficiency)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
+        """Return the work output divided by the work input of one pitch at constant load torque; NaN if friction locks.
+        """
         if self.locks:
             return nan
         speed, at = self.speed(self._period_nodes.S), self._period_nodes

@@ -135,7 +135,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency, output power over input power, at driver angles S.
+        """Return the efficiency, output power divided by input power, at driver angles S.
 
         Parameters
         ----------
@@ -166,7 +166,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input at constant load torque; NaN if friction locks."""
+        """Return the work output divided by the work input at constant load torque; NaN if friction locks."""
 
     @abstractmethod
     def efficiency_minimum(self) -> float:
@@ -200,7 +200,7 @@ class TransmissionFunction(Shown, ABC):
         RangeError
             For transmission functions whose sliding is not known.
         """
-        what = "the sliding of this pair is not known"
+        what = "the sliding speed of this pair is not known"
         why = "sliding speeds are computed for pairs of teeth only"
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 

@@ -62,7 +62,7 @@ class Material(Declared):
 
     See Also
     --------
-    Train : has its own as `materials`, by name
+    Train : its field `materials`, by name
 
     Examples
     --------
@@ -106,7 +106,7 @@ class ArborSizes(Declared):
 
     See Also
     --------
-    Link : has it as `arbor`
+    Link : its field `arbor`
     """
 
     diameter: FaceWidth = Field(description="Diameter of the arbor between its shoulders")
@@ -212,7 +212,7 @@ class WheelManufacture(Declared):
 
     See Also
     --------
-    Wheel : has it as `cutting`
+    Wheel : its field `cutting`
     Train : default of all other wheels
     """
 
@@ -269,7 +269,7 @@ class PairMounting(Declared):
 
     See Also
     --------
-    GearPair : has it as `fitting`
+    GearPair : its field `fitting`
     Train : default of all other pairs
     """
 

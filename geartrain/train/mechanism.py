@@ -88,7 +88,7 @@ class BearingFriction(Declared):
 
     See Also
     --------
-    Link : has it as `bearing`
+    Link : its field `bearing`
 
     Examples
     --------
@@ -311,7 +311,7 @@ class Source(Declared):
 
     See Also
     --------
-    Train : has them as `sources`, by key
+    Train : its field `sources`, by key
     """
 
     cite: str = Field(description="Bibliographic citation")
@@ -398,7 +398,7 @@ class Wheel(Declared):
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
             raise PydanticCustomError(
                 "helix_angle",
-                "a {kind} wheel has a helix angle",
+                "a {kind} wheel cannot have a helix angle",
                 {"kind": self.kind, "fix": "remove `helix_angle`: only spur wheels, rings and worms have one"},
             )
         return self
@@ -408,7 +408,7 @@ class Wheel(Declared):
         if self.flexible and (self.internal or self.kind != "spur"):
             raise PydanticCustomError(
                 "flexible",
-                "a {kind} is flexible",
+                "a {kind} cannot be flexible",
                 {
                     "kind": "ring" if self.internal else f"{self.kind} wheel",
                     "fix": "write `flexible: true` at the spur wheel that is bent into its ring",
@@ -448,7 +448,7 @@ class Link(Declared):
 
     See Also
     --------
-    Train : has them as `links`, by name
+    Train : its field `links`, by name
     """
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
@@ -486,7 +486,7 @@ class Axis(Declared):
 
     See Also
     --------
-    Train : has them as `axes`, by label
+    Train : its field `axes`, by label
     """
 
     direction: tuple[Figure, Figure, Figure] = Field(
@@ -529,7 +529,7 @@ class Revolute(Declared):
 
     See Also
     --------
-    Train : has them as `revolutes`
+    Train : its field `revolutes`
     """
 
     pair: tuple[Id, Id] = Field(description="Two links that turn about each other")
@@ -545,7 +545,7 @@ def _positive(figure: Figure) -> Figure:
         raise PydanticCustomError(
             "share",
             "a share of {text} is not above 0",
-            {"text": figure.text, "fix": "give a share above 0, or leave it out if it is unknown"},
+            {"text": figure.text, "fix": "give a share above 0, or omit it if it is unknown"},
         )
     return figure
 

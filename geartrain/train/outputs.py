@@ -46,7 +46,7 @@ class DialName(Declared):
 
     See Also
     --------
-    Dial : has them as `names`
+    Dial : its field `names`
     """
 
     name: str = Field("", description="Engraved label; empty for divisions without a label")
@@ -62,7 +62,7 @@ class DialNumerals(Declared):
 
     See Also
     --------
-    Dial : has them as `numerals`
+    Dial : its field `numerals`
     """
 
     style: Literal["roman", "arabic"] = Field("arabic", description="Style of the numerals")
@@ -145,7 +145,7 @@ class Graduation(Declared):
                     "off": abs(off),
                     "way": "many" if off > 0 else "few",
                     "divisions": self.divisions,
-                    "fix": "make the spans add up to `divisions`, or leave `divisions` out",
+                    "fix": "make the spans add up to `divisions`, or omit `divisions`",
                 },
             )
         for cell in self.glyphs:
@@ -174,7 +174,7 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        context = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
+        context = {"name": name, "divisions": count, "fix": f"give {total}, or omit `divisions`"}
         raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
     return [(part, int(share)) for part, share in shares]
 
@@ -184,7 +184,7 @@ class DialRing(Graduation):
 
     See Also
     --------
-    Dial : has it as `around`
+    Dial : its field `around`
     """
 
 
@@ -198,7 +198,7 @@ class Dial(Graduation):
 
     See Also
     --------
-    Train : has them as `dials`, by name
+    Train : its field `dials`, by name
     """
 
     face: str | None = Field(None, description="Side from which the dial is read, front or back")
@@ -271,7 +271,7 @@ class Target(Declared):
 
     See Also
     --------
-    Output : has them as `targets`
+    Output : its field `targets`
     geartrain.kinematics.TargetResult : comparison of an output with a target
     """
 
@@ -313,7 +313,7 @@ class Target(Declared):
             raise PydanticCustomError(
                 "target",
                 "the speed {speed} and `sense` are both given",
-                {"speed": self.speed.text, "fix": "leave `sense` out, and write a retrograde speed with a minus sign"},
+                {"speed": self.speed.text, "fix": "omit `sense`, and write a retrograde speed with a minus sign"},
             )
         return self
 
@@ -376,7 +376,7 @@ class Published(Declared):
 
     See Also
     --------
-    Output : has it as `published`
+    Output : its field `published`
     """
 
     value: Figure = Field(description="Value as printed; it must agree to its digits")
@@ -448,7 +448,7 @@ class SpeedUnit(Declared):
 
     See Also
     --------
-    Train : has it as `unit`
+    Train : its field `unit`
     """
 
     per: str = Field(
@@ -461,7 +461,7 @@ class View(Declared):
 
     See Also
     --------
-    Train : has it as `view`
+    Train : its field `view`
     """
 
     from_: str | None = Field(None, alias="from", description="Side from which the train is viewed, front or back")

@@ -46,7 +46,7 @@ class SpringDrive(Declared):
 
     See Also
     --------
-    Drive : has it as `spring`
+    Drive : its field `spring`
     """
 
     stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
@@ -72,7 +72,7 @@ class HandDrive(Declared):
 
     See Also
     --------
-    Drive : has it as `hand`
+    Drive : its field `hand`
     """
 
     torque: DriveTorque | None = Field(None, description="Constant torque of the hand")
@@ -94,7 +94,7 @@ class HandDrive(Declared):
             raise PydanticCustomError(
                 "drive",
                 "`stiffness` applies only to a hand with a `rate`",
-                {"fix": "leave `stiffness` out, or give `rate` instead of `torque`"},
+                {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
             )
         return self
 
@@ -108,7 +108,7 @@ class Drive(Declared):
 
     See Also
     --------
-    Train : has it as `drive`
+    Train : its field `drive`
     State : may have its own drive
     StateCase : drive in force in one state
 
@@ -181,7 +181,7 @@ class Escapement(Declared):
 
     See Also
     --------
-    Train : has it as `escapement`
+    Train : its field `escapement`
 
     Examples
     --------
@@ -220,7 +220,7 @@ class Escapement(Declared):
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Return whether a wheel of a link is the escape wheel, which is not in a gear mesh.
+        """Return True if a wheel of a link is the escape wheel, which is not in a gear mesh.
 
         Parameters
         ----------
@@ -237,7 +237,7 @@ class Clutch(Declared):
 
     See Also
     --------
-    Train : has them as `clutches`, by name
+    Train : its field `clutches`, by name
     State : engages them
     """
 
@@ -258,7 +258,7 @@ class State(Declared):
 
     See Also
     --------
-    Train : has them as `states`, by name
+    Train : its field `states`, by name
     StateCase : prescriptions in force in one state
     """
 

@@ -132,7 +132,7 @@ def run(
         found = infer_counts(train, **requested, executor=given.executor, journal=given.journal, tell=given.tell)
         close_journal(given.journal, found.cut)
     if drawing.path is not None and not found.best:
-        tell(f"nothing fits, so {drawing.path} is not written")
+        tell(f"no tooth counts fit, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
         held = {**requested, "most": 1}
         _draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**requested["free"], **one}}), drawing)
@@ -186,7 +186,7 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[s
             table.write({name: [row[name] for row in rows] for name in rows[0]})
             tell(f"wrote {to.path}")
         else:
-            tell(f"nothing fits, so {to.path} is not written")
+            tell(f"no tooth counts fit, so {to.path} is not written")
 
 
 def _draw_counts(

@@ -158,7 +158,7 @@ def _assignment(text: str) -> dict[str, int]:
 def _check_kept(file: str, out: Path | None) -> None:
     """Raise `QuestionError` if the output file is the declaration of the train, which the solution extends."""
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
-        raise option_error("-o", f"'{out}' is the train itself", "write to another file")
+        raise option_error("-o", f"'{out}' is the input file", "write to another file")
 
 
 def _parent(file: str, out: Path | None) -> str:

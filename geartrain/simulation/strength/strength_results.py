@@ -234,7 +234,7 @@ class ArborStrength(Result):
 
     @property
     def safety(self) -> float | None:
-        """Safety factor: strength over equivalent stress; None if the strength is unknown or the stress is 0."""
+        """Safety factor: strength divided by equivalent stress; None if the strength is unknown or the stress is 0."""
         return None if self.strength is None or not self.stress else self.strength / self.stress
 
 
@@ -281,12 +281,12 @@ class WheelStrength(Result):
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength over `tip_stress`; None if one is unknown."""
+        """Safety factor of the root: strength divided by `tip_stress`; None if one is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: pressure at first yield below the surface over `pressure`; None if one is
+        """Safety factor of the flank: pressure at first yield below the surface divided by `pressure`; None if one is
         unknown.
         """
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
@@ -365,7 +365,7 @@ class FlankStrength(Result):
     spread: float | None
     """Relative uncertainty of the strength; None if it is not known."""
     safety: float | None
-    """Safety factor of the flank: pressure at first yield below the surface over the contact pressure; None if
+    """Safety factor of the flank: pressure at first yield below the surface divided by the contact pressure; None if
     unknown.
     """
     tip_stress: float | None = None
@@ -373,7 +373,7 @@ class FlankStrength(Result):
 
     @property
     def root_safety(self) -> float | None:
-        """Safety factor of the root: strength over `tip_stress`; None if one is unknown."""
+        """Safety factor of the root: strength divided by `tip_stress`; None if one is unknown."""
         return None if self.strength is None or not self.tip_stress else self.strength / self.tip_stress
 
 
@@ -445,10 +445,12 @@ class PinContact(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield below the surface over `pressure`; None if unknown."""
+        """Safety factor of the contact: pressure at first yield below the surface divided by `pressure`; None if
+        unknown.
+        """
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property
     def pin_safety(self) -> float | None:
-        """Safety factor of the pins: strength over `pin_stress`; None if one is unknown."""
+        """Safety factor of the pins: strength divided by `pin_stress`; None if one is unknown."""
         return None if self.pin_strength is None or not self.pin_stress else self.pin_strength / self.pin_stress

@@ -104,7 +104,7 @@ def run(
             picture,
         )
     if not found.complete:
-        tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are for these turns")
+        tell(f"stopped after {found.turns[-1]:.4g} turns; the results are for these turns")
         raise typer.Exit(INTERRUPTED)
     if stepped is not None and not stepped.complete:
         tell("stopped before the search for the separation rate converged")

@@ -254,7 +254,8 @@ class ConjugateTransmission(ExactRatio):
         return float(weights @ found)
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
+        """Return the work output divided by the work input of one pitch at constant load torque; NaN if friction locks.
+        """
         if self._locks:
             return nan
         found, weights = self._sampled

@@ -338,7 +338,8 @@ class TriangularTransmission(TransmissionFunction):
         return self.contact.mean(("driver", self.friction), lambda: self._contact_mean(self._eta))
 
     def efficiency_at_constant_load(self) -> float:
-        """Return the work output over the work input of one pitch at constant load torque; NaN if friction locks."""
+        """Return the work output divided by the work input of one pitch at constant load torque; NaN if friction locks.
+        """
         if self.friction >= self.locking_friction:
             return nan
         work = partial(self._contact_mean, lambda interval, x: self._tau(interval, x) / self._eta(interval, x))

@@ -153,7 +153,7 @@ class CrankLoad(Result):
     It refers to the link's own sense of rotation and is positive if it puts power in, as in `over_turn`.
     """
     efficiency: float | None
-    """Output power over input power; None if neither friction nor an efficiency is declared, or if it is
+    """Output power divided by input power; None if neither friction nor an efficiency is declared, or if it is
     undetermined.
     """
     note: str

@@ -252,7 +252,7 @@ def _print_notices(problems: Sequence[Problem]) -> None:
     for problem in problems[:_SHOWN]:
         tell(f"note: {problem}")
     if len(problems) > _SHOWN:
-        tell(f"note: {len(problems) - _SHOWN} more in README.md")
+        tell(f"note: {len(problems) - _SHOWN} more notes are in README.md")
 
 
 def _with_progress(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:

@@ -157,7 +157,7 @@ def _check_plot(plot: Path | None, force: bool, theme: ThemeName, picture: str =
         from geartrain.workshop.monte_carlo.monte_carlo_plots import PICTURES as ALL
 
         if picture not in ALL:
-            raise option_error("--picture", f"'{picture}' is not a picture", suggest(picture, ALL))
+            raise option_error("--picture", f"'{picture}' is not a kind of picture", suggest(picture, ALL))
     return picture_sink(plot, force, theme)
 
 

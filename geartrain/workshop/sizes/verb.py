@@ -161,7 +161,9 @@ class SizeQuestion:
         given = [text.partition("=")[2] for text in self.within if _is_probability(text)]
         if bool(given) != bool(self.errors):
             if given:
-                raise option_error("--within", "stops needs cutting errors", "give --cutting 'pitch_deviation=1 %' too")
+                raise option_error(
+                    "--within", "the limit `stops` needs cutting errors", "give --cutting 'pitch_deviation=1 %' too"
+                )
             raise option_error("--cutting", "no limit depends on cutting errors", "give --within stops=5% too")
         if not given:
             return None
@@ -184,7 +186,7 @@ def _start(pair: PairRequest) -> ToothSizes:
     friction = read_pair_friction(pair.friction).number("--objective")
     for name in pair.own:
         if name in CLEARANCES and name != "window":
-            why = "the clearance window depends on the radii, so a fixed clearance would leave it"
+            why = "the clearance window depends on the radii, so a fixed clearance could lie outside it"
             what = f"{name} cannot be combined with --objective"
             raise GearTrainError(Problem(what, why, "give -p window=0.5", f"-p {name}"))
     shape = {name: text for name, text in pair.own.items() if name != "window"}

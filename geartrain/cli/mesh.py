@@ -145,7 +145,7 @@ def run(
         typer.Option(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
-            help="Tabulate results for a range of friction, z1, z2 or a parameter of --keys; may be given twice.",
+            help="Tabulate results for a range of friction, z1, z2 or a key listed by --keys; may be given twice.",
             rich_help_panel=_TEETH,
         ),
     ] = None,

@@ -434,7 +434,7 @@ class PinContact(Result):
     width: float
     """Width of contact [mm]."""
     force: float
-    """Maximum force on the pin with the maximum contact pressure, in all positions [N]."""
+    """Force on the pin at the instant of maximum contact pressure [N]."""
     radius: float
     """Radius of an equivalent cylinder in contact with a plane [mm]."""
     pressure: float

@@ -422,7 +422,7 @@ class GearMesh(Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Tuple of this mesh; if the driver is not determined, of the mesh with each of the two wheels driving."""
+        """This mesh as a tuple; if the driver is not determined, the mesh with each of the two wheels driving."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 

@@ -27,8 +27,8 @@ class UniformTemperature(ConjugateToothForm):
     """Teeth of uniform temperature: the frictional heat per area of profile is constant.
 
     There are three readings of the source. In reading a, the heat is uniform on the profile of the first wheel. In
-    reading b, it is uniform on the hotter of the two profiles, which is always the dedendum. In reading c, as in
-    reading b, but the pressure angle is constant from the pitch point until that heat is reached, so that the stress at
+    reading b, it is uniform on the hotter of the two profiles, which is always the dedendum. Reading c is reading b,
+    except that the pressure angle is constant from the pitch point until that heat is reached, so that the stress at
     the pitch point is finite (docs/shapes.md).
 
     See Also

@@ -101,8 +101,7 @@ class GearSphere(Result):
         return spherical_phasing(self.configuration) if self.chosen and self.moves else None
 
     def pose(self) -> tuple[Configuration, Floats, list[float]]:
-        """Return the data of a picture: the set, half-angles of its pitch cones [rad], and phases of its teeth [pitch].
-        """
+        """Return the data of a picture: the set, half-angles of pitch cones [rad], and phases of the teeth [pitch]."""
         sizing = self.sizing
         if sizing is None:
             raise QuestionError(
@@ -120,8 +119,7 @@ class GearSphere(Result):
 
     @cached_property
     def rule(self) -> str | None:
-        """Divisibility condition on the tooth numbers; None if the contacts are not at known fractions of a revolution.
-        """
+        """Divisibility condition on the tooth numbers; None if contacts are not at known fractions of a revolution."""
         from geartrain.kinematics.phasing import spherical_divisibility_rule
 
         rule = spherical_divisibility_rule(self.configuration) if self.moves else None

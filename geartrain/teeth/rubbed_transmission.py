@@ -182,8 +182,7 @@ class RubbedTransmission(DerivedTransmission):
         return float((at.weights @ speed) / (at.weights @ (speed / at.efficiency)))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency at the nodes and ends of all smooth intervals; NaN if friction locks the teeth.
-        """
+        """Return the minimum efficiency at nodes and ends of all smooth intervals; NaN if friction locks the teeth."""
         if self.locks:
             return nan
         if self.transmission.rubbing_nodes() is not None:

@@ -163,8 +163,7 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def efficiency_mean(self) -> float:
-        """Return the mean efficiency over the driver angle at constant driver torque; NaN if friction locks the pair.
-        """
+        """Return the mean efficiency over the driver angle at constant driver torque; NaN if the pair is locked."""
 
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:

@@ -29,7 +29,7 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    r"""Rewrite a declaration in short form: turning pairs grouped by axis, and gear pairs without other keys as `a ~ b`.
+    r"""Rewrite a declaration in short form: turning pairs grouped by axis, gear pairs without other keys as `a ~ b`.
 
     Parameters
     ----------

@@ -216,8 +216,7 @@ class Escapement(Declared):
 
     @property
     def speed(self) -> Fraction:
-        """Mean speed of the escape wheel's link relative to the link that carries it [turn/s]: half a tooth per beat.
-        """
+        """Mean speed of the escape wheel's link relative to its carrying link [turn/s]: half a tooth per beat."""
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:

@@ -84,8 +84,7 @@ class BudgetCause(Result):
 
     @property
     def measure(self) -> str:
-        """Quantity represented by `degrees`: drift over the span, peak-to-peak value, maximum, or central 95 % range.
-        """
+        """Quantity given by `degrees`: drift over the span, peak-to-peak value, maximum, or central 95 % range."""
         return MEASURES[self.name]
 
 

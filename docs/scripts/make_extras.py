@@ -21,38 +21,37 @@ FOR = {
     "plot": "`draw`, and `--plot` of every command",
     "dask": "`--workers`: long runs on a cluster",
     "dxf": "`export` of DXF",
-    "proof": "`export`: the proof that what is cut turns",
+    "proof": "`export`: the check that the exported parts turn",
     "step": "`export` of STEP",
     "tables": "Parquet and pandas: `montecarlo`, `posterior`, `.to_frame()`",
     "fast": "compiled runs of `motion` and `dynamics`",
     "fmu": "`export` of co-simulation units (FMU)",
-    "sympy": "`train.formula(...)` as an expression of sympy",
-    "watch": "`watch`: pages that follow a file",
-    "all": "all of these but `step`",
+    "sympy": "`train.formula(...)` as a sympy expression",
+    "watch": "`watch`: pages that are updated when a file is saved",
+    "all": "all of these except `step`",
 }
 
 PAGE_TEXT = """# Extras
 
-Written by `python docs/scripts/make_extras.py --measure`.
-
-geartrain without extras brings {count:.0f} packages, {size:.0f} MB. That is enough for `solve`, `check`, `report`,
-`view`, `gearbox`, `formula`, `torques`, `motion`, `dynamics`, `strength`, `reconstruct`, all of `teeth` and `mesh`,
-`export` of SVG, STL and GLB, and for the library. A command that needs more prints what to install, by the names of the
-packages, for example
+Extras are groups of optional packages. Without extras geartrain installs {count:.0f} packages ({size:.0f} MB), which
+suffice for `solve`, `check`, `report`, `view`, `gearbox`, `inspect`, `torques`, `motion`, `dynamics`, `strength`,
+`reconstruct`, `teeth`, `mesh`, `export` of SVG, STL and GLB, and for the library. A command that needs more prints
+what to install, for example
 
 ```sh
 pip install 'matplotlib>=3.8'
 ```
 
-In a copy of the sources `pip install -e '.[plot]'` does the same by the name of the extra.
+In a clone of the repository `pip install -e '.[plot]'` installs the same packages.
 
-| extra | for | `pip install` | packages more | MB |
+| extra | for | `pip install` | packages added | MB |
 |---|---|---|---:|---:|
 {rows}
 
-Sizes are those of installed files, before Python compiles them. Extras share packages: together they weigh less than
-their sum. `all` leaves `step` out because of its size. `dev` (810 MB with the core) is for working on geartrain, `ci`
-adds the browser driver, the site and the libraries without which some tests are skipped, and `site` builds this site.
+Sizes are of installed files, before Python compiles them. Extras share packages, so that several extras need less
+than the sum of their sizes. `all` omits `step` because of its size. Three more extras are for development: `dev` (810
+MB with the core), `site` for this site, and `ci` for all tests. The table is written by `python
+docs/scripts/make_extras.py --measure`.
 """
 
 

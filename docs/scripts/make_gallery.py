@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import geartrain
-from geartrain import Answer
+from geartrain import Answer, GearTrain
 from geartrain.report.document import exact
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,11 +21,11 @@ GROUPS = {
 }
 LEAD = """# Gallery
 
-Every train that comes with geartrain, with what it answers. The [site](index.md#this-site) shows each turning, with its
-plan and dials, a page in which it turns, and its report; `geartrain view NAME -o x.html` makes the page here. Files
-stand in `trains/`; each names its sources.
+All shipped trains with the speeds of their first outputs; all are determined unless noted. The
+[site](contributing.md#documentation) shows the plan, the dials, the animated page and the report of each; `geartrain
+view NAME -o x.html` writes the page. The files are in `trains/`; each cites its sources.
 """
-MOST = 4
+MOST = 1
 
 
 def main() -> None:
@@ -40,33 +40,30 @@ def page() -> str:
 
 
 def _group(folder: str, title: str) -> Iterator[str]:
-    yield f"\n## {title}\n\n| train | what it is | verdict | outputs |\n|---|---|---|---|\n"
+    yield f"\n## {title}\n\n| train | what it is | speeds of outputs |\n|---|---|---|\n"
     for path in sorted((ROOT / "trains" / folder).glob("*.yaml")):
         train = geartrain.load(path)
         answers = list(train.answers())
-        cells = (path.stem, train.declaration.title or "", _verdict(train, answers), _outputs(answers))
+        cells = (path.stem, train.declaration.title or "", _verdict(train, answers) + _outputs(answers))
         yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |\n"
 
 
-def _verdict(train: geartrain.GearTrain, answers: list[Answer]) -> str:
-    kinds = list(dict.fromkeys(answer.verdict.kind for answer in answers))
-    words = f"{', '.join(kinds)}; {len(answers)} states" if train.states else kinds[0]
-    jam = "; its teeth cannot turn" if any(mesh.fault for mesh in train.meshes) else ""
-    return words + jam
+def _verdict(train: GearTrain, answers: list[Answer]) -> str:
+    """Return all that differs from a determined train."""
+    kinds = dict.fromkeys(answer.verdict.kind for answer in answers)
+    words = [kind for kind in kinds if kind != "determined"]
+    if any(mesh.fault for mesh in train.meshes):
+        words.append("teeth cannot turn")
+    return "".join(f"{word}; " for word in words)
 
 
 def _outputs(answers: list[Answer]) -> str:
-    """The first outputs with their speeds, in all states where there are several; pointers before others."""
-    results = [result for answer in answers for result in answer.outputs.values()]
-    results.sort(key=lambda result: not (result.output.dial or result.targets))
-    names = list(dict.fromkeys(result.name for result in results))
-    shown = [f"{name} {_speeds(answers, name)}" for name in names[:MOST]]
-    return ", ".join(shown) + (f" and {len(names) - MOST} more" if len(names) > MOST else "")
-
-
-def _speeds(answers: list[Answer], name: str) -> str:
-    speeds = [exact(found.speed) for answer in answers if (found := answer.outputs.get(name))]
-    return " or ".join(dict.fromkeys(speeds))
+    """Return the first outputs with their speeds if there is one state; pointers before others."""
+    if len(answers) > 1:
+        return f"{len(answers)} states"
+    results = sorted(answers[0].outputs.values(), key=lambda result: not (result.output.dial or result.targets))
+    shown = [f"{result.name} {exact(result.speed)}" for result in results[:MOST]]
+    return ", ".join(shown) + (f", +{len(results) - MOST}" if len(results) > MOST else "")
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ def turning() -> None:
 def trains() -> None:
     """A train in each kind of picture."""
     for kind, name in (
-        ("plan", "planetary-24-18-60"),
+        ("plan", "longcase-clock"),
         ("stick", "zf-8hp70"),
         ("graph", "pennestri-2002"),
         ("lever", "two-k-h-10000"),

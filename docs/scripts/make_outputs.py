@@ -24,7 +24,7 @@ NAMES = (
     "for-historians",
     "for-makers",
     "for-engineers",
-    "api",
+    "api/index",
     "library",
     "how-to",
     "json",

@@ -233,7 +233,8 @@ def _all_gears(train: GearTrain, source: str, link: str) -> _AllGears:
     # smallest size first: further closed elements would be redundant or lock the train
     for size in range(len(elements) + 1):
         if comb(len(elements), size) > MOST_COMBINATIONS:
-            what = f"there are {comb(len(elements), size):,} ways to close {size} of {len(elements)} shift elements"
+            number = comb(len(elements), size)
+            what = f"{size} of {len(elements)} shift elements can be closed in {number:,} combinations"
             why = f"at most {MOST_COMBINATIONS:,} combinations are enumerated"
             raise QuestionError(Problem(what, why, "declare fewer `clutches`"))
         choices = list(combinations(elements, size))

@@ -28,8 +28,8 @@ _GIVEN = frozenset(("declared", "frame", "wheels", "reference", "speed", "kind",
 
 
 def _refuse(*_: object, **__: object) -> NoReturn:
-    what, why = "the graph of a train cannot be changed", "its results would not agree with the train"
-    fix = "build another train by with_teeth or with_changes, or change a graph.copy()"
+    what, why = "the graph of a train cannot be changed", "results of a changed graph would not agree with the train"
+    fix = "build another train with `with_teeth` or `with_changes`, or change a copy, `graph.copy()`"
     raise QuestionError(Problem(what, why, fix))
 
 

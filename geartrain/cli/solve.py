@@ -32,7 +32,7 @@ def solve(
     out: Out = None,
     method: Annotated[
         Literal["auto", "exact", "sparse", "floats"],
-        typer.Option("--method", help="Solution method; floats is another name of sparse."),
+        typer.Option("--method", help="Solution method; floats is an alias of sparse."),
     ] = "auto",
     force: Force = False,
 ) -> None:

@@ -129,7 +129,7 @@ def sweep_figure(
             Problem(
                 f"cannot draw a sweep of {len(places)} parameters and {len(values)} columns with arrays of shapes "
                 f"{sorted(shapes)}",
-                "all arrays must have one shape",
+                "a sweep has one or two parameters, and arrays of one shape that are not empty",
                 "pass one parameter with arrays (n,), or two with grids (n, m), and at least one column",
             )
         )

@@ -316,6 +316,6 @@ def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
             Problem(
                 f"'{train.name}' has {count} {what}, too many for this picture",
                 f"at most {most} {what} are legible on a page",
-                "draw a part of the train, or another kind of picture",
+                "declare a part of the train, or draw another kind of picture",
             )
         )

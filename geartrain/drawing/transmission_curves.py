@@ -413,9 +413,7 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     """
     if not paths:
         raise QuestionError(
-            Problem(
-                "none of the tooth forms can be drawn", "none of them can run", "change the arcs or the tooth counts"
-            )
+            Problem("no tooth form can be drawn", "none of them can run", "change the arcs or the tooth counts")
         )
     figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
     panels = figure.subplots(4, 2)

@@ -135,7 +135,7 @@ class TrainKinematics(Shown):
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
             what = f"'{self.declaration.name}' has no pair '{name}'"
-            raise QuestionError(Problem(what, "only declared pairs can be left out", suggest(name, known)))
+            raise QuestionError(Problem(what, "only declared pairs can be omitted", suggest(name, known)))
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     @cached_property

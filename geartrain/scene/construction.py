@@ -250,9 +250,9 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "their driver meshes with several wheels, and its angle follows from the first of them; the motion is "
-                "exact, and the driven teeth are advanced until nothing cuts into them, so that they touch only once "
-                "per pitch",
+                "their driver meshes with several wheels, and its angle is set by the first of them; the driven teeth "
+                "are "
+                "rotated until no teeth overlap, so that they touch only once per pitch; the motion is exact",
                 "",
             )
 

@@ -282,7 +282,7 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
         return first.value / second.value, f"{first.note} over {second.note}"
     raise _problem(
         f"'{_short(label)}' is a quotient of different quantities",
-        f"{_describe(first)} over {_describe(second)} is not a ratio of speeds",
+        f"{_describe(first)} divided by {_describe(second)} is not a ratio of speeds",
         "write two numbers, two counts of things, two times (d, h, min, s), or two names of one kind",
     )
 

@@ -213,14 +213,13 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     Fraction(-5, 3)
     """
     missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
-    if missing or not configuration.names:
-        raise QuestionError(
-            Problem(
-                f"no tooth number for {', '.join(missing)}" if missing else "a set without gears is not a train",
-                "a declaration needs at least one gear, and the teeth of every wheel",
-                f"give teeth={{{missing[0]!r}: 20, ...}}" if missing else "drop fewer gears",
-            )
-        )
+    if missing:
+        what = f"no tooth number is given for {', '.join(missing)}"
+        fix = f"give teeth={{{missing[0]!r}: 20, ...}}"
+        raise QuestionError(Problem(what, "a declaration needs the tooth number of every wheel", fix))
+    if not configuration.names:
+        what, why = "a set without gears is not a train", "a declaration needs at least one gear"
+        raise QuestionError(Problem(what, why, "drop fewer gears"))
     gears = list(zip(configuration.names, configuration.kinds, configuration.axes.tolist(), strict=True))
     return {
         "name": name or "spherical",
@@ -362,9 +361,9 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
             names = " - ".join(configuration.names[gear] for gear in loop)
             raise QuestionError(
                 Problem(
-                    f"loop {names} is odd",
+                    f"loop {names} has an odd number of gears",
                     "meshing gears turn in opposite senses, so an odd loop locks",
-                    "drop one mesh",
+                    "remove one mesh of the loop",
                 )
             )
         shares = _shares(configuration, loop, kinds)

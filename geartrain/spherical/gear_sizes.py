@@ -69,7 +69,7 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
     if missing:
         raise QuestionError(
             Problem(
-                f"no tooth number for {', '.join(missing)}",
+                f"no tooth number is given for {', '.join(missing)}",
                 "sizes depend on the teeth of every kind of gear",
                 f"give teeth={{{missing[0]!r}: 20, ...}}, or search for teeth with suggest_tooth_counts()",
             )

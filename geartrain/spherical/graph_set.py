@@ -73,12 +73,12 @@ def checked_graph(graph: nx.Graph[Any] | Edges) -> nx.Graph[Any]:
     _check_simple(pairs, both_ways=isinstance(given, nx.DiGraph))
     loose = [] if given is None else [str(node) for node, degree in given.degree() if not degree]
     if loose:
-        raise _refused(f"{', '.join(loose)} mesh with nothing", "meshes determine the axes", "leave these gears out")
+        raise _refused(f"{', '.join(loose)} mesh with no other gear", "meshes determine the axes", "remove these gears")
     found: nx.Graph[Any] = nx.Graph(pairs)
     if found.number_of_nodes() < 4:
         raise _refused(
             f"it has {found.number_of_nodes()} gears",
-            "a packing needs a loop of four or more",
+            "a circle packing needs a loop of four or more gears",
             "add gears until loops close",
         )
     _check_bipartite(found)
@@ -93,7 +93,7 @@ def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
-        raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "leave that mesh out")
+        raise _refused(f"{alone[0]} meshes with itself", "a gear has one axis", "remove this mesh")
     # a mesh is undirected
     counted = Counter(frozenset(pair) for pair in pairs)
     twice = [pair for pair, count in counted.items() if count > (2 if both_ways else 1)]
@@ -117,7 +117,7 @@ def _check_connected(found: nx.Graph[Any]) -> None:
     if cut is None:
         return
     ends = ", ".join(sorted(str(node) for node, degree in found.degree() if degree == 1))
-    fix = f"leave {ends} out, or add a second mesh to each" if ends else f"add a mesh that bypasses {cut}"
+    fix = f"remove {ends}, or add a second mesh to each" if ends else f"add a mesh that bypasses {cut}"
     raise _refused(f"only {cut} connects two parts", "the parts can turn about it, so the packing is not unique", fix)
 
 
@@ -129,7 +129,9 @@ def _check_bipartite(found: nx.Graph[Any]) -> None:
     if odd:
         walk = " - ".join(str(names[k]) for k in min(odd, key=len))
         raise _refused(
-            f"loop {walk} is odd", "meshing gears turn in opposite senses, so an odd loop locks", "leave one mesh out"
+            f"loop {walk} has an odd number of gears",
+            "meshing gears turn in opposite senses, so an odd loop locks",
+            "remove one mesh of the loop",
         )
 
 
@@ -165,7 +167,7 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
         raise _refused(
             f"it is not planar: {', '.join(corners)}",
             f"{why}, by meshes or disjoint chains of gears (Kuratowski)",
-            "leave a mesh out of these chains",
+            "remove a mesh of these chains",
         )
     at = {name: k for k, name in enumerate(found)}
     seen: set[tuple[Hashable, Hashable]] = set()
@@ -336,9 +338,9 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
     if missing:
         raise QuestionError(
             Problem(
-                f"no teeth given for {', '.join(missing)}",
-                "with `teeth` no tooth number is rounded from the packing",
-                "give the teeth of every gear",
+                f"no tooth number is given for {', '.join(missing)}",
+                "if `teeth` is given, no tooth numbers are derived from the circle packing",
+                "give the tooth number of every gear",
             )
         )
     return np.array([teeth[name] for name in names], dtype=np.int64)

@@ -303,7 +303,7 @@ def _checked(points: ArrayLike) -> Floats:
         raise _refused(f"{len(vertices)} points do not make a solid", "a polyhedron has at least four vertices")
     spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     if spread[2] <= NEAR * spread[0]:
-        raise _refused("the points lie in one plane", "a polyhedron has a positive volume")
+        raise _refused("the points are in one plane", "a polyhedron has a positive volume")
     _check_apart(vertices, NEAR * float(spread[0]) / len(vertices) ** 0.5)
     return vertices
 
@@ -315,7 +315,7 @@ def _check_apart(vertices: Floats, near: float) -> None:
         raise _refused(
             f"vertices[{second}] repeats vertices[{first}] {_coordinates(vertices[first])}",
             "the vertices of a polyhedron must be distinct",
-            "leave one of them out",
+            "remove one of them",
         )
 
 
@@ -326,7 +326,7 @@ def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
     try:
         hull = ConvexHull(vertices / scale)
     except QhullError:
-        raise _refused("the points nearly lie in one plane", "a polyhedron has a positive volume") from None
+        raise _refused("the points are nearly in one plane", "a polyhedron has a positive volume") from None
     # a point inside the hull would never carry a face
     inside = sorted(set(range(len(vertices))) - set(hull.vertices.tolist()))
     if inside:
@@ -354,7 +354,7 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
     ways = np.roll(arms, -1, axis=0) - arms
     area = float(np.cross(arms, ways).sum(axis=0) @ normal / 2)
     if area < NEAR * scale**2:
-        raise _refused(f"face {index.tolist()} has no area", "its vertices lie on one line")
+        raise _refused(f"face {index.tolist()} has no area", "its vertices are on one line")
     lengths = np.linalg.norm(ways, axis=1)
     # sines of the exterior angles: 0 for a point on an edge
     turns = np.cross(np.roll(ways, 1, axis=0), ways) @ normal / (np.roll(lengths, 1) * lengths)
@@ -366,9 +366,9 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
 def _check_origin(heights: Floats, scale: float) -> None:
     if heights.min() <= NEAR * scale:
         raise _refused(
-            "the origin does not lie inside the solid",
+            "the origin is not inside the solid",
             "the origin is the centre of the sphere, through which all axes of gears pass",
-            "move the vertices so that it does, or pass recentre=True to put it at their mean",
+            "move the vertices around the origin, or pass recentre=True to move their mean to the origin",
         )
 
 
@@ -386,9 +386,9 @@ def _check_closed(solid: Polyhedron) -> None:
 
 def _not_a_corner(vertices: Floats, at: int) -> GearTrainError:
     return _refused(
-        f"vertices[{at}] {_coordinates(vertices[at])} is not a vertex: it lies in the hull of the others",
+        f"vertices[{at}] {_coordinates(vertices[at])} is not a vertex: it is inside the convex hull of the others",
         "gears are placed on the faces and vertices of a convex solid",
-        "leave the point out, or move it outwards",
+        "remove the point, or move it outwards",
     )
 
 

@@ -170,7 +170,9 @@ def _placed(
         if missing:
             raise QuestionError(
                 Problem(
-                    f"exact=True requires the teeth of {', '.join(missing)}", "pitches depend on them", "give `teeth`"
+                    f"no tooth number is given for {', '.join(missing)}",
+                    "exact=True requires all of them",
+                    "give `teeth`",
                 )
             )
         return equal_pitch(plan.movement, plan.axes, meshes, teeth, range(len(kinds))) if meshes else plan.axes
@@ -359,7 +361,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
             raise QuestionError(
                 Problem(
                     f"{count} is not a tooth number of kind '{kind}'",
-                    "tooth numbers are integers from 1",
+                    "tooth numbers are integers of 1 or more",
                     "give a number such as 20",
                 )
             )

@@ -293,7 +293,7 @@ class CircularArc(ToothForm):
             return None
         why = "a declared backlash or thickness takes precedence over --backlash"
         fix = "omit --backlash, or remove `backlash` and `thickness` from the file"
-        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+        return Problem(f"pair '{pair}' declares its own backlash", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
         """Return a copy whose leaves are thinned if the pair has less than the given backlash.

@@ -100,8 +100,9 @@ class Lantern(ConjugateToothForm):
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(
-                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off its design",
-                    "its mate keeps the ratio at the design distance only, and other distances are not modelled",
+                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off the design "
+                    "distance",
+                    "the ratio is constant only at the design distance, and other distances are not modelled",
                     "remove `centre_distance`, or give another tooth_form",
                 )
             )
@@ -208,7 +209,8 @@ class Lantern(ConjugateToothForm):
         if abs(A - R) >= B:
             raise refused(
                 f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"its radius is {R:.6g} modules and that of a pin {B:.6g}, so no contact passes the pitch point",
+                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact passes the pitch "
+                "point",
                 f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
             )
         # chord between the centres of two adjacent pins
@@ -242,5 +244,5 @@ class Lantern(ConjugateToothForm):
 
 def _not_covered(what: str, why: str) -> RangeError:
     return RangeError(
-        Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or give another tooth_form")
+        Problem(f"{what} is not modelled", why, "let a spur wheel carry the pins, or give another tooth_form")
     )

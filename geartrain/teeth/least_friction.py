@@ -84,7 +84,9 @@ class LeastFriction(ConjugateToothForm):
     def _check_usual(self) -> LeastFriction:
         if self.pressure_angles is not None:
             raise bad(
-                "literal", "pressure_angles are for the literal shape only", "give `pressure_angle`, or `literal: true`"
+                "literal",
+                "pressure_angles apply only to the literal shape",
+                "give `pressure_angle`, or `literal: true`",
             )
         if self.pressure_angle is not None:
             check_angle("pressure_angle", self.pressure_angle, 0.125)

@@ -106,7 +106,7 @@ class PinRing(ToothForm):
         if lobes < 3:
             raise refused(
                 f"a disc of {lobes} lobes cannot run",
-                "with fewer lobes too few pins press on the disc",
+                "with fewer than 3 lobes, too few pins press on the disc",
                 "give 3 lobes or more",
             )
         circle = pins / 2 / _SHORTENING if self.pin_circle is None else self._modules("pin_circle", module)
@@ -220,7 +220,7 @@ class PinRing(ToothForm):
             return None
         why = f"the declared clearance of {self.clearance.text} takes precedence over --backlash"
         return Problem(
-            f"pair '{pair}' has a clearance of its own",
+            f"pair '{pair}' declares its own clearance",
             why,
             "omit --backlash, or remove `clearance` from the file",
         )

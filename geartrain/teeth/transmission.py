@@ -203,7 +203,7 @@ class TransmissionFunction(Shown, ABC):
         RangeError
             If the sliding speed of the transmission function is not known.
         """
-        what = "the sliding of this pair is not known"
+        what = "the sliding speed of this pair is not known"
         why = "sliding speeds are computed for pairs of teeth only"
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 

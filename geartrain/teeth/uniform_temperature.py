@@ -76,7 +76,7 @@ class UniformTemperature(ConjugateToothForm):
             if self.reading != "c":
                 raise bad(
                     "pressure_angle",
-                    "minimum_angle is for reading c only",
+                    "minimum_angle applies only to reading c",
                     "give `reading: c`, or remove `minimum_angle`",
                 )
             check_angle("minimum_angle", self.minimum_angle)

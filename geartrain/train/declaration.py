@@ -392,7 +392,7 @@ class Train(Declared):
             Name of the state; None is always accepted.
         """
         if state is not None and state not in self.states:
-            fix = suggest(state, self.states) if self.states else "leave the state out"
+            fix = suggest(state, self.states) if self.states else "omit the state"
             raise QuestionError(
                 Problem(f"'{self.name}' has no state '{state}'", "a state must be declared under `states`", fix)
             )

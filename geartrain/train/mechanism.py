@@ -400,7 +400,7 @@ class Wheel(Declared):
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
             raise PydanticCustomError(
                 "helix_angle",
-                "a {kind} wheel has a helix angle",
+                "a {kind} wheel cannot have a helix angle",
                 {"kind": self.kind, "fix": "remove `helix_angle`: only spur wheels, rings and worms have one"},
             )
         return self
@@ -410,7 +410,7 @@ class Wheel(Declared):
         if self.flexible and (self.internal or self.kind != "spur"):
             raise PydanticCustomError(
                 "flexible",
-                "a {kind} is flexible",
+                "a {kind} cannot be flexible",
                 {
                     "kind": "ring" if self.internal else f"{self.kind} wheel",
                     "fix": "write `flexible: true` at the spur wheel that is bent into its ring",
@@ -547,7 +547,7 @@ def _positive(figure: Figure) -> Figure:
         raise PydanticCustomError(
             "share",
             "a share of {text} is not above 0",
-            {"text": figure.text, "fix": "give a share above 0, or leave it out if it is unknown"},
+            {"text": figure.text, "fix": "give a share above 0, or omit it if it is unknown"},
         )
     return figure
 

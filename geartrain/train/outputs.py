@@ -146,7 +146,7 @@ class Graduation(Declared):
                     "off": abs(off),
                     "way": "many" if off > 0 else "few",
                     "divisions": self.divisions,
-                    "fix": "make the spans add up to `divisions`, or leave `divisions` out",
+                    "fix": "make the spans add up to `divisions`, or omit `divisions`",
                 },
             )
         for cell in self.glyphs:
@@ -175,7 +175,7 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        context = {"name": name, "divisions": count, "fix": f"give {total}, or leave `divisions` out"}
+        context = {"name": name, "divisions": count, "fix": f"give {total}, or omit `divisions`"}
         raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
     return [(part, int(share)) for part, share in shares]
 
@@ -315,7 +315,7 @@ class Target(Declared):
             raise PydanticCustomError(
                 "target",
                 "the speed {speed} and `sense` are both given",
-                {"speed": self.speed.text, "fix": "leave `sense` out, and write a retrograde speed with a minus sign"},
+                {"speed": self.speed.text, "fix": "omit `sense`, and write a retrograde speed with a minus sign"},
             )
         return self
 

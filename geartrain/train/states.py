@@ -94,7 +94,7 @@ class HandDrive(Declared):
             raise PydanticCustomError(
                 "drive",
                 "`stiffness` applies only to a hand with a `rate`",
-                {"fix": "leave `stiffness` out, or give `rate` instead of `torque`"},
+                {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
             )
         return self
 

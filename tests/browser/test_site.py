@@ -181,10 +181,9 @@ def test_formulas_fit_their_column_and_pages_their_window(site: Path, sheet: tup
     assert seen > 100
 
 
-def test_the_home_page_has_a_machine_that_turns(site: Path, sheet: tuple[Page, list[str]]) -> None:
+def test_the_page_of_the_viewer_has_a_machine_that_turns(site: Path, sheet: tuple[Page, list[str]]) -> None:
     page, wrong = sheet
-    page.goto((site / "index.html").as_uri())
-    assert page.locator(".wall img").count() == len(GALLERY)
+    page.goto((site / "viewer.html").as_uri())
     frame = page.frame_locator(".turning-frame iframe")
     frame.get_by_role("button", name="Stop").wait_for()
     said = frame.locator("output")
@@ -203,7 +202,7 @@ def test_where_nothing_draws_the_pages_show_plans(monkeypatch: pytest.MonkeyPatc
     made = {f"{kind}/worm.{suffix}": Path() for kind, suffix in (("plan", "png"), ("view", "html"), ("report", "html"))}
     monkeypatch.setattr(gallery, "make", lambda: made)
     assert gallery._thumbnail("worm").startswith("[![plan of worm](plan/worm.png)")
-    assert gallery.with_wall("<!-- turning: planetary -->\n") == "\n", "no frame of what is not made"
+    assert gallery.with_frames("<!-- turning: planetary -->\n![a](b)\n") == "![a](b)\n", "no frame of what is not made"
 
 
 def test_the_readme_opens_with_a_mechanism_that_turns() -> None:

@@ -13,8 +13,11 @@ from typing import Any
 
 import pytest
 import shipped
+import try_page
 import yaml
 from places import train_files
+
+import geartrain
 
 ROOT = Path(__file__).parent.parent.parent
 HEAVY = ("numpy", "scipy", "matplotlib", "pandas", "sympy", "shapely")
@@ -118,3 +121,12 @@ def test_problems_have_their_lines(tmp_path: Path) -> None:
     for answer in others:
         assert answer["problems"]
         assert not answer["sound"]
+
+
+def test_an_example_that_extends_a_train_is_written_out_in_full(tmp_path: Path) -> None:
+    path = geartrain.shipped()["freeth-2006"]
+    full = try_page._example(path)["text"]
+    assert "extends" in path.read_text(encoding="utf-8")
+    assert "extends" not in full
+    short, written = answers(tmp_path, [path.read_text(encoding="utf-8"), full])
+    assert (written["verdict"], written["states"]) == (short["verdict"], short["states"])

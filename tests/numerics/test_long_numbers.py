@@ -151,10 +151,7 @@ SHOWN = [
     ("report", "-o", "page.html"),
     ("compare", "{}"),
     ("compare", "{}", "--json"),
-    (
-        "inspect",
-        "equations",
-    ),
+    ("inspect equations",),
     ("inspect equations", "--latex"),
     ("motion", "--turns", "1"),
     ("motion", "--turns", "1", "--json"),

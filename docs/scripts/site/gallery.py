@@ -34,9 +34,8 @@ WORKERS = 2
 SIZE, RATE, COUNT = (320, 240), 10, 30  # of films: px, pictures a second, pictures
 AT = Fraction(1, 3)  # turns of the lead where they begin: pointers stand apart then
 _log = logging.getLogger("mkdocs.hooks")
-_ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \| (.*?) \|$", re.MULTILINE)
-_WALL = re.compile(r"^<!-- all trains -->$", re.MULTILINE)
-_FRAME = re.compile(r"^<!-- turning: ([\w.-]+) -->$", re.MULTILINE)
+_ROW = re.compile(r"^\| ([\w.-]+) \| (.*?) \| (.*?) \|$", re.MULTILINE)
+_FRAME = re.compile(r"^<!-- turning: ([\w.-]+) -->\n(.*)$", re.MULTILINE)
 _TABLE = re.compile(r"^\| train \| .*\n\|---.*\n((?:\|.*\n?)+)", re.MULTILINE)
 
 
@@ -62,16 +61,9 @@ def with_cards(markdown: str) -> str:
     return _TABLE.sub(lambda found: "".join(_cards(found[1])), markdown)
 
 
-def with_wall(markdown: str) -> str:
-    """The mark of the wall of all trains as their pictures, and that of a train as its page in a frame."""
-    markdown = _FRAME.sub(lambda found: _frame(found[1]), markdown)
-    return _WALL.sub(lambda _: "".join(_wall()), markdown)
-
-
-def _wall() -> Iterator[str]:
-    yield '<div class="wall" markdown>\n'
-    yield from (f"{_thumbnail(path.stem)}\n" for path in _trains())
-    yield "</div>\n"
+def with_frames(markdown: str) -> str:
+    """Return the text with the pages of marked trains in frames; a picture below a mark stays where no page is made."""
+    return _FRAME.sub(lambda found: _frame(found[1]) or found[2], markdown)
 
 
 def _frame(name: str) -> str:
@@ -94,14 +86,14 @@ def _thumbnail(name: str) -> str:
 
 def _cards(rows: str) -> Iterator[str]:
     yield '<div class="grid cards" markdown>\n\n'
-    for name, title, verdict, outputs in _ROW.findall(rows):
+    for name, title, outputs in _ROW.findall(rows):
         if f"view/{name}.html" in make():
             files = [("plan", f"plan/{name}.png"), ("dials", f"dials/{name}.png"), ("report", f"report/{name}.html")]
             links = " · ".join(f"[{word}]({file})" for word, file in files if file in make())
-            yield f"-   {_thumbnail(name)}\n\n    **{name}**: {title}\n\n    {verdict}: {outputs}\n\n"
+            yield f"-   {_thumbnail(name)}\n\n    **{name}**: {title}\n\n    {outputs}\n\n"
             yield f"    [turn it](view/{name}.html) · {links}\n\n"
         else:
-            yield f"-   **{name}**: {title}\n\n    {verdict}: {outputs}\n\n"
+            yield f"-   **{name}**: {title}\n\n    {outputs}\n\n"
     yield "</div>\n"
 
 

@@ -52,10 +52,10 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
-    """The marks above code blocks become their titles, tables of the gallery become cards and walls."""
+    """The marks above code blocks become their titles, marked trains frames, tables of the gallery cards."""
     if page.file.src_uri == "try.md" and not _try_page():
         markdown = re.sub(r"^<(link|script) .*\btry/try\..*\n", "", markdown, flags=re.MULTILINE)
-    return gallery.with_wall(gallery.with_cards(markup.with_titles(markdown)))
+    return gallery.with_frames(gallery.with_cards(markup.with_titles(markdown)))
 
 
 def on_page_content(html: str, page: Page, **_: Any) -> str:

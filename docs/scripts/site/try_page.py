@@ -22,6 +22,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 import yaml
 
 from geartrain import shipped
+from geartrain.train.declaration_files import read_declaration, write_declaration
 
 ROOT = Path(__file__).resolve().parents[3]
 SOURCES = Path(__file__).resolve().parent / "try"
@@ -125,8 +126,12 @@ def _pack(target: Path) -> None:
 
 
 def _example(path: Path) -> dict[str, str]:
+    """Return an example of the page; a train that extends another is written out in full."""
     text = path.read_text(encoding="utf-8")
-    return {"folder": path.parent.name, "title": yaml.safe_load(text).get("title") or "", "text": text}
+    data = yaml.safe_load(text)
+    if "extends" in data:
+        text = write_declaration(read_declaration(path))
+    return {"folder": path.parent.name, "title": data.get("title") or "", "text": text}
 
 
 def _run(command: list[str], folder: Path) -> None:

@@ -241,7 +241,7 @@ class Motion(Shown):
             "other pairs already determine the motion of its wheels, and backlash and errors decide how they share the "
             "load"
         )
-        fix = f"leave it out with --without {pair}, or declare one of several equal planets, with `copies: 3`"
+        fix = f"omit it with --without {pair}, or declare one of several equal planets, with `copies: 3`"
         raise QuestionError(Problem(f"the dynamics of the redundant pair '{pair}' cannot be simulated", why, fix))
 
     @cached_property
@@ -295,9 +295,9 @@ class Motion(Shown):
             path = " - ".join((*loop.links, loop.links[0]))
             raise GearTrainError(
                 Problem(
-                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that locks with real teeth",
+                    f"the pairs {', '.join(loop.pairs)} form a loop, {path}, that locks with real teeth",
                     f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
-                    f"leave out one of the loop's pairs, such as `--without {loop.pairs[-1]}`",
+                    f"omit a pair of the loop, such as `--without {loop.pairs[-1]}`",
                 )
             )
 

@@ -237,7 +237,7 @@ class MotionRun(Tabular, Pictured):
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
-            why = "beyond that, positions in float64 do not resolve the teeth of one turn"
+            why = f"float64 resolves single teeth only up to {MOST_TURNS:g} turns"
             fix = f"pass turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
             raise QuestionError(Problem(f"turns = {self.turns:g}", why, fix))
         if self.samples < 2:
@@ -315,7 +315,7 @@ class MotionRun(Tabular, Pictured):
         """
         self.seed = seed if count else None
         if seed < 0:
-            raise QuestionError(Problem(f"seed = {seed}", "a random seed is not negative", "pass seed >= 0"))
+            raise QuestionError(Problem(f"seed = {seed}", "a random seed must not be negative", "pass seed >= 0"))
         random = np.random.default_rng(seed)
         for _ in range(count):
             other = MotionRun(self.motion.with_random_phases(random), self.turns, self.samples)

@@ -28,9 +28,9 @@ def mean_speed(name: str, ratio: Fraction) -> float:
     """Return an exact mean speed as a float. Raise `RangeError` beyond the range of float64."""
     found = as_float(ratio)
     if found is None:
-        what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the input's"
+        what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the speed of the input"
         why = "motion is computed in float64, which has a range of 1e-308 to 1e308"
-        raise RangeError(Problem(what, why, "drive the train nearer to this output, or use `solve`"))
+        raise RangeError(Problem(what, why, "choose an input nearer to this output, or use `solve`"))
     return found
 
 

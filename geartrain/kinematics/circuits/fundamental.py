@@ -207,7 +207,7 @@ def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Pro
     return Problem(
         f"wheel '{name}' has no tooth count yet",
         "only `search` is declared, and speeds need a definite count",
-        "add a `value` besides `search`",
+        "add a `value` next to `search`",
         train.place("links", train.wheels[name][0], "wheels", name),
     )
 

@@ -106,7 +106,7 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
     links, _ = tree.path(link, other)
     return Problem(
         f"the turning pairs form a cycle: {' - '.join([*links, link])}",
-        "turning pairs must form a tree; links on one axis are joined by one pair fewer than there are links",
+        "turning pairs must form a tree: n links on one axis are joined by n - 1 turning pairs",
         f"remove one of these turning pairs, such as [{link}, {other}]",
         train.place("revolutes", at),
     )
@@ -116,7 +116,7 @@ def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, a
     return Problem(
         f"axis label '{axis}' names two axes",
         f"one is carried by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
-        "joints of one label are coaxial",
+        "joints with one label must be coaxial",
         "give the second axis a different label",
         train.place("revolutes", at),
     )
@@ -237,12 +237,12 @@ def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -
 
 
 def _not_aligned(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> Problem:
-    hands = [f"{degrees(abs(wheel.helix)):.6g} deg {wheel.hand or 'right'}" for wheel in wheels]
-    over = " about the way from the second to the first" if side else ""
+    hands = [f"{degrees(abs(wheel.helix)):.6g} deg ({wheel.hand or 'right'} hand)" for wheel in wheels]
+    seen = ", measured about the line from the second axis to the first" if side else ""
     return Problem(
-        f"teeth of {hands[0]} and {hands[1]} are not aligned in mesh",
-        f"axes that cross at {degrees(angle) * (side or 1):.6g} deg{over} need helix angles with that sum, right "
-        "hands positive",
+        f"teeth with helix angles of {hands[0]} and {hands[1]} are not aligned in mesh",
+        f"the sum of the helix angles, positive for right hands, must be the shaft angle of "
+        f"{degrees(angle) * (side or 1):.6g} deg{seen}",
         "change a `helix_angle` or a `hand`, or the axes",
     )
 
@@ -369,8 +369,10 @@ class Axes:
         if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not side_by_side and (wheel_i.internal or wheel_j.internal):
-            what = "a ring on an axis that is not parallel to its mate's"
-            raise GearTrainError(Problem(what, "a ring and its mate have parallel axes", "use a bevel pair"))
+            what = "the axes of a ring and its mate are not parallel"
+            raise GearTrainError(
+                Problem(what, "an internal pair needs parallel axes", "correct the axes, or use a bevel pair")
+            )
         # bevel and crown wheels: the sense depends on the sides on which their cones open
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])

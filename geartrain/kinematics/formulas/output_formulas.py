@@ -575,7 +575,7 @@ def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
 
 def _too_coupled(train: Train) -> Problem:
     return Problem(
-        f"'{train.name}' is too coupled for formulas",
-        "its formulas would have millions of terms, because many speeds depend on each other",
-        "free fewer wheels, or request fewer outputs",
+        f"'{train.name}' has formulas that are too long",
+        "they would have millions of terms, because many speeds depend on each other",
+        "vary fewer wheels, or request fewer outputs",
     )

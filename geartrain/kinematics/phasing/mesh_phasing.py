@@ -741,7 +741,7 @@ def spherical_phasing(configuration: SphericalGears, teeth: Mapping[str, int] | 
     counts = {**configuration.teeth, **(teeth or {})}
     missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in counts]
     if missing:
-        what = f"no tooth count for {', '.join(missing)}"
+        what = f"no tooth count is given for {', '.join(missing)}"
         raise QuestionError(
             Trouble(
                 what,

@@ -197,7 +197,7 @@ class FloatSpeeds(FrozenFields, Shown):
         if isinstance(speed, float):
             return speed
         what = f"the speed of '{link}' is {speed}, beyond the range of float64"
-        fix = f"use `decimal('{link}')`, or `speeds` times 2**`exponents`"
+        fix = f"use `decimal('{link}')`, or multiply `speeds` by 2**`exponents`"
         raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", fix))
 
     def number(self, link: str, case: int = 0) -> Real:
@@ -406,8 +406,8 @@ def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
             Problem(what, "no speeds satisfy all equations", "print `train.solve().verdict`, which names the cause")
         )
     if len(rows) < len(links):
-        what = f"{len(rows)} independent equations for {len(links)} moving links"
-        why = "a train that is free, locked or contradictory has no float solution"
+        what = f"there are only {len(rows)} independent equations for {len(links)} moving links"
+        why = "speeds in float64 are computed only if they are determined"
         raise RangeError(Problem(what, why, "print `train.solve().verdict`, which names the cause"))
     return PaddedRows(links, rows), rows
 
@@ -490,7 +490,7 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
     if (condition <= _LARGEST_CONDITION).all():
         return
     at = int(np.argmax(condition.max(axis=1)))
-    what = f"no digit of the speed of '{list(matrix.at)[at]}' is known in float64"
+    what = f"no digit of the speed of '{list(matrix.at)[at]}' is correct in float64"
     why = f"rounding errors of the equations are amplified more than {_LARGEST_CONDITION:.0e} times"
     raise RangeError(Problem(what, why, "use the exact method"))
 
@@ -527,7 +527,7 @@ def is_regular(system: WillisSystem) -> bool:
 def _out_of_range(label: str) -> Problem:
     return Problem(
         f"a speed leaves the range of float64 near '{label}'",
-        "ratios beyond 1e308 would become 0 or infinity",
+        "a ratio above 1e308 or below 1e-308 would become infinity or 0",
         "use the exact method",
     )
 
@@ -535,6 +535,6 @@ def _out_of_range(label: str) -> Problem:
 def _no_factors(size: int, message: str) -> Problem:
     return Problem(
         f"the {size} equations cannot be factorised in float64 ({message.strip()})",
-        "ratios beyond 1e308, and differences below one rounding, make a regular system singular to working precision",
+        "ratios above 1e308, and differences smaller than the rounding error, make the system numerically singular",
         "use the exact method",
     )

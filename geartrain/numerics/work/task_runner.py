@@ -339,8 +339,8 @@ def _killer_error(submission: _Submission) -> GearTrainError:
     return GearTrainError(
         Problem(
             f"task {submission.index} kills its worker: {shown}",
-            f"{submission.deaths} worker processes died during it, the last one without other tasks: out of memory, "
-            "killed from outside, or unable to start",
+            f"{submission.deaths} worker processes died during it, the last one without other tasks; possible causes: "
+            "too little memory, a signal from another process, or an error at the start",
             "provide more memory, smaller tasks or fewer workers; a script that starts workers needs the line "
             'if __name__ == "__main__": before its code',
         )

@@ -91,7 +91,7 @@ def notices(
         if name not in gaps:
             yield Problem(
                 f"the teeth of '{name}' do not mesh: their phase is wrong by {abs(miss):.3g} of a pitch",
-                "the pair closes a loop of wheels, whose places determine the phases of all teeth",
+                "the pair closes a loop of wheels, whose positions determine the phases of all teeth",
                 "declare positions of the axes at which teeth mesh, or change tooth counts",
                 place[name],
             )
@@ -114,7 +114,7 @@ def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterato
     for stray in declared.strays:
         yield Problem(
             f"wheel '{stray.wheel}' is drawn only on axis '{declared.axis[stray.wheel]}'",
-            f"pair '{stray.pair}' has it on axis '{stray.axis}' as well",
+            f"pair '{stray.pair}' requires it on axis '{stray.axis}' as well",
             "declare a separate wheel for each of its meshes",
             place[stray.pair],
         )
@@ -129,14 +129,14 @@ def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
-            "they are in one level, like their mates, and their axes are too close together",
+            "they and their mates are on one level, and their axes are too close together",
             "declare positions of their axes, or change the order of their pairs",
         )
     pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
     if pierced:
         yield Problem(
             f"arbors pass through wheels: {_listed(pierced)}",
-            "no order of the levels was found that keeps all arbors clear",
+            "no order of the levels was found in which all arbors are clear of wheels",
             "declare positions of the axes at which the arbors are clear of wheels",
         )
 

@@ -134,8 +134,10 @@ def _read(problems: list[Problem], option: str, text: str | None, parse: Callabl
     try:
         return parse(text)
     except PydanticCustomError as error:
-        fix = (error.context or {}).get("fix", "")
-        problems.append(Problem(error.message(), "", str(fix), f"--{option}"))
+        context = error.context or {}
+        problems.append(
+            Problem(error.message(), str(context.get("why", "")), str(context.get("fix", "")), f"--{option}")
+        )
         return None
 
 

@@ -262,12 +262,12 @@ def find_orrery(
     (6, True, Fraction(0, 1))
     """
     targets = read_period_targets(periods, tolerance)
-    if first in targets.names or "frame" in (first, *targets.names):
-        raise QuestionError(
-            Problem(
-                "two arbors have the same name", f"the first arbor is {first!r}, and 'frame' is reserved", "rename one"
-            )
-        )
+    if first in targets.names:
+        what = f"the first arbor and a period are both named {first!r}"
+        raise QuestionError(Problem(what, "each period names an arbor, and names must be distinct", "rename one"))
+    if "frame" in (first, *targets.names):
+        what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
+        raise QuestionError(Problem(what, why, "rename this arbor"))
     search = _OrrerySearch(pair_ratios(counts), targets, seconds, tell)
     ended = search.run(effort, walk)
     if search.best is None:
@@ -419,7 +419,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
         Problem(
             f"no orrery found for {size} periods with wheels of {minimum} to {most} teeth",
             f"{walked}{stopped}a pair has {len(table)} ratios, up to {most / minimum:.3g}",
-            "loosen the tolerance, allow more tooth counts, or raise effort",
+            "increase the tolerance or the effort, or allow more tooth counts",
         )
     )
 

@@ -81,9 +81,9 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
     found = _bounds(evidence, name, free_sense)
     found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
     if output.of is None and base.source == evidence.frame and found.allow(base.driven):
-        what = f"'{name}' has the speed of the frame, so that the frame itself would show it"
+        what = f"the speed of '{name}' may be the speed of the frame, so its pointer could be on the frame"
         fix = "name its arbor in `of`, or give `of: new` if its arbor is lost"
-        raise DeclarationError(Problem(what, "its arbor is not known", fix, place))
+        raise DeclarationError(Problem(what, "its arbor is not declared", fix, place))
     return found
 
 
@@ -171,8 +171,10 @@ def _with_magnitude(limits: Limits, magnitude: Limits, name: str, place: str) ->
         return _common([limits, (-high, -low)], name, place)
     if low <= 0:
         return _common([limits, (-high, high)], name, place)
-    why = "the targets with a sense allow both senses, and a target on the magnitude leaves one range in each sense"
-    raise DeclarationError(Problem(f"the speed of '{name}' is not one range", why, "give one target only", place))
+    why = "targets with a sense allow both senses, and a target of the magnitude allows one interval in each sense"
+    raise DeclarationError(
+        Problem(f"the possible speeds of '{name}' are two intervals", why, "give one target only", place)
+    )
 
 
 _UNSUPPORTED = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
@@ -236,7 +238,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     base = None if unclear else find_base(evidence)
     found += unclear
     if wheels and requested.add.teeth is None:
-        fix = "give `add` for example `teeth: [12, 225]`"
+        fix = "declare for example `add: {teeth: [12, 225]}`"
         place = evidence.place("reconstruct")
         why = "the search needs their minimum and maximum"
         found.append(Problem("the tooth counts of added wheels have no limits", why, fix, place))

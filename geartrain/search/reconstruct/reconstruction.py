@@ -292,7 +292,7 @@ def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> 
     """Raise `QuestionError` for known trains that cannot be ranked. This is done before the search."""
     if request.known and question.base.is_carrier:
         what = "known trains cannot be ranked if arbors turn on a carrier"
-        raise QuestionError(Problem(what, "known trains are read with fixed axes", "omit --rank"))
+        raise QuestionError(Problem(what, "ranking supports only trains with fixed axes", "omit --rank"))
     check_same(request.same, request.known, question.problem)
     for train in request.known:
         find_known_train(train, question.problem, request.same)

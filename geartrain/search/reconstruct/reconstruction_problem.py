@@ -404,7 +404,7 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
     ways = [f"narrow uncertain tooth counts ({uncertainties})"] if uncertainties else []
     if problem.additions.wheels:
         ways.insert(0, f"add fewer wheels (`-k {problem.additions.wheels - 1}`)")
-    ways.append("leave out arbors, or dials with the arbors that lead only to them")
+    ways.append("omit arbors, or dials together with the arbors that drive only these dials")
     return Problem(what, f"the problem has {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
@@ -478,7 +478,7 @@ def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
             place = evidence.place("links", link, "wheels", name, "module")
             what = f"the module of '{name}' is not above 0"
             raise DeclarationError(
-                [Problem(what, "a module is a positive length", "give it such as `module: 0.5 mm`", place)]
+                [Problem(what, "a module is a positive length", "declare for example `module: 0.5 mm`", place)]
             )
         yield MeasuredWheel(name, True, _millimetres(wheel.module))
 
@@ -499,7 +499,9 @@ def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
     ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     if ring is not None:
         what = f"the position of '{link}' cannot be used in evidence with the ring '{ring}'"
-        why = "`distance` is the spread of sums of radii, but a ring and its mate have the difference as distance"
+        why = (
+            "`distance` applies to sums of pitch radii, but the centre distance of a ring and its mate is a difference"
+        )
         fix = "remove the position of its axis, or `geometry`"
         raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
 

@@ -249,8 +249,8 @@ def _weighed_one_by_one(
     """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible ones."""
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
-        what = f"{number} trains would have to be weighted one by one, more than {_LISTED}"
-        why = "weights per class and weights of measured sizes need every train"
+        what = f"{number} trains would have to be weighted individually; the limit is {_LISTED}"
+        why = "weights by class or by measured sizes are computed for each train"
         fix = "add fewer wheels (--max-added), or use `--prior solution` without `geometry`"
         raise QuestionError(Problem(what, why, fix))
     counts, weighed = [], []
@@ -315,9 +315,9 @@ def draw_candidates(
     if not found.topologies:
         if not sum(each.solutions for each in found.counts):
             return ()
-        what = "trains cannot be sampled if they are weighted one by one"
+        what = "trains cannot be sampled if they are weighted individually"
         fix = "list them instead (--all), or use `--prior solution` without `geometry`"
-        raise QuestionError(Problem(what, "sampling needs sums over trains of equal weight", fix))
+        raise QuestionError(Problem(what, "sampling needs the numbers of trains with equal weight", fix))
     weights = [topology_prior(each.topology, problem) for each in found.topologies]
     whole = whole_multiple(weights)
     shares = [weight * each.solutions for weight, each in zip(whole, found.topologies, strict=True)]

@@ -249,7 +249,9 @@ class TrainFindings(Tabular, Result):
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
         if not whole or self._stand is None:
             why = f"the parts of the train are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
-            raise QuestionError(Problem("the assignment includes no complete part", why, "give the missing counts"))
+            raise QuestionError(
+                Problem("the assignment gives all tooth counts of no part", why, "give the missing counts")
+            )
         return tuple(self._stand(at, teeth) for at in whole)
 
     def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:

@@ -424,8 +424,8 @@ def search_train(
         fix = "declare `targets`, or an `expect`, at an output that the wheels influence"
         raise QuestionError(
             Problem(
-                "nothing is required of the wheels whose counts are varied",
-                "no output with a requirement depends on them",
+                "no requirement restricts the tooth counts that are varied",
+                "no output with a requirement depends on these wheels",
                 fix,
             )
         )

@@ -1,4 +1,4 @@
-"""Motion of a train in time (docs/dynamics.md, 4 to 7).
+"""Motion of a train in time (docs/dynamics.md, 4 to 6).
 
 train_in_time         entry points: a run, modes of vibration, separation by time stepping
 time_study            two runs with time steps h and h/2, and their comparison

@@ -143,11 +143,15 @@ class Simulation(Shown):
         """
         step = self.step if step is None else step
         bounces = {**self.restitution, **(restitution or {})}
-        if not 0 < step < inf or not all(0 <= each <= 1 for each in bounces.values()):
-            values = ", ".join(f"{each:g}" for each in set(bounces.values()))
-            what = f"a time step of {step:g} s or a restitution of {values} is out of range"
-            why = "the time step must be positive and finite, and restitution 0 to 1"
-            raise QuestionError(Problem(what, why, "pass for example step=1e-4 and a restitution of 0.3"))
+        if not 0 < step < inf:
+            what, why = f"a time step of {step:g} s is out of range", "the time step must be positive and finite"
+            raise QuestionError(Problem(what, why, "pass for example step=1e-4"))
+        if outside := [each for each in bounces.values() if not 0 <= each <= 1]:
+            what, why = (
+                f"a restitution of {outside[0]:g} is out of range",
+                "a coefficient of restitution is from 0 to 1",
+            )
+            raise QuestionError(Problem(what, why, "pass for example 0.3"))
         drive = self.drive if drive is None else drive
         given = self.loads if loads is None else loads
         return Simulation(self._of, self._outputs, step, self._fast, bounces, drive, given)
@@ -269,7 +273,7 @@ class Simulation(Shown):
             raise QuestionError(
                 Problem(
                     f"a duration of {seconds:g} s is out of range",
-                    "time cannot decrease",
+                    "a duration must be finite and not negative",
                     "give a duration of 0 or more",
                 )
             )

@@ -336,7 +336,7 @@ class ConjugateToothForm(ToothForm):
         if self.centre_distance is None:
             return None
         if wheels.bevel:
-            raise refused("bevel wheels have no centre distance", "their axes meet", "omit centre_distance")
+            raise refused("bevel wheels have no centre distance", "their axes intersect", "omit `centre_distance`")
         given, design = wheels.modules(self.centre_distance, "centre_distance"), wheels.distance
         return given if abs(given - design) > _DESIGN * design else None
 
@@ -414,7 +414,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 def _refusal(kinds: tuple[str, str]) -> str:
     if "worm" in kinds:
-        return "a worm's thread slides along the wheel and has no rolling pitch surface"
+        return "the thread of a worm slides along the teeth of its wheel, so there are no rolling pitch surfaces"
     if set(kinds) >= {"bevel", "contrate"}:
         return "a bevel and a contrate wheel have no pair of pitch cones"
     return ""

@@ -411,15 +411,17 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
             high, at_high, low = low, at_low, low / _STEP
             at_low = off(low)
     if not (at_low <= 0 <= at_high):
-        what = f"no heat gives these teeth a working depth of {wanted:.6g}"
+        what = f"no value of `heat` gives these teeth a working depth of {wanted:.6g}"
         if at_low > 0:
             raise GearTrainError(
-                Problem(what, "even the hottest teeth are deeper", "use more depth or shorter arcs, or give `heat`")
+                Problem(
+                    what, "even the maximum `heat` gives deeper teeth", "use more depth or shorter arcs, or give `heat`"
+                )
             )
         raise GearTrainError(
             Problem(
                 what,
-                "their pressure angle would reach a right angle, or their contact speed 0, before that depth",
+                "before that depth, the pressure angle would reach 90 deg or the contact speed would be 0",
                 "use another depth, shorter arcs or more teeth, or give `heat`",
             )
         )

@@ -100,30 +100,32 @@ class WheelPair(Shown):
             if z < FEWEST:
                 raise refused(
                     f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no conjugate teeth",
-                    "so small a number leaves no arc on which the next tooth pair can take over",
+                    "with so few teeth, a tooth pair leaves contact before the next one can engage",
                     f"give at least {FEWEST} teeth, or another tooth_form",
                 )
         if self.internal and self.z2 <= self.z1:
             raise refused(
                 f"a ring of {self.z2} teeth cannot contain a wheel of {self.z1} teeth",
-                "its pitch circle is not the larger one",
-                "give the ring more teeth",
+                "the pitch circle of the ring must be larger than the pitch circle of the wheel",
+                f"give the ring more than {self.z1} teeth",
             )
         if self.internal and self.bevel:
             raise refused(
-                "a ring cannot have a shaft angle", "its axis is parallel to its pinion's", "omit the shaft angle"
+                "a ring cannot have a shaft angle",
+                "its axis is parallel to the axis of its pinion",
+                "omit the shaft angle",
             )
         if max(self.z1, self.z2) > MOST_TEETH:
             raise refused(
-                f"a wheel of {max(self.z1, self.z2)} teeth has too many teeth",
+                f"a wheel cannot have {max(self.z1, self.z2)} conjugate teeth",
                 "a tooth would be smaller than the rounding error of the radius",
                 f"give at most {MOST_TEETH:g} teeth",
             )
         if self.shaft_angle is not None and not _MINIMUM_ANGLE <= self.shaft_angle <= pi - _MINIMUM_ANGLE:
             raise refused(
                 f"a shaft angle of {self.shaft_angle:.6g} rad is out of range",
-                f"bevel axes meet at an angle between 0 and 180 deg, at least {_MINIMUM_ANGLE:g} rad from either",
-                "use parallel axes for a spur pair",
+                f"it must be from {_MINIMUM_ANGLE:g} rad to 180 deg minus {_MINIMUM_ANGLE:g} rad",
+                "give an angle in this range, or declare a spur pair on parallel axes",
             )
 
     def modules(self, length: Quantity, name: str) -> float:

@@ -236,9 +236,9 @@ class GearOutline(Shown):
             if self.z < 1 or number not in few:
                 raise QuestionError(
                     Problem(
-                        f"a wheel of {self.z} teeth cannot have {number} {name}",
-                        f"a wheel of z teeth takes {few[0]} or z of them, z at least 1",
-                        f"give {few[0]} or {self.z} {name}",
+                        f"`{name}` has {number} entries for a wheel with z = {self.z}",
+                        f"z must be at least 1, and `{name}` needs {few[0]} or z entries",
+                        f"give {few[0]} or {max(self.z, 1)} entries",
                     )
                 )
         for tooth in self.teeth:

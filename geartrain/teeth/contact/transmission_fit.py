@@ -358,6 +358,6 @@ def _too_many_stretches(tolerance: float) -> RangeError:
         Problem(
             f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
             "it has too many kinks",
-            "pass a larger tolerance, or give measured teeth by fewer points",
+            "pass a larger tolerance, or describe measured teeth with fewer points",
         )
     )

@@ -148,7 +148,8 @@ class TriangularContact:
             )
         if self.dragged.arrested:
             return "dwell", (
-                "the driven wheel stops for good: no tooth is within range for a while, and the next one passes it"
+                "the driven wheel stops permanently: for a while no tooth is within range, and the next tooth does "
+                "not drive it"
             )
         if self.idle > 0:
             return "dwell", (
@@ -186,8 +187,9 @@ class TriangularContact:
             if lean or back is not None:
                 x = interval.start if interval.phase == APPROACH else interval.end
                 return (
-                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), and "
-                    "cannot push there"
+                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), "
+                    "where "
+                    "it cannot drive"
                 )
         return ""
 
@@ -419,7 +421,7 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
     if not minimum <= backlash <= most:
         raise refused(
             f"no clearance gives a backlash of {text}",
-            f"these teeth have from {max(minimum, 0):.6g} to {most:.6g} (in m, or the plain unit)",
+            f"the possible backlash of these teeth is {max(minimum, 0):.6g} to {most:.6g} (in m, or without a unit)",
             "give a backlash in this range",
         )
     return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

@@ -111,7 +111,8 @@ class TriangularSizes(Shown):
                 Problem(
                     f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half apertures "
                     f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} do not describe triangular teeth",
-                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures below a right angle",
+                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half apertures between 0 and pi/2, and "
+                    "the centre distance must be positive",
                     "give at least 3 teeth, radii and half apertures above 0, and an excess above 0",
                 )
             )

@@ -261,7 +261,8 @@ class Triangular(ToothForm):
         if sizes.surrounds:
             raise refused(
                 "the teeth overlap at every angle",
-                f"the tip circle of the ring lies within that of its wheel at the centre distance {sizes.D:.6g}",
+                "the tip circle of the ring is inside the tip circle of its wheel at the centre distance "
+                f"{sizes.D:.6g}",
                 "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance",
             )
         return sizes

@@ -159,7 +159,7 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
         if each.of and each.of not in known:
             part = "wheel" if each.kind in OF_WHEELS else "pair"
             what = f"{part} '{each.of}' of the error '{each.kind}' is not in the trials"
-            why = f"'{each.kind}' is set for a {part} with triangular or conjugate teeth"
+            why = f"'{each.kind}' can be set only for a {part} with triangular or conjugate teeth"
             raise QuestionError(Problem(what, why, suggest(each.of, known)))
 
 

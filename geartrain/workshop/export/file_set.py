@@ -184,8 +184,8 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
     if wheel not in known:
         raise QuestionError(
             Problem(
-                f"'{wheel}' is not a wheel of the train",
-                "only a wheel with its own drawing can be exported",
+                f"the train has no wheel '{wheel}'",
+                "only declared wheels can be exported",
                 suggest(wheel, known),
             )
         )

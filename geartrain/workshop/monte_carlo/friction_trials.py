@@ -139,7 +139,7 @@ class FrictionPlan(Shown):
         found = train.torques(self.state, turns=self.turns, samples=self.samples, of=self.of)
         if found.turns is None:
             what = "the torque cannot be determined"
-            fix = "declare `loads: {LINK: -1 N m}` or the missing bearings"
+            fix = "declare `loads: {LINK: -1 N m}`, or the `bearing` friction of a link"
             raise QuestionError(Problem(what, found.verdict.text, fix))
         return CycleFigures(found.mean, found.maximum_torque, found.starting_torque, found.efficiency)
 
@@ -202,9 +202,9 @@ def find_friction_plan(
     """
     plan = FrictionPlan(train.declaration, state, turns, samples, of)
     if not plan.spreads:
-        why = "trials draw coefficients of friction from their declared standard deviation"
+        why = "each trial draws friction coefficients from distributions with declared standard deviations"
         fix = "declare `friction: {sliding: 0.15, deviation: 0.05}` for the train, a pair or a coupling"
-        raise QuestionError(Problem(f"'{train.name}' declares no spread of friction", why, fix))
+        raise QuestionError(Problem(f"'{train.name}' declares no random friction", why, fix))
     return plan
 
 

@@ -448,8 +448,8 @@ def find_trial_plan(
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
     composition = motion._with_sources([pair.name for pair in pairs])
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
-        what = f"'{train.name}' declares no errors"
-        why = "perfect wheels are the same in every trial"
+        what = f"'{train.name}' declares no manufacturing errors"
+        why = "without them all trials are identical"
         fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting pitch_deviation='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())

@@ -201,7 +201,7 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
       If objectives or bounds are invalid.
     """
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
-        what = f"'{', '.join(aims)}' is not an objective or two different objectives"
+        what = f"'{', '.join(aims)}' does not name one objective or two different objectives"
         raise QuestionError(
             Problem(
                 what,
@@ -212,7 +212,9 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
     if "loss" in aims and not start.friction:
         what = "the loss cannot be minimised without friction"
         raise QuestionError(
-            Problem(what, "the loss of any teeth is 0", "give a friction above 0, or another objective")
+            Problem(
+                what, "without friction the loss is 0 for all teeth", "give a friction above 0, or another objective"
+            )
         )
     return checked_ranges(free)
 

@@ -173,7 +173,11 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
         if not minimum <= low < high <= most or (name == "half_angle" and not low > 0):
             what = f"the bounds {low:g} and {high:g} of '{name}' are not valid"
             raise QuestionError(
-                Problem(what, "the lower bound comes first", f"give two bounds from {minimum:g} to {most:g}")
+                Problem(
+                    what,
+                    "the lower bound must be below the upper bound, and both must be in the permitted range",
+                    f"give bounds from {minimum:g} to {most:g}",
+                )
             )
         found[name] = (float(low), float(high))
     if not found:

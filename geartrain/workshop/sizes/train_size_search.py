@@ -98,7 +98,7 @@ def find_train_sizes(
         raise QuestionError(
             Problem(
                 f"'{aim}' is not an objective",
-                "the sizes minimise one property of the train",
+                "sizes are optimised for one property of the train",
                 f"use one of {', '.join(AIMS)}",
             )
         )

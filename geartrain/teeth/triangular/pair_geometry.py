@@ -166,7 +166,7 @@ class TriangularSizes(Shown):
 
     @property
     def pitch_sum(self) -> int:
-        """Sum z1 + z2, or the difference for an internal pair; D divided by it is half the module at the pitch point."""
+        """Sum z1 + z2, or the difference for an internal pair. D divided by it is half the working module."""
         return abs(self.signs[0] * self.z1 + self.signs[1] * self.z2)
 
     @property

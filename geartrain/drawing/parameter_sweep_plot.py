@@ -110,7 +110,7 @@ def sweep_figure(
     Raises
     ------
     QuestionError
-        If arrays have different shapes, or if there are no data.
+        If arrays have different shapes or contain no data.
 
     Examples
     --------

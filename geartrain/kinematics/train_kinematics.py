@@ -212,8 +212,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if the assembly condition can be checked: axes have positions or directions, and gear pairs form loops.
-        """
+        """True if the assembly condition can be checked: axes are placed or directed, and gear pairs form loops."""
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property

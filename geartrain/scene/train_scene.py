@@ -200,7 +200,7 @@ class Scene(Shown):
     driving_link: int | None
     """Index of the body whose turns are prescribed."""
     crank: int | None
-    """Index of the body that is turned by hand."""
+    """Index of the body that is turned by hand: the declared crank, or the driving link; None if there is neither."""
     step: str
     """Turns of the driving link in one unit of the input, exact."""
     verdict: Mapping[str, Any]

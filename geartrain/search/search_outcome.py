@@ -103,12 +103,12 @@ class GearStages(CountSizes, Result):
 
     @property
     def teeth(self) -> tuple[int, ...]:
-        """All tooth counts, with those of the numerator first."""
+        """All tooth counts: the numerator, then the denominator."""
         return self.top + self.beneath
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """All tooth counts, with those of the numerator first."""
+        """All tooth counts: the numerator, then the denominator."""
         return self.teeth
 
     @property

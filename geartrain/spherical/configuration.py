@@ -39,9 +39,9 @@ _SHORT = 1 << 20  # largest denominator of coordinates such as 3/4 that floats r
 
 @dataclass(frozen=True)
 class Configuration(Shown):
-    """Gears with axes through one point: unit axes, meshing pairs, and the kind of each gear.
+    """Set of gears whose axes pass through one point: unit axes, meshing pairs, and the kind of each gear.
 
-    Axes point outwards; angles about them are counterclockwise seen from outside.
+    Axes point outwards. Angles about them are counterclockwise as seen from outside.
 
     Examples
     --------
@@ -60,7 +60,8 @@ class Configuration(Shown):
     meshes: tuple[tuple[int, int], ...]
     """Meshing pairs of gears, by index."""
     kinds: tuple[str, ...]
-    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set, and have one tooth number.
+    """Kind of each gear. Gears of one kind are equivalent under the symmetries of the set, and have the same tooth
+    number.
     """
     regular: tuple[int, ...]
     """Integer p of each gear if its contacts are exactly at multiples of 1/p of a revolution; 0 if the angles are known
@@ -87,7 +88,7 @@ class Configuration(Shown):
         return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
-        """Return the direction [rad] from one gear to another about the axis of the first gear.
+        """Return the direction from one gear to another about the axis of the first gear [rad].
 
         Parameters
         ----------
@@ -180,11 +181,11 @@ class MeshKind:
 
 
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
-    """Return the configuration as plain data with the keys of a declaration, for `GearTrain.declare`.
+    """Return the gears as a declaration in plain data, for `GearTrain.declare`.
 
     Links, wheels and axes have the names of the gears. With outward axes every mesh reverses the sense of rotation, z_i
     w_i + z_j w_j = 0 (docs/sphere.md, section 1): the wheels are on the positive sides of their axes (`facing` 1, the
-    default). The first gear is the input, at speed 1. Directions are floats with all digits.
+    default). The first gear is the input, at speed 1. The directions are floats with all digits.
 
     Parameters
     ----------

@@ -246,9 +246,10 @@ def from_graph(
 ) -> GraphSet:
     """Return a set of gears on a sphere that mesh as in a graph, with exactly one pitch or with exactly closed loops.
 
-    Circles are packed (Koebe, Andreev and Thurston), teeth are rounded to the circles, and the axes are moved as little
-    as possible until the quantity named by `aim` is exact. During the packing, an additional circle in each region next
-    to an idler replaces its missing meshes.
+    The algorithm computes a circle packing of the graph (Koebe, Andreev and Thurston), rounds tooth numbers in
+    proportion to the circles, and moves the axes as little as possible until the condition named by `aim` is satisfied
+    exactly. In the packing, an additional circle in each region next to an idler replaces the missing meshes of the
+    idler.
 
     Parameters
     ----------
@@ -258,17 +259,18 @@ def from_graph(
     minimum_teeth : int
         Tooth number of the smallest gear.
     aim : {"pitch", "phases"}
-        `pitch`: all meshes share one pitch; `phases`: all loops close. Both conditions can rarely be satisfied
+        `pitch`: all meshes have the same pitch. `phases`: all loops close. Both conditions can rarely be satisfied
         together.
     upto : int, optional
-        Maximum tooth number of the smallest gear; the best rounding from `minimum_teeth` to this number is used.
+        Maximum tooth number of the smallest gear. The best rounding with a smallest gear from `minimum_teeth` to this
+        number is used.
     teeth : mapping of gear to int, optional
         Tooth number of each gear, instead of rounding.
 
     Returns
     -------
     GraphSet
-        Set of gears with its residuals.
+        Set of gears, with the residuals of its pitches and loops.
 
     Raises
     ------
@@ -346,7 +348,7 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
 
 @dataclass(frozen=True)
 class GraphSet(Result):
-    """Gears made from a graph, with the residuals of pitches and loops.
+    """Set of gears made from a graph, with the residuals of its pitches and loops.
 
     See Also
     --------
@@ -364,17 +366,18 @@ class GraphSet(Result):
     )
 
     configuration: Configuration
-    """Axes, meshes and tooth numbers; every gear is a kind of its own."""
+    """Axes, meshes and tooth numbers. Every gear has its own kind."""
     aim: Aim
     """Condition that the axes satisfy exactly after adjustment: "pitch" or "phases"."""
     packing: SpherePacking
-    """Circle packing before the adjustment of the axes; additional circles next to idlers follow the gears."""
+    """Circle packing before the adjustment of the axes. Additional circles next to idlers are listed after the gears.
+    """
     sizing: SphereSizing
     """Cones, pitches and pressure angles."""
     residue: float
     """Maximum closing error of a loop [pitch]."""
     moved: Floats
-    """Displacement of each axis from the packing [rad], shape (gears,)."""
+    """Displacement of each axis from its direction in the packing [rad], shape (gears,)."""
     residuals: tuple[float, ...]
     """Residual after each step of the adjustment [rad for "pitch", pitch for "phases"]."""
 
@@ -383,13 +386,13 @@ class GraphSet(Result):
 
     @property
     def exact(self) -> tuple[str, ...]:
-        """Conditions that are satisfied to rounding: "pitch", "phases", both or neither."""
+        """Conditions that are satisfied within rounding errors: "pitch", "phases", both or neither."""
         found = {"pitch": self.sizing.exact, "phases": self.residue < _EXACT}
         return tuple(name for name, holds in found.items() if holds)
 
     @property
     def spread(self) -> float:
-        """Maximum pitch over minimum pitch, minus 1 [percent]."""
+        """Ratio of the maximum pitch to the minimum pitch, minus 1 [percent]."""
         return 100 * (exp(self.sizing.mismatch) - 1)
 
     @property

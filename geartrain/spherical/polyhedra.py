@@ -99,7 +99,7 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron(Shown):
-    """Convex polyhedron with the origin inside.
+    """Convex polyhedron with the origin in its interior.
 
     See Also
     --------
@@ -147,8 +147,8 @@ class Polyhedron(Shown):
     def symmetries(self) -> Floats:
         """All rotations and reflections about the origin that map the solid to itself, shape (order, 3, 3).
 
-        Errors are about 1e-15. A symmetry is determined by the image of one corner (three consecutive vertices of one
-        face), so trying all corners that are congruent to the first finds every symmetry.
+        Rounding errors are about 1e-15. A symmetry is determined by the image of one corner (three consecutive vertices
+        of one face). All symmetries are therefore found by examining all corners that are congruent to the first.
         """
         # Gram matrices are invariant under rotation and reflection
         corners = self.vertices[[corner for face in self.faces for corner in _corners(face)]]
@@ -163,8 +163,8 @@ class Polyhedron(Shown):
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Return the index of each point's image under each symmetry, for a set of points that the symmetries map to
-        itself.
+        """Return the index of each point's image under each symmetry, for a set of points that is invariant under the
+        symmetries.
 
         Parameters
         ----------
@@ -179,8 +179,8 @@ class Polyhedron(Shown):
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """Return for each point the index of the first point in its orbit, for a set of points that the symmetries map
-        to itself.
+        """Return for each point the index of the first point in its orbit, for a set of points that is invariant under
+        the symmetries.
 
         Parameters
         ----------
@@ -201,18 +201,18 @@ class Polyhedron(Shown):
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
-        """Return the polar solid, whose vertices are along the normals of this solid, and whose normals are along its
+        """Return the polar dual, whose vertices are along the normals of this solid, and whose normals are along its
         vertices.
 
         Parameters
         ----------
         name : str
-            Name of the polar solid, for display.
+            Name of the dual, for display.
 
         Returns
         -------
         Polyhedron
-            Vertices at the reciprocal heights.
+            Dual, with vertices at the reciprocal heights of the faces.
         """
         return polyhedron(self.normals / self.heights[:, None], name=name)
 
@@ -225,9 +225,10 @@ class Polyhedron(Shown):
 
 
 def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> Polyhedron:
-    """Return the convex polyhedron with these vertices from the convex hull (Qhull), with coplanar facets merged.
+    """Return the convex polyhedron with the given vertices, from the convex hull (Qhull), with coplanar facets merged.
 
-    Points are equal, and a face is plane, within a millionth of the size. Euler's formula is checked.
+    Points are considered equal, and faces plane, within a millionth of the size. The result is checked by Euler's
+    formula.
 
     Parameters
     ----------
@@ -408,7 +409,7 @@ def solid_names() -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        Names of uniform solids, their duals, J37, and families of solids.
+        Names of uniform solids, their duals, the Johnson solid J37, and families of solids.
 
     Examples
     --------
@@ -420,7 +421,8 @@ def solid_names() -> tuple[str, ...]:
 
 @cache
 def solid(name: str) -> Polyhedron:
-    """Return a solid by name: uniform solids by Wythoff's construction, their duals, prisms and antiprisms, and J37.
+    """Return a solid by name: uniform solids by Wythoff's construction, their duals, prisms and antiprisms, and the
+    Johnson solid J37.
 
     Coordinates are accurate to about 1e-15 of the size; uniform solids have edges of length 2.
 
@@ -432,7 +434,7 @@ def solid(name: str) -> Polyhedron:
     Returns
     -------
     Polyhedron
-        Solid. All callers get the same object, whose arrays are read-only.
+        Solid. All calls return the same object, whose arrays are read-only.
 
     Raises
     ------

@@ -128,7 +128,7 @@ class Cycloidal(ConjugateToothForm):
         Raises
         ------
         GearTrainError
-            If these wheels cannot have such teeth. Its fix gives sizes that are possible.
+            If these wheels cannot have such teeth. The error message suggests possible sizes.
         """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair

@@ -135,7 +135,7 @@ def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
 
 
 def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
-    """Read evidence: a declaration with `reconstruct`.
+    """Read evidence for a reconstruction: a declaration with `reconstruct`.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     Raises
     ------
     DeclarationError
-        If it cannot be read, or if it is a train without `reconstruct`.
+        If the declaration cannot be read, or does not contain `reconstruct`.
 
     Examples
     --------

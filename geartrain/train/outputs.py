@@ -42,7 +42,7 @@ Whole = Annotated[int, BeforeValidator(_read_whole)]
 
 
 class DialName(Declared):
-    """Label of consecutive divisions. A plain text is the label.
+    """Label of one or more consecutive divisions of a dial. In a declaration, a plain text is read as the label.
 
     See Also
     --------
@@ -58,7 +58,8 @@ class DialName(Declared):
 
 
 class DialNumerals(Declared):
-    """Numbers at the lines between divisions, the last one at the zero mark. A plain text is their style.
+    """Numerals at the lines between the divisions of a dial, with the last at the zero mark. In a declaration, a plain
+    text is read as their style.
 
     See Also
     --------
@@ -180,7 +181,7 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
 
 
 class DialRing(Graduation):
-    """A second scale around the scale of a dial, read by the same pointers.
+    """Second scale around the scale of a dial, read by the same pointers.
 
     See Also
     --------
@@ -189,7 +190,7 @@ class DialRing(Graduation):
 
 
 class Dial(Graduation):
-    """A scale on which a pointer is read. It is fixed to the link to which its output is relative.
+    """Dial: a scale on which a pointer is read. It is fixed to the link to which its output is relative.
 
     Examples
     --------
@@ -264,10 +265,11 @@ def _not_negative(figure: Figure) -> Figure:
 
 
 class Target(Declared):
-    """Target of an output: a name of the shipped table, a period or a speed. A plain text is a name.
+    """Target of an output: a name from the shipped table, a period or a speed. In a declaration, a plain text is read
+    as a name.
 
-    A `speed` has a sign. A name or a period is a magnitude, which an output of either sense of rotation can meet,
-    unless `sense` is given.
+    A `speed` has a sign. A name or a period is a magnitude, which outputs of both senses of rotation can satisfy unless
+    `sense` is given.
 
     See Also
     --------
@@ -338,7 +340,8 @@ class Target(Declared):
 
 
 class Expect(Declared):
-    """Required mean speed of an output, exact or within a tolerance. A plain number is the value.
+    """Required mean speed of an output, exact or within a tolerance. In a declaration, a plain number is read as the
+    value.
 
     Examples
     --------
@@ -372,7 +375,7 @@ class Expect(Declared):
 
 
 class Published(Declared):
-    """Value that a source prints for an output.
+    """Published value of an output, as printed in a source.
 
     See Also
     --------
@@ -402,7 +405,7 @@ class Published(Declared):
 
 
 class Output(Declared):
-    """A required motion of the train: the speed of a link, or of a link relative to another.
+    """Output of the train: the speed of a link, or of one link relative to another.
 
     Examples
     --------
@@ -444,7 +447,7 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """Unit of all speeds: a speed of 1 is one turn per this time, length or period.
+    """Unit of all speeds: a speed of 1 is one turn per time, length or period.
 
     See Also
     --------
@@ -457,7 +460,7 @@ class SpeedUnit(Declared):
 
 
 class View(Declared):
-    """Side from which the train is viewed, and the positive sense of rotation.
+    """View of the train: side from which it is seen, and positive sense of rotation.
 
     See Also
     --------

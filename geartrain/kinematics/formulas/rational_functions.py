@@ -241,8 +241,7 @@ class Formula:
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """Return the function of the remaining wheels after some tooth counts are substituted; other names are ignored.
-        """
+        """Return the function of the remaining wheels with some tooth counts substituted; other names are ignored."""
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
             return self

@@ -225,10 +225,11 @@ def _no_valley(sizes: TriangularSizes) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ClearanceWindow(Shown):
-    """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, each as excess.
+    """Range of clearances in which a pair of triangular teeth turns, from `jam` to `run`, both as
+    `TriangularSizes.excess`.
 
-    It is false if `run` is below `jam`, so that no clearance works. If a pair runs in several ranges of clearance, this
-    is the first.
+    It is false if `run` is below `jam`, so that the pair turns at no clearance. If a pair turns in several ranges of
+    clearance, this is the first range.
 
     See Also
     --------
@@ -240,13 +241,13 @@ class ClearanceWindow(Shown):
     run: float
     """Excess up to which the pair runs."""
     run_kind: Literal["clash", "dwell"]
-    """Kind of the verdict beyond `run`."""
+    """Kind of the verdict at clearances above `run`."""
     reach: float
-    """Excess beyond which the tips do not touch."""
+    """Excess above which the tips do not touch."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """Kind of the verdict below `jam`."""
+    """Kind of the verdict at clearances below `jam`."""
     side: int = 1
-    """Sign: 1 for an external pair, -1 for an internal one, whose clearance factors are below 1."""
+    """Sign: 1 for an external pair, -1 for an internal pair, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
         """Return the clearance factor for a given excess.
@@ -293,14 +294,14 @@ class ClearanceWindow(Shown):
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """Return the clearance window of a pair, independent of its own clearance.
+    """Return the clearance window of a pair, which does not depend on the pair's own clearance.
 
     The method is bracketing and root finding on the backlash of the coast flanks and on the margins at entry and exit.
 
     Parameters
     ----------
     sizes : TriangularSizes
-        The pair, whose teeth must have valleys (`sizes.has_valleys`).
+        Pair, whose teeth must have valleys (`sizes.has_valleys`).
 
     Returns
     -------

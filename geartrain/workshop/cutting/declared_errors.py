@@ -96,7 +96,7 @@ class WheelErrors:
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
-    """Return errors of cutting and mounting that replace the declared errors of a train, parsed from texts.
+    """Parse cutting and mounting errors that replace the declared errors of a train from texts.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
     Raises
     ------
     QuestionError
-        If a text does not give a kind of error and its size.
+        If a text does not contain a kind of error and its size.
 
     Examples
     --------

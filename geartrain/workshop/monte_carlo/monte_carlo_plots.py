@@ -72,27 +72,28 @@ _TICKS = 8  # approximate number of tick labels: more would overlap
 
 
 def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> Figure:
-    """Draw one picture of Monte Carlo trials of a train with cutting errors.
+    """Draw one figure of the Monte Carlo trials of a train with cutting errors.
 
     Parameters
     ----------
     findings : MonteCarloResult
-        Trials, with the study that the picture shows.
+        Trials, with the study that the figure shows.
     picture : {"errors", "course", "convergence", "sobol", "pairs", "map"}
-        "errors": histogram of each pointer's error at random positions of the input. "course": bands of pointer errors
-        along one turn, of each output that was followed. "convergence": probability of a jam over the number of trials.
-        "sobol": Sobol indices of the first output by wheel, or by kind if only these were computed. "pairs": variance
-        shares by pair, from superposition. "map": probability of a jam over clearance and scale of the errors.
+        "errors": histogram of each pointer's error at random positions of the input. "course": bands of the pointer
+        errors along one revolution, for each output that was computed. "convergence": probability of a jam against the
+        number of trials. "sobol": Sobol indices of the first output by wheel, or by kind of error if only these were
+        computed. "pairs": variance shares by pair, from superposition. "map": probability of a jam against clearance
+        and scale of the errors.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Figure with errors in degrees and probabilities with their 95 % intervals.
+        Figure with errors in degrees, and probabilities with their 95 % confidence intervals.
 
     Raises
     ------
     QuestionError
-        If the study that the picture shows was not requested.
+        If the study that the figure shows was not computed.
 
     Examples
     --------

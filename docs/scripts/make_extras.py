@@ -33,7 +33,7 @@ FOR = {
 
 PAGE_TEXT = """# Extras
 
-Extras are groups of optional packages. Without extras geartrain installs {count:.0f} packages ({size:.0f} MB). They
+Extras are groups of optional packages. Without extras, geartrain installs {count:.0f} packages ({size:.0f} MB). They
 suffice for `solve`, `check`, `report`, `view`, `gearbox`, `inspect`, `torques`, `motion`, `dynamics`, `strength`,
 `reconstruct`, `teeth`, `mesh`, `export` of SVG, STL and GLB, and for the library. A command that needs more packages
 prints the command that installs them, for example

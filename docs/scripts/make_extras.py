@@ -42,14 +42,14 @@ prints the command that installs them, for example
 pip install 'matplotlib>=3.8'
 ```
 
-In a clone of the repository `pip install -e '.[plot]'` installs the same packages.
+In a clone of the repository, `pip install -e '.[plot]'` installs the same packages.
 
 | extra | for | `pip install` | packages added | MB |
 |---|---|---|---:|---:|
 {rows}
 
-The sizes of installed files are given, before Python compiles them. Extras share packages, so that several extras need
-less than the sum of their sizes. `all` omits `step` because of its size. Three more extras are for development: `dev` (810
+Sizes are given for installed files before Python compiles them. Extras share packages, so that several extras need less
+than the sum of their sizes. `all` omits `step` because of its size. Three more extras are for development: `dev` (810
 MB with the core), `site` for this site, and `ci` for all tests. The table is written by `python
 docs/scripts/make_extras.py --measure`.
 """

@@ -134,7 +134,9 @@ def _driving_link(scene: Scene) -> str:
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, or if there is no face or too many."""
+    """Return the faces to be drawn. Raise `QuestionError` for an unknown output, without any face, or for too many
+    faces.
+    """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:

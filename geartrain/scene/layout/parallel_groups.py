@@ -489,7 +489,7 @@ class _Placing:
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
     def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
-        """Broaden wheels whose mates are one above the other."""
+        """Widen wheels whose mates are one above the other."""
         axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
         def run_into(wheel: str, other: str) -> bool:

@@ -131,7 +131,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Place all stacks, then improve each again and move runs of levels until there is no further improvement."""
+        """Place all stacks, then improve each again and move runs of levels until the order does not improve."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)

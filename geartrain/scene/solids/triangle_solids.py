@@ -121,7 +121,7 @@ class _Corners:
         heapify(self.heap)
 
     def find_ear(self) -> int:
-        """Return the ear with the best aspect ratio, or the flattest corner if there is no ear."""
+        """Return the ear with the best aspect ratio, or the flattest corner if no corner is an ear."""
         passed, ear = [], -1
         while self.heap:
             fat, at = heappop(self.heap)
@@ -398,7 +398,7 @@ def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
 
 
 def _at_bore(row: Floats, bore: float) -> Floats:
-    """Return a row of points contracted to the bore, or to one point if there is no bore."""
+    """Return a row of points contracted to the bore, or to one point if the bore is 0."""
     angle = np.arctan2(row[:, 1], row[:, 0])
     if not bore:
         return np.array([[0.0, 0.0, row[:, 2].mean()]])

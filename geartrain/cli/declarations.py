@@ -59,7 +59,7 @@ def write_style(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Group turning pairs by axis and write gear pairs as `a ~ b`, or write all in long form; comments are kept.
+    """Format declarations: turning pairs by axis and gear pairs as `a ~ b`, or all in long form; comments are kept.
 
     The meaning of the declaration does not change, which is checked before a file is written. Other lines are not
     changed.

@@ -27,7 +27,8 @@ from geartrain.cli.option_values import turns as read_turns
 def run(
     file: File,
     kind: Annotated[
-        Literal["plan", "stick", "graph", "lever", "dials"], typer.Option("--kind", "-k", help="Kind of drawing.")
+        Literal["plan", "stick", "graph", "lever", "dials"],
+        typer.Option("--kind", metavar="KIND", help="Kind of drawing: plan, stick, graph, lever or dials."),
     ] = "plan",
     out: Annotated[
         Path | None,

@@ -109,7 +109,12 @@ def graph(
     file: File,
     form: Annotated[
         Literal["labels", "edges", "matrix", "dot", "graphml", "json"] | None,
-        typer.Option("--as", help="Format; default: the suffix of -o, else labels (edges for more than 48 links)."),
+        typer.Option(
+            "--as",
+            metavar="FORMAT",
+            help="Format: labels, edges, matrix, dot, graphml or json; default: by the suffix of -o, else labels, or "
+            "edges for more than 48 links.",
+        ),
     ] = None,
     out: Out = None,
     force: Force = False,
@@ -176,7 +181,7 @@ def schema(
         Literal["json", "markdown", "answers"],
         typer.Option(
             "--as",
-            help="JSON Schema of declarations (json), their reference (markdown), or schema of --json data (answers).",
+            help="JSON Schema of declarations (json), their reference (markdown), or JSON Schema of results (answers).",
         ),
     ] = "json",
     out: Out = None,

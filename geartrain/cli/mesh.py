@@ -99,7 +99,7 @@ def run(
         typer.Option(
             "--compare",
             help="Compare losses and stresses of several tooth forms (default: six forms) with the 20 degree involute. "
-            "The only parameters are arcs and pressure_angle.",
+            "-p then accepts only arcs and pressure_angle.",
         ),
     ] = False,
     internal: Annotated[bool, typer.Option("--internal", help="Make the second wheel a ring gear.")] = False,
@@ -145,7 +145,7 @@ def run(
         typer.Option(
             "--vary",
             metavar="NAME=FIRST:LAST:COUNT",
-            help="Tabulate results for a range of friction, z1, z2 or a number listed by --keys; may be given twice.",
+            help="Tabulate results for a range of friction, z1, z2 or a key listed by --keys; may be given twice.",
             rich_help_panel=_TEETH,
         ),
     ] = None,
@@ -196,7 +196,8 @@ def run(
         ),
     ] = None,
     wheel: Annotated[
-        int, typer.Option("--wheel", min=1, max=2, help="Number of the wheel, 1 or 2.", rich_help_panel=_OUTLINE)
+        int,
+        typer.Option("--wheel", min=1, max=2, help="Number of the wheel to write, 1 or 2.", rich_help_panel=_OUTLINE),
     ] = 1,
     blank: Annotated[
         Names,
@@ -213,8 +214,8 @@ def run(
         typer.Option(
             "--plot",
             metavar="FILE",
-            help="Plot flanks, path of contact and losses; for forms without a path of contact, transmission and "
-            "efficiency; with --vary or --objective, the sweep or the designs.",
+            help="Plot flanks, path of contact and losses; for forms without a path of contact, transmission "
+            "function and efficiency; with --vary or --objective, the sweep or the designs.",
             rich_help_panel=_RESULT,
         ),
     ] = None,

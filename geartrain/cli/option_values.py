@@ -130,7 +130,7 @@ def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
-    """Return the error with the option `place` as the location of every problem that names no location."""
+    """Return the error with `place`, the option that caused it, in every problem that has no place."""
     from dataclasses import replace
 
     return GearTrainError(

@@ -68,7 +68,7 @@ def describe_parameters(form: str, model: type[ToothForm]) -> Document:
 
 
 def _meaning(field: FieldInfo) -> str:
-    """Return the description of a parameter, in which lists are described as two values separated by a comma."""
+    """Return the description of a parameter, with a list described as two values separated by a comma."""
     text = (field.description or "").replace("a list of two gives", "a,b gives").replace("a list of two", "two: a,b")
     words = [word for word in _words(field.annotation) if word not in text]
     return f"{text}: {', '.join(words)}" if words else text
@@ -302,9 +302,7 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient of friction. Raises `GearTrainError` if a friction law is given, because `option`
-        needs a number.
-        """
+        """Return the coefficient. Raises `GearTrainError` if a friction law is given; `option` needs a number."""
         if self.law is not None:
             what = f"{option} needs a coefficient of friction"
             raise GearTrainError(

@@ -57,7 +57,10 @@ def run(
     ] = None,
     aim: Annotated[
         str,
-        typer.Option("--aim", help="With --graph: objective, equal pitches (pitch) or closure of the teeth (phases)."),
+        typer.Option(
+            "--aim",
+            help="With --graph: condition to satisfy exactly, equal pitches (pitch) or closure of all loops (phases).",
+        ),
     ] = "pitch",
     minimum: Annotated[int, typer.Option("--min-teeth", help="With --graph: tooth count of the smallest gear.")] = 12,
     radius: Annotated[

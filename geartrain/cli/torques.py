@@ -48,7 +48,7 @@ def run(
         str | None,
         typer.Option(
             "--turns",
-            help="Compute the torque over this number of revolutions of the driving link, or over one 'period'.",
+            help="Revolutions of the driving link over which torque is computed, or 'period' for one common period.",
         ),
     ] = None,
     samples: Annotated[
@@ -64,7 +64,7 @@ def run(
         int | None,
         typer.Option(
             "--trials",
-            help="With --turns: number of trials with random friction, drawn with its declared standard deviation.",
+            help="With --turns: number of trials with random friction, drawn with the declared standard deviation.",
         ),
     ] = None,
     seed: Seed = 1,
@@ -72,7 +72,10 @@ def run(
     resume: Resume = False,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", help="Draw the power flow of one state to this file; with --turns, plot its torque."),
+        typer.Option(
+            "--plot",
+            help="Draw the power flow of one state to this file, or with --turns the torque over these revolutions.",
+        ),
     ] = None,
     theme: Theme = "light",
     out: Out = None,

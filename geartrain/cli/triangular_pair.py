@@ -1,4 +1,4 @@
-"""Parameter sweep by `geartrain mesh --form triangular --vary`, and inertia, speed and load of triangular teeth."""
+"""Parameter sweep of `geartrain mesh --form triangular --vary`, and parser of inertia, speed and load."""
 
 from __future__ import annotations
 

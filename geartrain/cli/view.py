@@ -119,7 +119,10 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """Return the layout of a page. Raises `QuestionError` for two layouts, or two trains in a layout for one."""
+    """Return the layout of a page.
+
+    Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
+    """
     if embed and kiosk:
         raise QuestionError(
             Problem("--embed and --kiosk are given together", "a page has one layout", "omit one of them", "view")
@@ -135,7 +138,7 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raise `QuestionError` for options of --dynamics without it, and for --dynamics with two trains."""
+    """Raise `QuestionError` if options of --dynamics are given without it, or --dynamics with two trains."""
     if not dynamics and request != TimeRequest():
         what, why = (
             "options of --dynamics are given without --dynamics",

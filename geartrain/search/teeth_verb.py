@@ -78,7 +78,7 @@ app = typer.Typer(
     add_completion=False,
     no_args_is_help=True,
     context_settings={"ignore_unknown_options": True},  # arguments without a command name may begin with an option
-    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery, by exact search.\n\n"
+    help="Find tooth counts for a ratio, a train, an epicyclic set or an orrery.\n\n"
     "Example: `geartrain teeth ratio 235/19`.",
 )
 

@@ -26,20 +26,21 @@ context_settings = NEGATIVE_NUMBERS
 
 def run(
     context: typer.Context,
-    kind: Annotated[str, typer.Option("--kind", help="Kind of set; 'list' prints the kinds.")],
+    kind: Annotated[str, typer.Option("--kind", help="Kind of epicyclic set; 'list' prints all kinds.")],
     ratio: Annotated[
         str | None, typer.Argument(help="Requested ratio; omit it with --kind list.", metavar="RATIO")
     ] = None,
     counts: Range = ANY_COUNT,
     mode: Annotated[
         str,
-        typer.Option("--mode", help="Modes INPUT:OUTPUT:HELD, separated by commas, such as sun:carrier:ring; or all."),
+        typer.Option("--mode", help="Modes INPUT:OUTPUT:HELD such as sun:carrier:ring, separated by commas, or all."),
     ] = "all",
     ratio_is: Annotated[
         str, typer.Option("--ratio-is", help="Definition of the ratio: input/output or output/input.")
     ] = "input/output",
     planets: Annotated[
-        int | None, typer.Option("--planets", help="Require that this number of equal planets fits at equal spacing.")
+        int | None,
+        typer.Option("--planets", help="Require that this number of equal, equally spaced planets can be assembled."),
     ] = None,
     clearance: Annotated[
         str | None,

@@ -83,7 +83,7 @@ def run(
             "--limit",
             min=1,
             max=MOST_COUNT,
-            help="Maximum number of steps of the exact method; by default, a sample is drawn beyond it.",
+            help="Maximum number of steps of the exact method, above which the default method draws a sample.",
         ),
     ] = 2_000_000,
     samples: Annotated[

@@ -80,7 +80,7 @@ def run(
     ] = None,
     count: Annotated[bool, typer.Option("--count", help="Count the trains without listing them.")] = False,
     best: Annotated[int, typer.Option("--best", min=0, max=MOST_COUNT, help="Number of trains to list.")] = 20,
-    every: Annotated[bool, typer.Option("--all", help="List all trains, not only --best.")] = False,
+    every: Annotated[bool, typer.Option("--all", help="List all trains, regardless of --best.")] = False,
     idlers: Annotated[
         bool, typer.Option("--idlers", help="Allow idlers: driven wheels that drive other wheels.")
     ] = False,
@@ -130,7 +130,7 @@ def run(
         Names,
         typer.Option(
             "--same",
-            help="Name of a wheel or output in the ranked train, and in the evidence: E4=e3; may be repeated.",
+            help="Names of a wheel or output in the ranked train and in the evidence, such as E4=e3; may be repeated.",
             metavar="ITS=OURS",
         ),
     ] = None,

@@ -20,7 +20,8 @@ def run(
         str,
         typer.Option(
             "--free",
-            help="Wheels to vary: search (with `search`), uncertain (also with `range`), or names separated by commas.",
+            help="Wheels to vary: search (wheels declared with `search`), uncertain (also wheels with a `range` of "
+            "tooth counts), or names separated by commas.",
         ),
     ] = "search",
     state: StateName = None,
@@ -32,7 +33,8 @@ def run(
     planets: Annotated[
         str | None,
         typer.Option(
-            "--planets", help="Number of equal, equally spaced planets: 3 for every carrier, or CARRIER=3,..."
+            "--planets",
+            help="Number of equal, equally spaced planets, such as 3, or by carrier, such as arm=3,inner=4.",
         ),
     ] = None,
     clearance: Annotated[
@@ -78,7 +80,7 @@ def run(
         Flag,
         typer.Option(
             "--closure",
-            help="Require that wheels reach each other and the teeth of loops mesh at the declared positions.",
+            help="Require that wheels touch and the teeth of loops mesh at the declared positions of the axes.",
         ),
     ] = False,
     where: Annotated[

@@ -47,7 +47,10 @@ def run(
         str, typer.Option("--turns", help="Revolutions of the driving link over which tooth errors are evaluated.")
     ] = "20",
     samples: Annotated[
-        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Number of input positions in these revolutions.")
+        int,
+        typer.Option(
+            "--samples", min=2, max=MOST_COUNT, help="Number of input positions over the revolutions of --turns."
+        ),
     ] = 20_000,
     cutting: Annotated[
         Names,

@@ -71,7 +71,8 @@ def run(
     backlash: Annotated[
         Size,
         typer.Option(
-            "--backlash", help="Backlash along the pitch circles of every pair that declares none, such as 0.05mm."
+            "--backlash",
+            help="Backlash at the pitch circles of every pair without a declared backlash, such as 0.05mm.",
         ),
     ] = None,
     process: Annotated[
@@ -94,7 +95,8 @@ def run(
         str | None,
         typer.Option(
             "--rate",
-            help="Input speed of the FMU, in turns per second or such as '30 rpm'; default: the declared drive.",
+            help="Input speed of the FMU, in turns per second or with a unit such as '30 rpm'; "
+            "default: the declared drive.",
         ),
     ] = None,
     restitution: Annotated[

@@ -172,7 +172,7 @@ class SceneWheel(Shown):
     centre: Vector
     """Centre of its pitch circle, on its axis [mm]."""
     direction: Vector
-    """Unit vector along the axis, equal to that of its body."""
+    """Unit vector along the axis, equal to the direction of its body."""
     reference: Vector
     """Unit vector perpendicular to the axis, from which `turn` is measured."""
     turn: float

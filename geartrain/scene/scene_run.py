@@ -88,7 +88,7 @@ class SceneContact(Result):
     )
 
     name: str
-    """Name of the pair or coupling; for an escapement that of its link."""
+    """Name of the pair or coupling; for an escapement, name of its link."""
     kind: str
     """Kind of contact: pair, pin or escapement."""
     body: int
